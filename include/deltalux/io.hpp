@@ -1,0 +1,40 @@
+#pragma once
+// Reading scenes. The format follows from the file name: .rad (and names without a known extension), .gltf, .glb, .obj.
+#include <deltalux/scene.hpp>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace deltalux {
+
+struct ImportSettings {
+  /// glTF photometric values to radiometric [lm/W]; 179 is Radiance's convention, 683 Blender's exporter.
+  double luminousEfficacy = kLuminousEfficacy;
+  /// Metres per scene unit where the format does not say (.rad, .obj).
+  double metresPerUnit = 1.0;
+};
+
+struct ImportReport {
+  std::map<std::string, std::size_t> surfaces;  // by the format's own type names: "polygon", "cylinder", "source" ...
+  std::map<std::string, std::size_t> ignored;   // what was skipped, by kind ("colorpict", "texfunc" ...)
+  std::vector<std::string> warnings;            // one line each; at most one for everything in `ignored`
+  double luminousEfficacy = kLuminousEfficacy;
+};
+
+struct ImportedScene {
+  Scene scene;
+  ImportReport report;
+};
+
+/// Reads `files` as one scene: several .rad files in order, as `oconv a b c` takes them, or one file of another format.
+/// Throws InputError (file, line, what to do); nothing is half-read.
+ImportedScene loadScene(const std::vector<std::filesystem::path>& files, const ImportSettings& = {});
+
+/// Reads an IES LM-63 file (1986-2019; types A, B, C) into type C photometry. Throws InputError.
+Photometry loadPhotometry(const std::filesystem::path& file);
+
+/// Reads a Radiance view file: the last line that starts with rview, rvu, rpict or VIEW=. Throws InputError.
+View loadView(const std::filesystem::path& file);
+
+}  // namespace deltalux

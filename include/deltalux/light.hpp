@@ -1,0 +1,111 @@
+#pragma once
+// Senders of light. Every emitting thing of a scene has an entry here, area emitters included, so that an edit can
+// name it and scale it.
+#include <array>
+#include <deltalux/ids.hpp>
+#include <deltalux/math.hpp>
+#include <deltalux/units.hpp>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace deltalux {
+
+/// A primitive whose material emits; radiance, sides and spot cone are the material's.
+struct AreaLight {
+  PrimitiveId primitive;
+};
+
+/// Isotropic point: I(w) = intensity [W/sr].
+struct PointLight {
+  Vec3 position{0};
+  Rgb intensity{0.0f};
+};
+
+/// glTF spot: I = intensity * saturate(cos * scale + offset)^2, with scale = 1 / max(0.001, cosInner - cosOuter),
+/// offset = -cosOuter * scale. [KHR_lights_punctual]
+struct SpotLight {
+  Vec3 position{0};
+  Vec3 direction{0, 0, -1};  // unit
+  Rgb intensity{0.0f};       // on axis [W/sr]
+  double cosInner = 1, cosOuter = 0.70710678118654752;
+};
+
+/// A Lambertian point: I = intensity * max(0, cos) about `direction` [CIE 171 case 5.2].
+struct LambertPointLight {
+  Vec3 position{0};
+  Vec3 direction{0, 0, -1};  // unit
+  Rgb intensity{0.0f};       // on axis [W/sr]
+};
+
+/// A measured distribution, type C after conversion: candela[h * verticals.size() + v] over horizontal angles
+/// (degrees from the 0 plane, ascending, first 0, last 360) and vertical angles (0 at nadir .. 180). [LM-63]
+struct Photometry {
+  std::vector<double> verticals, horizontals;
+  std::vector<double> candela;
+  Vec3 opening{0};  // luminous dimensions: width, length, height [m]; 0 for a point
+};
+
+/// A luminaire as a point of measured intensity: I(w) = candela(w) / 179 * scale.
+/// Columns of `frame`: 0 plane, 90 plane, and the axis that points from the luminaire backwards (aim is -axis).
+struct PhotometricLight {
+  Vec3 position{0};
+  glm::dmat3 frame{1.0};  // local to world; local aim is -z, 0 plane along +x (ies2rad's frame)
+  std::shared_ptr<const Photometry> photometry;
+  Rgb scale{1.0f};
+};
+
+/// A uniform disc at infinity, such as the sun: radiance within `angularRadius` of `direction`.
+struct SunLight {
+  Vec3 direction{0, 0, 1};  // unit, towards the sun
+  double angularRadius = 0.004654793;
+  Rgb radiance{0.0f};
+};
+
+/// gensky's distributions [Radiance, skybright.cal] in W/(sr m2): brightness of the sky and of the ground below.
+struct RadianceSky {
+  enum class Kind { Clear = 1, Overcast = 2, Uniform = 3, Intermediate = 4 };
+  Kind kind = Kind::Clear;
+  double zenith = 0, ground = 0, normalization = 1;  // as gensky prints them (A2, A3, A4)
+  Vec3 sunDirection{0, 0, 1};
+};
+
+/// CIE standard general sky, types 1-15 [ISO 15469; conventions.md].
+struct CieSky {
+  int type = 12;
+  double zenith = 1;  // zenith radiance [W/(sr m2)]
+  double ground = 0;  // radiance below the horizon
+  Vec3 sunDirection{0, 0, 1};
+};
+
+struct UniformSky {
+  double radiance = 1;
+};
+
+/// Radiance from infinity within `halfAngle` of `axis`: scale * distribution(direction). Sky, ground, windows' worlds.
+struct DomeLight {
+  Vec3 axis{0, 0, 1};  // unit
+  double halfAngle = kPi / 2;
+  Rgb scale{1.0f};
+  std::variant<UniformSky, RadianceSky, CieSky> distribution;
+  Vec3 up{0, 0, 1};  // zenith of the distribution
+};
+
+struct Light {
+  std::string name;
+  std::variant<AreaLight, PointLight, SpotLight, LambertPointLight, PhotometricLight, SunLight, DomeLight> emitter;
+  Rgb scale{1.0f};  // an edit's dimming and colour, on top of the emitter's own values
+};
+
+/// Radiance that arrives from `towards` (unit, pointing to the sky) [W/(sr m2)]; 0 outside the dome's cone.
+Rgb skyRadiance(const DomeLight&, const Vec3& towards);
+/// Radiant intensity into `direction` (unit, leaving the light) [W/sr].
+Rgb radiantIntensity(const PointLight&, const Vec3& direction);
+Rgb radiantIntensity(const SpotLight&, const Vec3& direction);
+Rgb radiantIntensity(const LambertPointLight&, const Vec3& direction);
+Rgb radiantIntensity(const PhotometricLight&, const Vec3& direction);
+/// Solid angle of the sun's disc [sr].
+double solidAngle(const SunLight&);
+
+}  // namespace deltalux

@@ -1,0 +1,74 @@
+#pragma once
+// A scene as plain values: what there is, not how it is solved.
+#include <deltalux/ids.hpp>
+#include <deltalux/light.hpp>
+#include <deltalux/material.hpp>
+#include <deltalux/shape.hpp>
+#include <deltalux/view.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace deltalux {
+
+struct Primitive {
+  Shape shape;  // in world coordinates
+  MaterialId material;
+  ObjectId object;
+};
+
+/// A name in the object tree: in .rad every dot-separated prefix of an identifier, in glTF a node (path with '/').
+struct Object {
+  std::string name;  // full name: "dresser.drawer.0", "house/kitchen/lamp"
+  ObjectId parent;   // invalid at the top
+};
+
+/// Linear RGB texture with repeat wrapping; texels row by row from the top (v = 0), as glTF has it.
+struct Texture {
+  std::string name;
+  int width = 0, height = 0;
+  std::vector<Rgb> texels;
+
+  /// Bilinear lookup.
+  Rgb sample(Vec2 texcoord) const;
+};
+
+struct Scene {
+  double metresPerUnit = 1.0;
+  Vec3 up{0, 0, 1};
+  std::vector<Material> materials;
+  std::vector<Primitive> primitives;
+  std::vector<Object> objects;
+  std::vector<Light> lights;
+  std::vector<Texture> textures;
+  std::vector<View> views;
+
+  const Primitive& operator[](PrimitiveId id) const { return primitives[id.index()]; }
+  const Material& operator[](MaterialId id) const { return materials[id.index()]; }
+  const Object& operator[](ObjectId id) const { return objects[id.index()]; }
+  const Light& operator[](LightId id) const { return lights[id.index()]; }
+  const Material& materialOf(PrimitiveId id) const { return materials[primitives[id.index()].material.index()]; }
+};
+
+/// Finds or makes the object `name` and all its prefixes split at `separator`.
+ObjectId internObject(Scene&, std::string_view name, char separator);
+
+/// Objects that `name` means: the object of that full name, else (glTF) every node whose last path part it is.
+std::vector<ObjectId> findObjects(const Scene&, std::string_view name);
+/// Every primitive of the object and of the objects below it, ascending.
+std::vector<PrimitiveId> primitivesOf(const Scene&, ObjectId);
+/// Lights that `name` means: the light of that name and every `name.*`.
+std::vector<LightId> findLights(const Scene&, std::string_view name);
+/// Up to `count` existing names nearest to `name` by edit distance, for error messages.
+std::vector<std::string> nearMisses(std::string_view name, const std::vector<std::string>& existing, std::size_t count = 3);
+
+/// Bounds of all primitives (lights at infinity have none).
+Box bounds(const Scene&);
+/// Appends an AreaLight for every emitting primitive that has none yet.
+void addAreaLights(Scene&);
+
+/// Checks every reference and number of the scene (ids in range, finite values, reflectances in [0,1], unit
+/// directions); throws std::logic_error with the first thing that does not hold.
+void validate(const Scene&);
+
+}  // namespace deltalux

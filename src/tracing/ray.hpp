@@ -1,0 +1,54 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <deltalux/ids.hpp>
+#include <deltalux/math.hpp>
+#include <limits>
+
+namespace deltalux {
+
+/// A ray segment in single precision; direction is unit, t in scene units.
+struct Ray {
+  Vec3f origin{0.0f};
+  float tNear = 0.0f;
+  Vec3f direction{0.0f, 0.0f, 1.0f};
+  float tFar = std::numeric_limits<float>::infinity();
+};
+
+/// The first surface on a ray. `normal` is the unit geometric normal of the primitive's front side; `front` tells
+/// whether the ray came from that side. `triangle` is the mesh triangle (0 for other shapes).
+struct Hit {
+  float t = std::numeric_limits<float>::infinity();
+  PrimitiveId primitive;
+  std::uint32_t triangle = 0;
+  Vec3f normal{0.0f, 0.0f, 1.0f};
+  bool front = true;
+
+  explicit operator bool() const { return primitive.valid(); }
+};
+
+inline Vec3f at(const Ray& ray, float t) { return ray.origin + t * ray.direction; }
+
+/// `p` moved off its surface to the side of `direction` by a few units in the last place of its coordinates, enough
+/// for a ray from there not to meet the surface again.
+inline Vec3f offsetOrigin(const Vec3f& p, const Vec3f& normal, const Vec3f& direction) {
+  const float size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1e-3f});
+  const float step = 4e-6f * size;
+  return p + (glm::dot(normal, direction) >= 0.0f ? step : -step) * normal;
+}
+
+/// The open segment between two surface points, for visibility.
+inline Ray segment(const Vec3f& from, const Vec3f& fromNormal, const Vec3f& to, const Vec3f& toNormal) {
+  const Vec3f d = to - from;
+  const Vec3f a = offsetOrigin(from, fromNormal, d);
+  const Vec3f b = offsetOrigin(to, toNormal, -d);
+  const Vec3f ab = b - a;
+  const float length = glm::length(ab);
+  Ray ray;
+  ray.origin = a;
+  ray.direction = length > 0.0f ? ab / length : Vec3f(0.0f, 0.0f, 1.0f);
+  ray.tFar = length;
+  return ray;
+}
+
+}  // namespace deltalux

@@ -1,0 +1,22 @@
+#include "tracing/ray_tracer.hpp"
+
+#include "base/check.hpp"
+#include "base/parallel.hpp"
+
+namespace deltalux {
+
+namespace {
+constexpr std::size_t kBatchBlock = 1024;  // rays per task: enough to hide the scheduling, few enough to balance
+}
+
+void RayTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
+  DELTALUX_CHECK(rays.size() == hits.size(), "one hit per ray");
+  parallelFor(rays.size(), kBatchBlock, [&](std::size_t i) { hits[i] = closestHit(rays[i]); });
+}
+
+void RayTracer::transmittances(std::span<const Ray> rays, std::span<Rgb> results) const {
+  DELTALUX_CHECK(rays.size() == results.size(), "one result per ray");
+  parallelFor(rays.size(), kBatchBlock, [&](std::size_t i) { results[i] = transmittance(rays[i]); });
+}
+
+}  // namespace deltalux

@@ -1,0 +1,45 @@
+#pragma once
+// The one virtual seam: rays against the primitives of a scene. Two implementations: Embree, and brute force as its
+// test twin. Rays know primitives, not elements.
+//
+// Static geometry and each group of movable primitives are separate acceleration structures under one top level, so
+// that moving a cup never rebuilds the house. A moved group is rebuilt from its new world coordinates rather than
+// instanced with a matrix: the same geometry then gives bitwise the same hits, however it got there.
+#include <deltalux/scene.hpp>
+#include <memory>
+#include <span>
+
+#include "tracing/ray.hpp"
+
+namespace deltalux {
+
+using GroupId = Id<struct GroupTag>;  // group 0 is the static rest of the scene
+
+class RayTracer {
+ public:
+  virtual ~RayTracer() = default;
+
+  /// First surface with tNear <= t <= tFar; an invalid primitive when there is none. Thin glass counts as a surface.
+  virtual Hit closestHit(const Ray&) const = 0;
+  /// Whether an opaque surface (anything but thin glass) lies on the segment.
+  virtual bool occluded(const Ray&) const = 0;
+  /// Fraction of light that passes the segment straight on: product over thin-glass panes crossed, 0 behind opaque ones.
+  virtual Rgb transmittance(const Ray&) const = 0;
+
+  /// Batches of incoherent rays; results at the same index. Sizes must agree.
+  virtual void closestHits(std::span<const Ray>, std::span<Hit>) const;
+  virtual void transmittances(std::span<const Ray>, std::span<Rgb>) const;
+
+  /// Puts `primitives` into a group of their own (out of the group they are in).
+  virtual GroupId separate(std::span<const PrimitiveId> primitives) = 0;
+  /// Takes the present shapes of the scene's primitives of `group` in; the rest is untouched.
+  virtual void rebuild(GroupId group) = 0;
+  /// transmittance() against the primitives of one group only.
+  virtual Rgb transmittance(const Ray&, GroupId group) const = 0;
+};
+
+/// The scene must outlive the tracer. Primitives without an extent (removed objects) are left out.
+std::unique_ptr<RayTracer> makeEmbreeTracer(const Scene&);
+std::unique_ptr<RayTracer> makeBruteForceTracer(const Scene&);
+
+}  // namespace deltalux
