@@ -1,0 +1,81 @@
+#include <cmath>
+#include <deltalux/material.hpp>
+
+namespace deltalux {
+
+namespace {
+
+bool reflects(const SpecularLobe& lobe) { return !isBlack(lobe.reflectance); }
+
+/// Fresnel reflectances of one interface, s- and p-polarised, and the cosine behind it.
+struct Interface {
+  double s, p, cosInside;
+};
+
+Interface paneInterface(double cosIncidence, double ior) {
+  const double c = std::clamp(std::abs(cosIncidence), 1e-6, 1.0);
+  const double cosInside = std::sqrt(1.0 - (1.0 - c * c) / (ior * ior));
+  const double s = (c - ior * cosInside) / (c + ior * cosInside);
+  const double p = (cosInside - ior * c) / (cosInside + ior * c);
+  return {s * s, p * p, cosInside};
+}
+
+/// Sums of all internal reflections in a slab whose faces reflect r and whose inside passes a per crossing.
+double slabTransmittance(double r, double a) { return (1.0 - r) * (1.0 - r) * a / (1.0 - r * r * a * a); }
+double slabReflectance(double r, double a) { return r * (1.0 + (1.0 - 2.0 * r) * a * a) / (1.0 - r * r * a * a); }
+
+template <class Slab>
+Rgb overPolarisations(const ThinGlass& glass, double cosIncidence, const Slab& slab) {
+  const Interface face = paneInterface(cosIncidence, glass.ior);
+  Rgb result;
+  for (int i = 0; i < 3; ++i) {
+    // The path inside is longer by 1 / cos than at normal incidence.
+    const double a = std::pow(std::clamp<double>(glass.transmissivity[i], 0.0, 1.0), 1.0 / face.cosInside);
+    result[i] = static_cast<float>(0.5 * (slab(face.s, a) + slab(face.p, a)));
+  }
+  return result;
+}
+
+}  // namespace
+
+Rgb diffuseReflectance(const Material& material, bool /*front*/) {
+  if (const auto* opaque = std::get_if<Opaque>(&material.surface)) return opaque->diffuse;
+  if (const auto* trans = std::get_if<Trans>(&material.surface)) return trans->diffuseReflectance;
+  return Rgb(0.0f);
+}
+
+Rgb diffuseTransmittance(const Material& material) {
+  const auto* trans = std::get_if<Trans>(&material.surface);
+  return trans ? trans->diffuseTransmittance : Rgb(0.0f);
+}
+
+bool isSpecular(const Material& material) {
+  if (const auto* opaque = std::get_if<Opaque>(&material.surface)) return reflects(opaque->specular);
+  if (const auto* trans = std::get_if<Trans>(&material.surface)) {
+    return reflects(trans->reflection) || reflects(trans->transmission);
+  }
+  if (const auto* mirror = std::get_if<Mirror>(&material.surface)) return !isBlack(mirror->reflectance);
+  return true;  // panes and refracting bodies
+}
+
+bool isThinGlass(const Material& material) { return std::holds_alternative<ThinGlass>(material.surface); }
+
+Rgb transmittance(const ThinGlass& glass, double cosIncidence) {
+  return overPolarisations(glass, cosIncidence, slabTransmittance);
+}
+
+Rgb reflectance(const ThinGlass& glass, double cosIncidence) {
+  return overPolarisations(glass, cosIncidence, slabReflectance);
+}
+
+double fresnelDielectric(double cosIncidence, double ior) {
+  const double c = std::clamp(std::abs(cosIncidence), 0.0, 1.0);
+  const double cosSquared = 1.0 - (1.0 - c * c) / (ior * ior);
+  if (cosSquared <= 0.0) return 1.0;
+  const double cosInside = std::sqrt(cosSquared);
+  const double s = (c - ior * cosInside) / (c + ior * cosInside);
+  const double p = (cosInside - ior * c) / (cosInside + ior * c);
+  return 0.5 * (s * s + p * p);
+}
+
+}  // namespace deltalux
