@@ -1,0 +1,86 @@
+// Tone mapping: one exposure, one operator on luminance, one gamut step, the sRGB curve.
+// Source: [Reinhard02] (1, 2, 4). Departure: the white point is fixed at 4 and the key at 0.18, so that pictures of the
+// same exposure can be compared; out-of-gamut colours are mixed with white instead of clipped per channel.
+#include <algorithm>
+#include <cmath>
+#include <deltalux/image.hpp>
+
+namespace deltalux {
+
+namespace {
+constexpr double kWhite = 4.0;  // luminance that becomes 1
+constexpr double kKey = 0.18;   // where automaticEv puts the log-average luminance
+
+bool finite(const Rgb& c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
+
+double compress(ToneOperator toneOperator, double Y) {
+  switch (toneOperator) {
+    case ToneOperator::Linear:
+      return Y;
+    case ToneOperator::Reinhard:
+      return Y * (1.0 + Y / (kWhite * kWhite)) / (1.0 + Y);  // [Reinhard02 (4)]
+  }
+  return Y;
+}
+
+/// Mixes `c` of luminance `Y` with white of the same luminance until no channel exceeds 1.
+glm::dvec3 intoGamut(const glm::dvec3& c, double Y) {
+  if (Y >= 1.0) return glm::dvec3(1.0);
+  const double brightest = std::max({c.r, c.g, c.b});
+  if (brightest <= 1.0) return c;
+  return glm::mix(glm::dvec3(Y), c, (1.0 - Y) / (brightest - Y));
+}
+
+std::array<std::uint8_t, 3> quantize(const glm::dvec3& c) {
+  const auto byte = [](double v) {
+    return static_cast<std::uint8_t>(std::lround(255.0 * encodeSrgb(std::clamp(v, 0.0, 1.0))));
+  };
+  return {byte(c.r), byte(c.g), byte(c.b)};
+}
+}  // namespace
+
+std::string_view toneOperatorName(ToneOperator toneOperator) {
+  return toneOperator == ToneOperator::Linear ? "linear" : "reinhard";
+}
+
+std::optional<ToneOperator> toneOperatorByName(std::string_view name) {
+  for (const ToneOperator candidate : {ToneOperator::Linear, ToneOperator::Reinhard})
+    if (toneOperatorName(candidate) == name) return candidate;
+  return std::nullopt;
+}
+
+double encodeSrgb(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+double automaticEv(const Image& image) {
+  double sum = 0;
+  std::size_t lit = 0;
+  for (const Rgb& pixel : image.pixels) {
+    const double Y = gray(glm::dvec3(pixel));
+    if (!(Y > 0.0) || !std::isfinite(Y)) continue;
+    sum += std::log2(Y);
+    ++lit;
+  }
+  if (lit == 0) return 0;
+  return std::round(10.0 * (std::log2(kKey) - sum / static_cast<double>(lit))) / 10.0;
+}
+
+DisplayImage toneMap(const Image& image, const ToneMapping& mapping) {
+  DisplayImage display{image.width, image.height, {}};
+  display.pixels.reserve(image.pixels.size());
+  const double exposure = std::exp2(mapping.ev);
+  for (const Rgb& pixel : image.pixels) {
+    const glm::dvec3 c = exposure * glm::max(glm::dvec3(pixel), 0.0);
+    const double Y = gray(c);
+    if (!finite(pixel) || !(Y > 0.0)) {
+      display.pixels.push_back({0, 0, 0});
+      continue;
+    }
+    const double compressed = compress(mapping.toneOperator, Y);
+    display.pixels.push_back(quantize(intoGamut(c * (compressed / Y), compressed)));
+  }
+  return display;
+}
+
+}  // namespace deltalux
