@@ -31,8 +31,9 @@ struct ImportedScene {
 /// Throws InputError (file, line, what to do); nothing is half-read.
 ImportedScene loadScene(const std::vector<std::filesystem::path>& files, const ImportSettings& = {});
 
-/// Reads an IES LM-63 file (1986-2019; types A, B, C) into type C photometry. Throws InputError.
-Photometry loadPhotometry(const std::filesystem::path& file);
+/// Reads an IES LM-63 file (1986-2019; types A, B, C) into type C photometry. Throws InputError. What was mended or
+/// looks doubtful in the file is appended to `warnings`, one line each, when given.
+Photometry loadPhotometry(const std::filesystem::path& file, std::vector<std::string>* warnings = nullptr);
 
 /// Reads a Radiance view file: the last line that starts with rview, rvu, rpict or VIEW=. Throws InputError.
 View loadView(const std::filesystem::path& file);

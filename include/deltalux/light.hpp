@@ -40,7 +40,8 @@ struct LambertPointLight {
 };
 
 /// A measured distribution, type C after conversion: candela[h * verticals.size() + v] over horizontal angles
-/// (degrees from the 0 plane, ascending, first 0, last 360) and vertical angles (0 at nadir .. 180). [LM-63]
+/// (degrees from the 0 plane towards +y, ascending, first 0, last 360) and vertical angles (ascending from 0 at nadir
+/// to 180). Angles that were not measured are there with 0 cd. [LM-63]
 struct Photometry {
   std::vector<double> verticals, horizontals;
   std::vector<double> candela;
@@ -105,6 +106,11 @@ Rgb radiantIntensity(const PointLight&, const Vec3& direction);
 Rgb radiantIntensity(const SpotLight&, const Vec3& direction);
 Rgb radiantIntensity(const LambertPointLight&, const Vec3& direction);
 Rgb radiantIntensity(const PhotometricLight&, const Vec3& direction);
+/// Luminous intensity [cd] at `vertical` in [0,180] and `horizontal` in [0,360] degrees, interpolated between the
+/// angles.
+double candela(const Photometry&, double vertical, double horizontal);
+/// Luminous flux of the whole distribution [lm], exactly as candela() interpolates it.
+double luminousFlux(const Photometry&);
 /// Solid angle of the sun's disc [sr].
 double solidAngle(const SunLight&);
 

@@ -1,0 +1,47 @@
+#include "io/ies.hpp"
+
+#include <cmath>
+#include <deltalux/error.hpp>
+#include <deltalux/io.hpp>
+
+#include "io/ies/complete.hpp"
+#include "io/ies/parse.hpp"
+#include "io/import_file.hpp"
+
+namespace deltalux {
+
+namespace {
+
+// A luminaire cannot give more light than its lamps; candelas that say so have a wrong multiplier or were scaled twice.
+void checkFlux(const IesRecord& record, const Photometry& photometry, const std::string& name,
+               std::vector<std::string>& warnings) {
+  const double rated = record.lampCount * record.lumensPerLamp;
+  const double flux = luminousFlux(photometry);
+  constexpr double kSlack = 1.1;
+  if (rated > 0 && flux > kSlack * rated) {
+    warnings.push_back(name + ": the candelas amount to " + std::to_string(std::lround(flux)) + " lm, its lamps to " +
+                       std::to_string(std::lround(rated)) + " lm; check the candela multiplier");
+  }
+}
+
+}  // namespace
+
+PhotometryFile readPhotometry(std::string_view text, const std::string& name, const std::filesystem::path& folder) {
+  IesRecord record = parseIes(text, name, folder);
+  PhotometryFile file;
+  file.photometry = completePhotometry(record, name);
+  if (!std::isfinite(luminousFlux(file.photometry))) {
+    throw InputError(name, 0, "its candela values are too large", "check the candela multiplier");
+  }
+  checkFlux(record, file.photometry, name, record.warnings);
+  file.warnings = std::move(record.warnings);
+  return file;
+}
+
+Photometry loadPhotometry(const std::filesystem::path& path, std::vector<std::string>* warnings) {
+  PhotometryFile file = readPhotometry(readInputFile(path), path.string(), path.parent_path());
+  if (warnings) warnings->insert(warnings->end(), file.warnings.begin(), file.warnings.end());
+  return std::move(file.photometry);
+}
+
+}  // namespace deltalux

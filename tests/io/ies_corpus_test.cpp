@@ -1,0 +1,30 @@
+// Every input that once was a fuzzer's case: read, or refused with an InputError.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <deltalux/error.hpp>
+
+#include "io/ies.hpp"
+#include "io/import_file.hpp"
+#include "support/shared.hpp"
+
+namespace deltalux {
+namespace {
+
+TEST(IesCorpus, IsReadOrRefused) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(test::sourceFolder() / "fuzz/corpus/ies")) {
+    ++count;
+    try {
+      const PhotometryFile file = readPhotometry(readInputFile(entry.path()), entry.path().string(), "/nonexistent");
+      const double flux = luminousFlux(file.photometry);
+      EXPECT_TRUE(flux >= 0 && std::isfinite(flux)) << entry.path();
+    } catch (const InputError& error) {
+      EXPECT_FALSE(error.hint().empty()) << entry.path();
+    }
+  }
+  EXPECT_GE(count, 5u);
+}
+
+}  // namespace
+}  // namespace deltalux
