@@ -1,0 +1,36 @@
+#pragma once
+// Points files: where irradiance is asked for, and the same rows with the answers.
+#include <deltalux/probe.hpp>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace deltalux {
+
+/// A CSV with a header row; columns x,y,z,nx,ny,nz in scene units, in any order, others are carried through.
+struct PointTable {
+  std::vector<std::string> columns;            // of the header row, trimmed
+  std::vector<std::vector<std::string>> rows;  // fields verbatim (quotes included), as many as columns
+  std::vector<ProbePoint> points;              // one per row; normals are made unit
+};
+
+/// Reads a points file. Lines that start with '#' and blank lines are skipped. Throws InputError with the line: a
+/// missing or doubled column, a row of the wrong length, a number that is none, a normal of length 0, no rows at all.
+PointTable readPoints(const std::filesystem::path&);
+PointTable parsePoints(std::string_view text, const std::string& fileName);
+
+enum class ProbeColumns {
+  Irradiance,          // E_r,E_g,E_b [W/m2], lux
+  IrradianceAndErrors  // the same and se_r,se_g,se_b: standard errors of E
+};
+
+/// The table's rows plus the results' columns; a column of the table that has a result's name is replaced by it.
+/// results.size() == table.rows.size().
+std::string formatProbeResults(const PointTable& table, std::span<const ProbeResult> results, ProbeColumns);
+/// formatProbeResults into a file, atomically. Throws OutputError.
+void writeProbeResults(const std::filesystem::path&, const PointTable& table, std::span<const ProbeResult> results,
+                       ProbeColumns);
+
+}  // namespace deltalux

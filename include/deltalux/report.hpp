@@ -1,0 +1,79 @@
+#pragma once
+// What a run did, as numbers: the contents of `--report FILE.json`. Field names are the JSON keys, in camel case here
+// and in snake case there; seconds, bytes and counts.
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace deltalux {
+
+struct SceneStats {
+  std::uint64_t objects = 0, primitives = 0, polygonsIfTessellated = 0, lights = 0;
+  std::map<std::string, std::size_t> ignored;  // on import, by kind
+};
+
+struct PhaseTimes {  // [s]
+  double import = 0, hierarchy = 0, refine = 0, visibility = 0, gather = 0, particles = 0, textures = 0, total = 0;
+};
+
+struct WorkCounts {
+  std::uint64_t elements = 0, leafElements = 0, links = 0, linksDs = 0, particles = 0, impacts = 0, raysVisibility = 0,
+                raysParticles = 0, iterations = 0, causticTextures = 0;
+  double causticTextureMeanSize = 0;  // texels a side
+};
+
+struct MemoryBytes {
+  std::uint64_t elements = 0, links = 0, particles = 0, octree = 0, textures = 0, peakRss = 0;
+};
+
+/// Flux summed over the channels' photometric weights [W]; empty where a run did not measure it (null in JSON).
+struct EnergyLedger {
+  std::optional<double> emittedW, absorbedW, escapedW, unsettledW;
+};
+
+/// One edit.
+struct StepReport {
+  std::string op, object;
+  PhaseTimes times;
+  std::uint64_t linksVisited = 0, linksChanged = 0, particlesRetraced = 0, particlesTotal = 0, texturesRebuilt = 0,
+                deferred = 0;
+};
+
+/// An updated solution against one solved from scratch.
+struct CheckReport {
+  double solveS = 0;
+  double medianRelDiff = 0, p95RelDiff = 0, maxRelDiff = 0;  // of irradiance
+  bool particlesIdentical = false;
+};
+
+/// What the unbiased integrator did; only `deltalux reference` has it.
+struct ReferenceReport {
+  std::uint64_t paths = 0, rays = 0;
+  double seconds = 0;
+};
+
+struct RunReport {
+  std::string command, version, scene;
+  std::uint64_t threads = 0, seed = 0;
+  SceneStats sceneStats;
+  PhaseTimes times;
+  WorkCounts counts;
+  MemoryBytes memory;
+  EnergyLedger energy;
+  std::vector<StepReport> steps;
+  std::optional<CheckReport> check;          // null in JSON when nothing was checked
+  std::optional<ReferenceReport> reference;  // absent in JSON for other commands
+};
+
+/// The report as JSON text, keys in the order above, ends with a newline.
+std::string toJson(const RunReport&);
+/// toJson into a file, atomically. Throws OutputError.
+void writeReport(const std::filesystem::path&, const RunReport&);
+
+/// Largest resident set of this process so far [bytes]; 0 where the system does not say.
+std::uint64_t peakResidentBytes();
+
+}  // namespace deltalux

@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <deltalux/error.hpp>
+#include <deltalux/points.hpp>
+#include <deltalux/units.hpp>
+#include <fstream>
+#include <sstream>
+
+#include "base/check.hpp"
+#include "io/atomic_file.hpp"
+
+namespace deltalux {
+
+namespace {
+constexpr std::array<const char*, 6> kNeeded{"x", "y", "z", "nx", "ny", "nz"};
+constexpr const char* kExpected = "a points file starts with a row x,y,z,nx,ny,nz";
+
+std::string_view trimmed(std::string_view text) {
+  const auto begin = text.find_first_not_of(" \t\r");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+/// Fields of one line; a comma within double quotes belongs to its field. [RFC 4180, one line per record]
+std::vector<std::string> fieldsOf(std::string_view line) {
+  std::vector<std::string> fields;
+  bool quoted = false;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    if (i < line.size() && line[i] == '"') quoted = !quoted;
+    if (i < line.size() && (quoted || line[i] != ',')) continue;
+    fields.emplace_back(trimmed(line.substr(begin, i - begin)));
+    begin = i + 1;
+  }
+  return fields;
+}
+
+std::string_view unquoted(std::string_view field) {
+  if (field.size() >= 2 && field.front() == '"' && field.back() == '"') return field.substr(1, field.size() - 2);
+  return field;
+}
+
+class Parser {
+ public:
+  Parser(std::string_view text, const std::string& file) : rest_(text), file_(file) {
+    if (rest_.substr(0, 3) == "\xef\xbb\xbf") rest_.remove_prefix(3);  // byte order mark of spreadsheets
+  }
+
+  PointTable parse() {
+    std::string_view line;
+    if (!nextLine(line)) fail("there is no header row", kExpected);
+    readHeader(line);
+    while (nextLine(line)) readRow(line);
+    if (table_.rows.empty()) fail("there are no points after the header row", kExpected);
+    return std::move(table_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message, const std::string& hint) const {
+    throw InputError(file_, line_, message, hint);
+  }
+
+  /// The next line that is neither blank nor a comment.
+  bool nextLine(std::string_view& line) {
+    while (!rest_.empty()) {
+      const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+      line = trimmed(rest_.substr(0, end));
+      rest_.remove_prefix(std::min(end + 1, rest_.size()));
+      ++line_;
+      if (!line.empty() && line.front() != '#') return true;
+    }
+    return false;
+  }
+
+  void readHeader(std::string_view line) {
+    table_.columns = fieldsOf(line);
+    for (std::string& name : table_.columns) name = std::string(unquoted(name));
+    for (std::size_t i = 0; i < kNeeded.size(); ++i) {
+      const auto found = std::find(table_.columns.begin(), table_.columns.end(), kNeeded[i]);
+      if (found == table_.columns.end()) fail(fmt::format("the header row has no column {}", kNeeded[i]), kExpected);
+      if (std::find(found + 1, table_.columns.end(), kNeeded[i]) != table_.columns.end())
+        fail(fmt::format("the header row has column {} twice", kNeeded[i]), "remove one");
+      needed_[i] = static_cast<std::size_t>(found - table_.columns.begin());
+    }
+  }
+
+  void readRow(std::string_view line) {
+    std::vector<std::string> row = fieldsOf(line);
+    if (row.size() != table_.columns.size())
+      fail(fmt::format("this row has {} fields, the header row {}", row.size(), table_.columns.size()),
+           "every row needs a value for every column");
+    std::array<double, 6> v{};
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = number(row[needed_[i]], kNeeded[i]);
+    const Vec3 normal{v[3], v[4], v[5]};
+    const double length = glm::length(normal);
+    if (!(length > 0) || !std::isfinite(length))
+      fail("the normal nx,ny,nz has no direction", "give the surface's normal");
+    table_.points.push_back({{v[0], v[1], v[2]}, normal / length});
+    table_.rows.push_back(std::move(row));
+  }
+
+  double number(std::string_view field, const char* column) const {
+    std::string_view text = unquoted(field);
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+      fail(fmt::format("{} is no number in column {}", field.empty() ? "nothing" : fmt::format("'{}'", field), column),
+           "write numbers like -1.25 or 3e-4");
+    return value;
+  }
+
+  std::string_view rest_;
+  std::string file_;
+  int line_ = 0;
+  PointTable table_;
+  std::array<std::size_t, 6> needed_{};
+};
+
+std::vector<std::string> resultColumns(ProbeColumns columns) {
+  std::vector<std::string> names{"E_r", "E_g", "E_b", "lux"};
+  if (columns == ProbeColumns::IrradianceAndErrors) names.insert(names.end(), {"se_r", "se_g", "se_b"});
+  return names;
+}
+
+std::string resultFields(const ProbeResult& result, ProbeColumns columns) {
+  const glm::dvec3 E = result.irradiance, se = result.standardError;
+  std::string text = fmt::format("{:.7g},{:.7g},{:.7g},{:.7g}", E.r, E.g, E.b, photometric(E));
+  if (columns == ProbeColumns::IrradianceAndErrors) text += fmt::format(",{:.4g},{:.4g},{:.4g}", se.r, se.g, se.b);
+  return text;
+}
+}  // namespace
+
+PointTable parsePoints(std::string_view text, const std::string& fileName) { return Parser(text, fileName).parse(); }
+
+PointTable readPoints(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || std::filesystem::is_directory(path) || !(text << stream.rdbuf()))
+    throw InputError(path.string(), 0, "cannot read this points file", kExpected);
+  return parsePoints(std::move(text).str(), path.string());
+}
+
+std::string formatProbeResults(const PointTable& table, std::span<const ProbeResult> results, ProbeColumns columns) {
+  DELTALUX_CHECK(results.size() == table.rows.size(), "one result per point");
+  const std::vector<std::string> added = resultColumns(columns);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    if (std::find(added.begin(), added.end(), table.columns[i]) == added.end()) kept.push_back(i);
+
+  std::string text;
+  for (const std::size_t i : kept) text += table.columns[i] + ",";
+  text += fmt::format("{}\n", fmt::join(added, ","));
+  for (std::size_t row = 0; row < results.size(); ++row) {
+    for (const std::size_t i : kept) text += table.rows[row][i] + ",";
+    text += resultFields(results[row], columns) + "\n";
+  }
+  return text;
+}
+
+void writeProbeResults(const std::filesystem::path& path, const PointTable& table, std::span<const ProbeResult> results,
+                       ProbeColumns columns) {
+  writeFile(path, formatProbeResults(table, results, columns));
+}
+
+}  // namespace deltalux
