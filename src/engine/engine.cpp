@@ -47,7 +47,7 @@ struct Engine::State {
     pull(s.elements);
     DELTALUX_VALIDATED(validate(s.elements));
     s.report.counts.raysVisibility += coarse.rays;
-    s.report.time.hierarchy += time.seconds();
+    s.report.times.hierarchy += time.seconds();
     nextError = s.settings.error * kFirstError;
     if (progress) progress->report("hierarchy", 1.0);
   }
@@ -62,14 +62,14 @@ struct Engine::State {
       return s.settings.seconds > 0 && clock.seconds() > s.settings.seconds;
     });
     DELTALUX_VALIDATED(validate(s.links, s.elements));
-    s.report.time.refine += refining.seconds();
+    s.report.times.refine += refining.seconds();
     s.report.counts.raysVisibility += refined.rays;
-    s.report.counts.provenClear += refined.provenClear;
-    s.report.counts.provenBlocked += refined.provenBlocked;
+    s.report.provenClear += refined.provenClear;
+    s.report.provenBlocked += refined.provenBlocked;
 
     const Clock gathering;
     const bool settled = settle(progress);
-    s.report.time.gather += gathering.seconds();
+    s.report.times.gather += gathering.seconds();
     count();
     s.report.converged = settled && !refined.stopped && oracle.error <= s.settings.error;
     finished = refined.stopped || oracle.error <= s.settings.error;
@@ -98,40 +98,46 @@ struct Engine::State {
     const Elements& e = solution->elements;
     RgbSum sum(0.0);
     for (std::size_t i = 0; i < e.size(); ++i)
-      if (!e.topology[i].emitter && e.topology[i].kind == ElementKind::Patch && e.topology[i].childCount == 0)
-        sum += double(e.geometry[i].area) * RgbSum(e.radiometry[i].direct);
+      if (isReceivingLeaf(i)) sum += double(e.geometry[i].area) * RgbSum(e.radiometry[i].direct);
     return sum;
   }
 
+  /// Emitted is what lights deliver to surfaces; escaped what is reflected on to no surface. [algorithm 10]
   void balance(const RgbSum& emitted, const RgbSum& unsettled) {
     Solution& s = *solution;
     const Elements& e = s.elements;
-    EnergyLedger& ledger = s.report.energy;
-    const double unit = s.scene.metresPerUnit * s.scene.metresPerUnit;
     RgbSum absorbed(0.0);
     for (std::size_t i = 0; i < e.size(); ++i) {
-      if (e.topology[i].emitter || e.topology[i].kind != ElementKind::Patch || e.topology[i].childCount != 0) continue;
+      if (!isReceivingLeaf(i)) continue;
       const ElementLight& l = e.radiometry[i];
       absorbed +=
           double(e.geometry[i].area) * RgbSum((Rgb(1.0f) - l.rho - l.tau) * (l.direct + l.indirect + l.particle));
     }
-    ledger.emitted = unit * emitted;
-    ledger.absorbed = unit * absorbed;
-    ledger.unsettled = unit * unsettled;
-    ledger.escaped = ledger.emitted - ledger.absorbed - ledger.unsettled;
+    const double unit = s.scene.metresPerUnit * s.scene.metresPerUnit;
+    EnergyLedger& ledger = s.report.energy;
+    ledger.emittedW = unit * gray(emitted);
+    ledger.absorbedW = unit * gray(absorbed);
+    ledger.unsettledW = unit * gray(unsettled);
+    ledger.escapedW = *ledger.emittedW - *ledger.absorbedW - *ledger.unsettledW;
+  }
+
+  bool isReceivingLeaf(std::size_t e) const {
+    const ElementTopology& t = solution->elements.topology[e];
+    return !t.emitter && !t.blocker && t.kind == ElementKind::Patch && t.childCount == 0;
   }
 
   void count() {
     Solution& s = *solution;
-    SolveCounts& c = s.report.counts;
+    WorkCounts& c = s.report.counts;
     c.elements = s.elements.size();
     c.leafElements = 0;
-    for (const ElementTopology& t : s.elements.topology) c.leafElements += t.childCount == 0;
+    for (std::size_t i = 0; i < s.elements.size(); ++i) c.leafElements += isReceivingLeaf(i);
     c.links = s.links.size();
-    c.activeLinks = 0;
-    for (const Link& l : s.links.all) c.activeLinks += l.state == LinkState::Active;
-    c.bytesElements = s.elements.memoryBytes();
-    c.bytesLinks = s.links.memoryBytes();
+    s.report.activeLinks = 0;
+    for (const Link& l : s.links.all) s.report.activeLinks += l.state == LinkState::Active;
+    s.report.memory.elements = s.elements.memoryBytes();
+    s.report.memory.links = s.links.memoryBytes();
+    s.report.memory.peakRss = peakResidentBytes();
   }
 };
 
@@ -158,7 +164,7 @@ SolveReport Engine::step(Progress* progress) {
     state_->round(progress);
   else
     s.report.converged = state_->finished = true;
-  s.report.time.total += time.seconds();
+  s.report.times.total += time.seconds();
   return s.report;
 }
 
