@@ -1,0 +1,41 @@
+#include <algorithm>
+#include <deltalux/error.hpp>
+#include <deltalux/io.hpp>
+
+#include "io/radiance.hpp"
+
+namespace deltalux {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string extensionOf(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+bool isOtherFormat(const fs::path& file) {
+  const std::string extension = extensionOf(file);
+  return extension == ".gltf" || extension == ".glb" || extension == ".obj";
+}
+
+}  // namespace
+
+ImportedScene loadScene(const std::vector<fs::path>& files, const ImportSettings& settings) {
+  if (files.empty()) throw InputError("", 0, "no scene is given", "name a .rad, .gltf, .glb or .obj file");
+  if (!(settings.metresPerUnit > 0) || !(settings.luminousEfficacy > 0)) {
+    throw InputError(files[0].string(), 0, "metres per unit and luminous efficacy must be greater than zero");
+  }
+  const auto other = std::find_if(files.begin(), files.end(), isOtherFormat);
+  if (other == files.end()) return loadRadiance(files, settings);
+  if (files.size() > 1) {
+    throw InputError(other->string(), 0, "cannot be joined with other files into one scene",
+                     "only several Radiance files make one scene");
+  }
+  throw InputError(other->string(), 0, "this format is not supported yet", "convert it to .rad");
+}
+
+}  // namespace deltalux

@@ -1,0 +1,136 @@
+#include "io/radiance/expander.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "io/radiance/command_line.hpp"
+#include "io/radiance/generators.hpp"
+#include "io/radiance/xform.hpp"
+
+namespace deltalux::radiance {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// How many numbers and words the objects hold, names aside.
+std::size_t numbersIn(const Expander::Objects& objects) {
+  std::size_t sum = 0;
+  for (const RadObject& object : objects) {
+    sum += object.reals.size() + object.strings.size() + (object.mesh ? 6 * object.mesh->positions.size() : 0);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::shared_ptr<const Expander::Objects> Expander::expand(const SourceFile& file) {
+  if (const auto known = expanded_.find(file.identity); known != expanded_.end()) return known->second;
+  open_.push_back(file.identity);
+  auto objects = std::make_shared<const Objects>(
+      expandItems(parseRadiance(file.text, std::make_shared<const std::string>(file.name)), file.folder));
+  open_.pop_back();
+  expanded_[file.identity] = objects;
+  return objects;
+}
+
+Expander::Objects Expander::expandItems(std::vector<RadItem> items, const fs::path& folder) {
+  Objects objects;
+  objects.reserve(items.size());
+  double numbers = 0;
+  for (RadItem& item : items) {
+    if (auto* object = std::get_if<RadObject>(&item)) {
+      objects.push_back(std::move(*object));
+      continue;
+    }
+    const auto& command = std::get<RadCommand>(item);
+    Objects made = run(command, folder);
+    numbers += static_cast<double>(numbersIn(made));
+    checkSize(static_cast<double>(objects.size() + made.size()), numbers, command.where);
+    objects.insert(objects.end(), std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
+  }
+  return objects;
+}
+
+Expander::Objects Expander::run(const RadCommand& command, const fs::path& folder) {
+  Objects objects;
+  bool first = true;
+  for (const std::vector<std::string>& words : parsePipeline(command.text, command.where)) {
+    if (words[0] == "xform") {
+      objects = transformed(words, first ? nullptr : &objects, command.where, folder);
+    } else if (first) {
+      objects = generate(words, command.where, folder);
+    } else {
+      throw inputError(command.where, "a pipe into '" + words[0].substr(0, 40) + "' is not supported",
+                       "pipes may lead into xform; expand others beforehand: xform -e FILE > EXPANDED");
+    }
+    first = false;
+  }
+  return objects;
+}
+
+Expander::Objects Expander::generate(const std::vector<std::string>& words, const SourceLine& where,
+                                     const fs::path& folder) {
+  using Generator = std::vector<RadObject> (*)(const GeneratorInput&);
+  static constexpr std::pair<std::string_view, Generator> kGenerators[] = {
+      {"genbox", genbox},   {"genprism", genprism}, {"genrev", genrev},
+      {"gensurf", gensurf}, {"genworm", genworm},   {"gensky", gensky},
+  };
+  for (const auto& [name, generator] : kGenerators) {
+    if (words[0] != name) continue;
+    const auto openFile = [&](const std::string& file) { return open(file, where, folder); };
+    return generator({std::span(words).subspan(1), where, openFile, limits_.objects});
+  }
+  throw inputError(where, "the command '" + words[0].substr(0, 40) + "' is not evaluated here",
+                   "known are xform, genbox, genprism, genrev, gensurf, genworm and gensky; expand others beforehand: "
+                   "xform -e FILE > EXPANDED");
+}
+
+Expander::Objects Expander::transformed(const std::vector<std::string>& words, const Objects* piped,
+                                        const SourceLine& where, const fs::path& folder) {
+  const XformCommand command = parseXform(std::span(words).subspan(1), limits_.objects, where);
+  std::vector<std::shared_ptr<const Objects>> inputs;
+  for (const std::string& name : command.files) {
+    const SourceFile file = open(name, where, folder);
+    if (std::find(open_.begin(), open_.end(), file.identity) != open_.end()) {
+      throw inputError(where, "'" + name + "' includes itself", "remove the cycle of files");
+    }
+    if (open_.size() >= limits_.depth) throw inputError(where, "files include each other too deeply");
+    inputs.push_back(expand(file));
+  }
+  if (inputs.empty() && piped == nullptr) {
+    throw inputError(where, "xform has no input", "name a file after its options, or pipe a generator into it");
+  }
+  std::vector<const Objects*> sources;
+  for (const auto& input : inputs) sources.push_back(input.get());
+  if (inputs.empty()) sources.push_back(piped);
+  double objects = 0, numbers = 0;
+  for (const Objects* source : sources) {
+    objects += static_cast<double>(source->size()), numbers += static_cast<double>(numbersIn(*source));
+  }
+  const auto copies = static_cast<double>(command.copies.size());
+  checkSize(copies * objects, copies * numbers, where);
+
+  Objects result;
+  result.reserve(static_cast<std::size_t>(copies * objects));
+  for (const Placement& placement : command.copies) {
+    for (const Objects* source : sources) {
+      for (const RadObject& object : *source) result.push_back(placed(object, placement));
+    }
+  }
+  return result;
+}
+
+SourceFile Expander::open(const std::string& name, const SourceLine& where, const fs::path& folder) {
+  if (auto file = files_.open(name, folder)) return std::move(*file);
+  throw inputError(where, "cannot find the file '" + name.substr(0, 200) + "'",
+                   "files are looked for beside the file that names them and beside the scene");
+}
+
+void Expander::checkSize(double objects, double numbers, const SourceLine& where) const {
+  if (objects <= static_cast<double>(limits_.objects) && numbers <= static_cast<double>(limits_.numbers)) return;
+  throw inputError(where, "the scene expands to too much: more than " + std::to_string(limits_.objects) + " objects",
+                   "check the counts of its arrays");
+}
+
+}  // namespace deltalux::radiance

@@ -1,0 +1,106 @@
+#include "io/radiance/modifier_table.hpp"
+
+#include <algorithm>
+
+#include "io/radiance/rad_materials.hpp"
+
+namespace deltalux::radiance {
+
+namespace {
+constexpr std::string_view kVoid = "void";
+
+bool sameArguments(const RadObject& a, const RadObject& b) {
+  return a.type == b.type && a.reals == b.reals && a.strings == b.strings;
+}
+}  // namespace
+
+void ModifierTable::define(const RadObject& object) { byName_.insert_or_assign(object.name, resolve(object)); }
+
+Modifier ModifierTable::lookUp(const std::string& name, const RadObject& user) const {
+  if (name == kVoid) return {};
+  if (const auto found = byName_.find(name); found != byName_.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [known, modifier] : byName_) names.push_back(known);
+  std::string hint = "define it above its use";
+  for (const std::string& near : nearMisses(name.substr(0, 100), names)) {
+    hint += (hint.ends_with("use") ? "; near: " : ", ") + near;
+  }
+  throw inputError(user.where,
+                   "'" + name.substr(0, 100) + "', which " + user.typeName + " '" + user.name.substr(0, 100) +
+                       "' names, is not defined before it",
+                   hint);
+}
+
+Modifier ModifierTable::resolve(const RadObject& object) {
+  // `inherit` keeps the modifier of what an alias stands for.
+  const Modifier base = object.modifier == "inherit" ? Modifier{} : lookUp(object.modifier, object);
+  switch (object.type) {
+    case Type::Pattern:
+      ++report_.ignored[object.typeName];
+      return base;
+    case Type::Mixture: {
+      ++report_.ignored[object.typeName];
+      if (object.strings.size() < 2) {
+        throw inputError(object.where, object.typeName + " '" + object.name + "' names no two modifiers to mix");
+      }
+      const Modifier first = lookUp(object.strings[0], object);
+      return first.material.valid() || !first.unsupported.empty() ? first : lookUp(object.strings[1], object);
+    }
+    case Type::SkyBrightness: {
+      Modifier modifier = base;
+      modifier.sky = &object;
+      return modifier;
+    }
+    case Type::Alias: {
+      Modifier modifier = lookUp(object.strings[0], object);
+      if (base.sky != nullptr) modifier.sky = base.sky;
+      return modifier;
+    }
+    case Type::Unsupported:
+      return {{}, object.type, object.typeName, nullptr};
+    default:
+      return {materialFor(object), object.type, {}, base.sky};
+  }
+}
+
+MaterialId ModifierTable::alternateOf(const RadObject& object) const {
+  const bool mayHave = object.type == Type::Mirror || object.type == Type::Illum;
+  if (!mayHave || object.strings.empty()) return {};
+  return lookUp(object.strings[0], object).material;
+}
+
+/// Counts what the material asks for and does not get.
+void ModifierTable::noteSimplifications(const RadObject& object) {
+  const std::vector<double>& a = object.reals;
+  const auto ignored = [&](const char* what) { ++report_.ignored[what]; };
+  switch (object.type) {
+    case Type::Glass:
+      if (std::max({a[0], a[1], a[2]}) > 1) ignored("glass transmissivity above 1");
+      break;
+    case Type::Dielectric:
+      if (a[4] != 0) ignored("dielectric dispersion");
+      break;
+    case Type::Plastic2:
+    case Type::Metal2:
+    case Type::Trans2:
+      if (a[4] != a[5]) ignored("anisotropy");
+      break;
+    default:
+      break;
+  }
+}
+
+MaterialId ModifierTable::materialFor(const RadObject& object) {
+  const MaterialId alternate = alternateOf(object);
+  std::vector<Made>& made = made_[object.name];
+  for (const Made& earlier : made) {
+    if (earlier.alternate == alternate && sameArguments(*earlier.source, object)) return earlier.material;
+  }
+  noteSimplifications(object);
+  const MaterialId material(scene_.materials.size());
+  scene_.materials.push_back(makeMaterial(object, alternate.valid() ? &scene_[alternate] : nullptr));
+  made.push_back({&object, alternate, material});
+  return material;
+}
+
+}  // namespace deltalux::radiance

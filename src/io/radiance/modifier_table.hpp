@@ -1,0 +1,47 @@
+#pragma once
+// The modifiers of a scene by name, resolved as they are defined: a name means its last definition before the use.
+#include <deltalux/io.hpp>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "io/radiance/rad_object.hpp"
+
+namespace deltalux::radiance {
+
+/// What a modifier amounts to at the end of its chain of patterns, textures, mixtures and aliases.
+struct Modifier {
+  MaterialId material;                // invalid: none, or an unsupported one
+  Type materialType = Type::Plastic;  // as defined
+  std::string unsupported;            // type word of the unsupported material that ends the chain
+  const RadObject* sky = nullptr;     // the sky pattern on the way, if any
+};
+
+class ModifierTable {
+ public:
+  ModifierTable(Scene& scene, ImportReport& report) : scene_(scene), report_(report) {}
+
+  /// Takes a definition; the object must outlive the table. Throws InputError for undefined references.
+  void define(const RadObject&);
+  /// The modifier of `object` ("void" is an empty one). Throws InputError when it is not defined.
+  Modifier modifierOf(const RadObject& object) const { return lookUp(object.modifier, object); }
+
+ private:
+  struct Made {
+    const RadObject* source;
+    MaterialId alternate, material;
+  };
+
+  Modifier lookUp(const std::string& name, const RadObject& user) const;
+  Modifier resolve(const RadObject&);
+  void noteSimplifications(const RadObject&);
+  MaterialId alternateOf(const RadObject&) const;
+  MaterialId materialFor(const RadObject&);
+
+  Scene& scene_;
+  ImportReport& report_;
+  std::unordered_map<std::string, Modifier> byName_;
+  std::unordered_map<std::string, std::vector<Made>> made_;  // equal definitions of a name share one material
+};
+
+}  // namespace deltalux::radiance

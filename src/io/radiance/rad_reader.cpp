@@ -1,0 +1,26 @@
+#include "io/import_file.hpp"
+#include "io/radiance.hpp"
+#include "io/radiance/expander.hpp"
+#include "io/radiance/scene_builder.hpp"
+
+namespace deltalux {
+
+namespace fs = std::filesystem;
+
+ImportedScene loadRadiance(const std::vector<fs::path>& files, const ImportSettings& settings) {
+  radiance::DiskAccess disk(files.empty() ? fs::path() : files.front().parent_path());
+  radiance::Expander expander(disk);
+  std::vector<radiance::RadObject> objects;
+  for (const fs::path& file : files) {
+    const auto expanded =
+        expander.expand({file.string(), file.parent_path(), fs::weakly_canonical(file).string(), readInputFile(file)});
+    objects.insert(objects.end(), expanded->begin(), expanded->end());
+  }
+  return radiance::buildScene(objects, settings);
+}
+
+ImportedScene readRadiance(radiance::SourceFile file, radiance::FileAccess& files, const ImportSettings& settings) {
+  return radiance::buildScene(*radiance::Expander(files).expand(file), settings);
+}
+
+}  // namespace deltalux
