@@ -54,19 +54,19 @@ ChiSquareResult chiSquareDirections(const std::function<std::optional<Vec3>(cons
     const int sector = std::min(test.sectors - 1, static_cast<int>(phi * test.sectors));
     ++observed[ring * test.sectors + sector];
   }
-  const int n = test.subdivisions;
+  const int n = test.ringSubdivisions, m = test.sectorSubdivisions;
   double sum = 0;
   for (int bin = 0; bin < bins; ++bin) {
     double integral = 0;
-    for (int k = 0; k < n * n; ++k) {
-      const double s = (bin / test.sectors + (k / n + 0.5) / n) / test.rings;
-      const double phi = ((bin % test.sectors + (k % n + 0.5) / n) / test.sectors - 0.5) * 2 * kPi;
+    for (int k = 0; k < n * m; ++k) {
+      const double s = (bin / test.sectors + (k / m + 0.5) / n) / test.rings;
+      const double phi = ((bin % test.sectors + (k % m + 0.5) / m) / test.sectors - 0.5) * 2 * kPi;
       const double h = std::pow(s, test.concentration);  // (1 - cos) / 2
       const double sinTheta = 2 * std::sqrt(h * (1 - h));
       const Vec3 w = frame.toWorld({sinTheta * std::cos(phi), sinTheta * std::sin(phi), 1 - 2 * h});
       integral += density(w) * 2 * test.concentration * std::pow(s, test.concentration - 1);
     }
-    expected[bin] = integral / (n * n) * (1.0 / test.rings) * (2 * kPi / test.sectors) * test.samples;
+    expected[bin] = integral / (n * m) * (1.0 / test.rings) * (2 * kPi / test.sectors) * test.samples;
     sum += expected[bin];
   }
   expected[bins] = std::max(0.0, test.samples - sum);

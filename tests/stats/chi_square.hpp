@@ -20,7 +20,8 @@ ChiSquareResult chiSquare(const std::vector<double>& observed, const std::vector
 struct DirectionTest {
   Vec3 axis{0, 0, 1};        // bins are rings and sectors around it
   double concentration = 1;  // rings at (1 - cos) = 2 s^concentration: larger puts more rings near the axis
-  int rings = 24, sectors = 24, subdivisions = 12;
+  int rings = 24, sectors = 24;
+  int ringSubdivisions = 12, sectorSubdivisions = 12;  // of a bin, for the integral of the density
   int samples = 200000;
 };
 

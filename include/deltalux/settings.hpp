@@ -1,0 +1,15 @@
+#pragma once
+// What a user may set about a solution. Everything else follows from `error` and the scene.
+#include <cstdint>
+
+namespace deltalux {
+
+struct SolveSettings {
+  double error = 0.05;          // target relative error of irradiance, in (0, 1)
+  std::uint64_t particles = 0;  // target count of particles; 0: from `error`
+  double seconds = 0;           // refinement ends after about this long; 0: when the target is met
+  bool diffuseOnly = false;     // no specular lobes, no mirrors; thin glass passes light straight on
+  std::uint64_t seed = 1;
+};
+
+}  // namespace deltalux

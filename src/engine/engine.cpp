@@ -1,0 +1,179 @@
+#include <deltalux/engine.hpp>
+
+#include <chrono>
+#include <deltalux/error.hpp>
+
+#include "base/check.hpp"
+#include "base/parallel.hpp"
+#include "hierarchy/build.hpp"
+#include "radiosity/coarse_solution.hpp"
+#include "radiosity/gather.hpp"
+#include "radiosity/push_pull.hpp"
+#include "radiosity/refine.hpp"
+#include "scene/diffuse_only.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr double kFirstError = 8.0;    // of the target, in the first round
+constexpr double kErrorFactor = 0.35;  // from round to round
+constexpr double kSettled = 1e-3;      // unsettled power, relative to emitted
+constexpr int kMaxIterations = 64;
+
+class Clock {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+struct Engine::State {
+  std::shared_ptr<Solution> solution = std::make_shared<Solution>();
+  double nextError = 0;   // of the next round
+  bool finished = false;  // the last round has run
+  Clock clock;
+
+  void prepare(Progress* progress) {
+    Solution& s = *solution;
+    const Clock time;
+    CoarseReport coarse;
+    const auto sides = coarseSolution(s.scene, *s.tracer, &coarse);
+    s.elements = buildElements(s.scene, sides);
+    pull(s.elements);
+    DELTALUX_VALIDATED(validate(s.elements));
+    s.report.counts.raysVisibility += coarse.rays;
+    s.report.times.hierarchy += time.seconds();
+    nextError = s.settings.error * kFirstError;
+    if (progress) progress->report("hierarchy", 1.0);
+  }
+
+  void round(Progress* progress) {
+    Solution& s = *solution;
+    OracleSettings oracle;
+    oracle.error = std::max(nextError, s.settings.error);
+    const Clock refining;
+    const RefineReport refined = refine(s.links, s.elements, s.scene, *s.tracer, oracle, [&] {
+      if (progress && progress->stopRequested()) throw Interrupted();
+      return s.settings.seconds > 0 && clock.seconds() > s.settings.seconds;
+    });
+    DELTALUX_VALIDATED(validate(s.links, s.elements));
+    s.report.times.refine += refining.seconds();
+    s.report.counts.raysVisibility += refined.rays;
+    s.report.provenClear += refined.provenClear;
+    s.report.provenBlocked += refined.provenBlocked;
+
+    const Clock gathering;
+    const bool settled = settle(progress);
+    s.report.times.gather += gathering.seconds();
+    count();
+    s.report.converged = settled && !refined.stopped && oracle.error <= s.settings.error;
+    finished = refined.stopped || oracle.error <= s.settings.error;
+    nextError *= kErrorFactor;
+  }
+
+  /// Gathers until the light no longer changes. [algorithm 3]
+  bool settle(Progress* progress) {
+    Solution& s = *solution;
+    const GatherPlan plan(s.links, s.elements);
+    plan.gatherDirect(s.elements);
+    RgbSum unsettled(0.0), emitted(0.0);
+    for (int i = 0; i < kMaxIterations; ++i) {
+      plan.gatherIndirect(s.elements);
+      unsettled = pushPull(s.elements);
+      ++s.report.counts.iterations;
+      emitted = directPower();
+      if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
+      if (gray(unsettled) <= kSettled * gray(emitted)) break;
+    }
+    balance(emitted, unsettled);
+    return gray(unsettled) <= kSettled * gray(emitted);
+  }
+
+  RgbSum directPower() const {
+    const Elements& e = solution->elements;
+    RgbSum sum(0.0);
+    for (std::size_t i = 0; i < e.size(); ++i)
+      if (isReceivingLeaf(i)) sum += double(e.geometry[i].area) * RgbSum(e.radiometry[i].direct);
+    return sum;
+  }
+
+  /// Emitted is what lights deliver to surfaces; escaped what is reflected on to no surface. [algorithm 10]
+  void balance(const RgbSum& emitted, const RgbSum& unsettled) {
+    Solution& s = *solution;
+    const Elements& e = s.elements;
+    RgbSum absorbed(0.0);
+    for (std::size_t i = 0; i < e.size(); ++i) {
+      if (!isReceivingLeaf(i)) continue;
+      const ElementLight& l = e.radiometry[i];
+      absorbed +=
+          double(e.geometry[i].area) * RgbSum((Rgb(1.0f) - l.rho - l.tau) * (l.direct + l.indirect + l.particle));
+    }
+    const double unit = s.scene.metresPerUnit * s.scene.metresPerUnit;
+    EnergyLedger& ledger = s.report.energy;
+    ledger.emittedW = unit * gray(emitted);
+    ledger.absorbedW = unit * gray(absorbed);
+    ledger.unsettledW = unit * gray(unsettled);
+    ledger.escapedW = *ledger.emittedW - *ledger.absorbedW - *ledger.unsettledW;
+  }
+
+  bool isReceivingLeaf(std::size_t e) const {
+    const ElementTopology& t = solution->elements.topology[e];
+    return !t.emitter && !t.blocker && t.kind == ElementKind::Patch && t.childCount == 0;
+  }
+
+  void count() {
+    Solution& s = *solution;
+    WorkCounts& c = s.report.counts;
+    c.elements = s.elements.size();
+    c.leafElements = 0;
+    for (std::size_t i = 0; i < s.elements.size(); ++i) c.leafElements += isReceivingLeaf(i);
+    c.links = s.links.size();
+    s.report.activeLinks = 0;
+    for (const Link& l : s.links.all) s.report.activeLinks += l.state == LinkState::Active;
+    s.report.memory.elements = s.elements.memoryBytes();
+    s.report.memory.links = s.links.memoryBytes();
+    s.report.memory.peakRss = peakResidentBytes();
+  }
+};
+
+Engine::Engine(Scene scene, SolveSettings settings) : state_(std::make_unique<State>()) {
+  DELTALUX_CHECK(settings.error > 0 && settings.error < 1, "the target error is a fraction between 0 and 1");
+  addAreaLights(scene);
+  if (settings.diffuseOnly) dropSpeculars(scene);
+  validate(scene);
+  Solution& s = *state_->solution;
+  s.scene = std::move(scene);
+  s.settings = settings;
+  s.tracer = makeEmbreeTracer(s.scene);
+}
+
+Engine::~Engine() = default;
+Engine::Engine(Engine&&) noexcept = default;
+Engine& Engine::operator=(Engine&&) noexcept = default;
+
+SolveReport Engine::step(Progress* progress) {
+  const Clock time;
+  Solution& s = *state_->solution;
+  if (!s.elements.sceneRoot.valid() && s.elements.size() == 0) state_->prepare(progress);
+  if (s.elements.sceneRoot.valid())
+    state_->round(progress);
+  else
+    s.report.converged = state_->finished = true;
+  s.report.times.total += time.seconds();
+  return s.report;
+}
+
+SolveReport Engine::solve(Progress* progress) {
+  SolveReport report = step(progress);
+  while (!state_->finished) report = step(progress);
+  return report;
+}
+
+SolutionView Engine::solution() const { return SolutionView(state_->solution); }
+
+}  // namespace deltalux

@@ -1,0 +1,25 @@
+#pragma once
+// Builds the element hierarchy over the sides of a scene's surfaces that light can reach: a bounding-volume hierarchy
+// of clusters whose large surfaces stay high, so that a wall does not widen every cluster along it (attach a surface to
+// the lowest cluster that fits it [Christensen 1995, 6.7]); the area emitters in a tree of their own.
+// Cost: O(n log n) over input-level surfaces; meshes take part by triangle, so clusters within a mesh do the work.
+#include "hierarchy/element.hpp"
+
+namespace deltalux {
+
+/// One side of an input-level surface, and what is known of it before any link exists.
+struct SurfaceSide {
+  PrimitiveId primitive;
+  std::uint32_t triangle = 0;  // of a mesh
+  bool front = true;
+  float meanFreePath = 0.0f;  // mean distance to what it sees [scene units]
+  Rgb irradiance{0.0f};       // first estimate, for tolerances
+};
+
+/// Both sides of every surface, one of each pane and body of glass (which has no diffuse side, but blocks). Meshes give
+/// their triangles. Fields that need rays are left at zero.
+std::vector<SurfaceSide> surfaceSides(const Scene&);
+
+Elements buildElements(const Scene&, const std::vector<SurfaceSide>& reachable);
+
+}  // namespace deltalux

@@ -1,0 +1,38 @@
+#include "hierarchy/element.hpp"
+
+namespace deltalux {
+
+ElementId Elements::addChildren(ElementId parent, ElementKind kind, std::size_t count) {
+  const std::size_t first = size();
+  const std::size_t total = first + count;
+  topology.resize(total);
+  geometry.resize(total);
+  nodes.resize(total);
+  domain.resize(total);
+  moments.resize(total);
+  light.resize(total);
+  radiometry.resize(total);
+  slot.resize(total, Id<void>::kNone);
+  key.resize(total);
+  for (std::size_t i = first; i < total; ++i) {
+    topology[i].parent = parent;
+    topology[i].kind = kind;
+    if (kind == ElementKind::Cluster) {
+      slot[i] = static_cast<std::uint32_t>(clusters.size());
+      clusters.emplace_back();
+    }
+  }
+  if (parent.valid()) {
+    topology[parent.index()].firstChild = ElementId(first);
+    topology[parent.index()].childCount = static_cast<std::uint16_t>(count);
+  }
+  return ElementId(first);
+}
+
+std::size_t Elements::memoryBytes() const {
+  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return bytes(topology) + bytes(geometry) + bytes(nodes) + bytes(domain) + bytes(moments) + bytes(light) +
+         bytes(radiometry) + bytes(slot) + bytes(clusters) + bytes(key) + bytes(outlines) + bytes(frames);
+}
+
+}  // namespace deltalux

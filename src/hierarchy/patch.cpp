@@ -1,0 +1,333 @@
+#include "hierarchy/patch.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "base/random.hpp"
+#include "hierarchy/outline.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr int kMaxDepth = 14;         // four bits below the 2 * 14 that addresses use
+constexpr double kLongAndThin = 1.6;  // aspect above which a patch is halved rather than quartered
+
+double areaScale(const PlaneFrame& f) { return glm::length(glm::cross(f.edgeU, f.edgeV)); }
+
+Vec3 onPlane(const PlaneFrame& f, const Vec2& uv) { return f.origin + uv.x * f.edgeU + uv.y * f.edgeV; }
+
+/// World lengths of the patch's rectangle along u and v.
+Vec2 worldSize(const Elements& elements, const Scene& scene, ElementId e) {
+  const PatchDomain& d = elements.domain[e.index()];
+  const double du = d.u1 - d.u0, dv = d.v1 - d.v0;
+  if (elements.at(e).flat) {
+    const PlaneFrame& f = elements.frames[d.frame];
+    return {du * glm::length(f.edgeU), dv * glm::length(f.edgeV)};
+  }
+  const Shape& shape = scene[d.primitive].shape;
+  const double um = 0.5 * (d.u0 + d.u1), vm = 0.5 * (d.v0 + d.v1);
+  const auto length = [&](const Vec2& a, const Vec2& m, const Vec2& b) {
+    const Vec3 p = pointAt(shape, m).position;
+    return glm::length(p - pointAt(shape, a).position) + glm::length(pointAt(shape, b).position - p);
+  };
+  return {length({d.u0, vm}, {um, vm}, {d.u1, vm}), length({um, d.v0}, {um, vm}, {um, d.v1})};
+}
+
+void setExtent(ElementGeometry& g, const Box& box) {
+  g.lower = Vec3f(box.lower);
+  g.upper = Vec3f(box.upper);
+}
+
+void shapeFlat(Elements& elements, ElementId e) {
+  const PatchDomain& d = elements.domain[e.index()];
+  const PlaneFrame& f = elements.frames[d.frame];
+  const auto outline = elements.outline(e);
+  ElementGeometry& g = elements.geometry[e.index()];
+  ElementNodes& n = elements.nodes[e.index()];
+  const double scale = areaScale(f);
+  const double area = std::abs(outlineArea(outline)) * scale;
+  const Vec3f normal = Vec3f(elements.at(e).front ? f.normal : -f.normal);
+  g.area = static_cast<float>(area);
+  g.normal = normal;
+  g.normalCone = 1.0f;
+  const Vec3 center = onPlane(f, outlineCentroid(outline));
+  g.center = Vec3f(center);
+  Box box;
+  double radius = 0;
+  for (const Vec2& q : outline) {
+    const Vec3 p = onPlane(f, q);
+    box.extend(p);
+    radius = std::max(radius, glm::length(p - center));
+  }
+  g.radius = static_cast<float>(radius);
+  setExtent(g, box);
+
+  // One node per quadrant of the rectangle: the centroid of what the outline leaves of it.
+  const double um = 0.5 * (d.u0 + d.u1), vm = 0.5 * (d.v0 + d.v1);
+  for (int q = 0; q < 4; ++q) {
+    const auto half = clipOutline(outline, 0, um, (q & 1) == 0);
+    const auto quarter = clipOutline(half, 1, vm, (q & 2) == 0);
+    const double part = quarter.size() < 3 ? 0.0 : std::abs(outlineArea(quarter)) * scale;
+    Vec2 c = part > 0 ? outlineCentroid(quarter) : Vec2(0.0);
+    if (part > 0 && quarter.size() > 4 && !outlineContains(quarter, c)) {
+      // The centroid lies in a hole: take a point halfway to the first vertex that is inside.
+      for (const Vec2& vertex : quarter) {
+        const Vec2 candidate = glm::mix(c, vertex, 0.97);
+        if (outlineContains(quarter, candidate)) {
+          c = candidate;
+          break;
+        }
+      }
+    }
+    n.position[q] = part > 0 ? Vec3f(onPlane(f, c)) : g.center;
+    n.normal[q] = normal;
+    n.weight[q] = area > 0 ? static_cast<float>(part / area) : 0.25f;
+  }
+  elements.moments[e.index()] = {harmonics(normal)};
+}
+
+/// Area of the parameter rectangle, up to the primitive's total: equal-area shapes by proportion, cones by the radius.
+double curvedArea(const Shape& shape, const PatchDomain& d) {
+  const double whole = area(shape) * (d.u1 - d.u0);
+  if (const auto* cone = std::get_if<Cone>(&shape)) {
+    const auto integral = [&](double v) { return cone->radius0 * v + 0.5 * (cone->radius1 - cone->radius0) * v * v; };
+    return whole * (integral(d.v1) - integral(d.v0)) / integral(1.0);
+  }
+  return whole * (d.v1 - d.v0);
+}
+
+void shapeCurved(Elements& elements, const Scene& scene, ElementId e) {
+  const PatchDomain& d = elements.domain[e.index()];
+  const Shape& shape = scene[d.primitive].shape;
+  const float sign = elements.at(e).front ? 1.0f : -1.0f;
+  ElementGeometry& g = elements.geometry[e.index()];
+  ElementNodes& n = elements.nodes[e.index()];
+  g.area = static_cast<float>(curvedArea(shape, d));
+  const double du = d.u1 - d.u0, dv = d.v1 - d.v0;
+
+  // A grid of points and normals bounds the patch, widened by how far the surface bulges between grid points.
+  constexpr int kGrid = 8;
+  std::array<Vec3f, (kGrid + 1) * (kGrid + 1)> normals;
+  Box box;
+  Vec3f mean(0.0f), center(0.0f);
+  NormalMoments moments;
+  float weights = 0;
+  const auto* cone = std::get_if<Cone>(&shape);
+  for (int j = 0; j <= kGrid; ++j) {
+    for (int i = 0; i <= kGrid; ++i) {
+      const double v = d.v0 + dv * j / kGrid;
+      const SurfacePoint p = pointAt(shape, {d.u0 + du * i / kGrid, v});
+      const Vec3f normal = sign * Vec3f(p.normal);
+      normals[static_cast<std::size_t>(j * (kGrid + 1) + i)] = normal;
+      box.extend(p.position);
+      const float radius = cone ? static_cast<float>(cone->radius0 + v * (cone->radius1 - cone->radius0)) : 1.0f;
+      const float w = radius * (i == 0 || i == kGrid ? 0.5f : 1.0f) * (j == 0 || j == kGrid ? 0.5f : 1.0f);
+      const auto y = harmonics(normal);
+      for (int k = 0; k < kHarmonics; ++k) moments.m[k] += w * y[k];
+      mean += w * normal;
+      center += w * Vec3f(p.position);
+      weights += w;
+    }
+  }
+  for (float& m : moments.m) m /= weights;
+  elements.moments[e.index()] = moments;
+  g.center = center / weights;
+  const Box whole = bounds(shape);
+  const double step = 2 * kPi * std::max(du, dv) / kGrid;
+  const double bulge = (1 - std::cos(std::min(kPi / 2, 0.5 * step))) * 0.5 * whole.diagonal();
+  box = {glm::max(box.lower - bulge, whole.lower), glm::min(box.upper + bulge, whole.upper)};
+  setExtent(g, box);
+  g.radius = static_cast<float>(0.5 * box.diagonal());
+  const float length = glm::length(mean) / weights;
+  g.normal = length > 0.05f ? glm::normalize(mean) : Vec3f(0.0f);
+  g.normalCone = -1.0f;
+  if (length > 0.05f) {
+    g.normalCone = 1.0f;
+    for (const Vec3f& normal : normals) g.normalCone = std::min(g.normalCone, glm::dot(normal, g.normal));
+    const double widened = std::acos(std::clamp(static_cast<double>(g.normalCone), -1.0, 1.0)) + 0.25 * step;
+    g.normalCone = widened >= kPi ? -1.0f : static_cast<float>(std::cos(widened));
+  }
+  for (int q = 0; q < 4; ++q) {
+    const double u = d.u0 + du * ((q & 1) ? 0.75 : 0.25), v = d.v0 + dv * ((q & 2) ? 0.75 : 0.25);
+    const SurfacePoint p = pointAt(shape, {u, v});
+    n.position[q] = Vec3f(p.position);
+    n.normal[q] = sign * Vec3f(p.normal);
+    n.weight[q] = cone ? static_cast<float>(cone->radius0 + v * (cone->radius1 - cone->radius0)) : 1.0f;
+  }
+  const float sum = n.weight[0] + n.weight[1] + n.weight[2] + n.weight[3];
+  for (float& w : n.weight) w /= sum;
+}
+
+}  // namespace
+
+PatchPoint pointOn(const Elements& elements, const Scene& scene, ElementId patch, double u, double v) {
+  const PatchDomain& d = elements.domain[patch.index()];
+  const bool front = elements.at(patch).front;
+  if (elements.at(patch).flat) {
+    const PlaneFrame& f = elements.frames[d.frame];
+    return {Vec3f(onPlane(f, {u, v})), Vec3f(front ? f.normal : -f.normal)};
+  }
+  const SurfacePoint p = pointAt(scene[d.primitive].shape, {u, v});
+  return {Vec3f(p.position), Vec3f(front ? p.normal : -p.normal)};
+}
+
+PatchPoint samplePatch(const Elements& elements, const Scene& scene, ElementId patch, double a, double b) {
+  const PatchDomain& d = elements.domain[patch.index()];
+  const double du = d.u1 - d.u0, dv = d.v1 - d.v0;
+  if (!elements.at(patch).flat) return pointOn(elements, scene, patch, d.u0 + a * du, d.v0 + b * dv);
+  const auto outline = elements.outline(patch);
+  const bool full = outline.size() == 4 && std::abs(outlineArea(outline)) > 0.9999 * du * dv;
+  Vec2 uv{d.u0 + a * du, d.v0 + b * dv};
+  if (!full && !outlineContains(outline, uv)) {
+    // Rejection keeps samples uniform; the sequence depends on (a,b) alone.
+    Rng rng(combineKeys(static_cast<std::uint64_t>(a * 0x1p53), static_cast<std::uint64_t>(b * 0x1p53)));
+    for (int attempt = 0; attempt < 64; ++attempt) {
+      uv = {d.u0 + rng.uniform() * du, d.v0 + rng.uniform() * dv};
+      if (outlineContains(outline, uv)) break;
+      if (attempt == 63) uv = glm::mix(outlineCentroid(outline), outline[0], 0.5);
+    }
+  }
+  return pointOn(elements, scene, patch, uv.x, uv.y);
+}
+
+void shapePatch(Elements& elements, const Scene& scene, ElementId patch) {
+  if (elements.at(patch).flat)
+    shapeFlat(elements, patch);
+  else
+    shapeCurved(elements, scene, patch);
+}
+
+Vec3f directionOf(const Elements& elements, const Scene& scene, ElementId e, double a, double b) {
+  const auto& emitter = scene[elements.light[e.index()]].emitter;
+  Vec3 axis;
+  double halfAngle;
+  if (const auto* sun = std::get_if<SunLight>(&emitter)) {
+    axis = sun->direction, halfAngle = sun->angularRadius;
+  } else {
+    const auto& dome = std::get<DomeLight>(emitter);
+    axis = dome.axis, halfAngle = dome.halfAngle;
+  }
+  const PatchDomain& d = elements.domain[e.index()];
+  const double phi = 2 * kPi * (d.u0 + a * (d.u1 - d.u0));
+  // 1 - cos, so that the sun's small cap keeps its precision.
+  const double cap = 2 * std::pow(std::sin(0.5 * halfAngle), 2) * (d.v0 + b * (d.v1 - d.v0));
+  const double sine = std::sqrt(std::max(0.0, cap * (2 - cap)));
+  return Vec3f(Frame(axis).toWorld({sine * std::cos(phi), sine * std::sin(phi), 1 - cap}));
+}
+
+void shapeDistant(Elements& elements, const Scene& scene, ElementId e) {
+  const PatchDomain& d = elements.domain[e.index()];
+  const Light& light = scene[elements.light[e.index()]];
+  ElementGeometry& g = elements.geometry[e.index()];
+  ElementLight& r = elements.radiometry[e.index()];
+  const auto* sun = std::get_if<SunLight>(&light.emitter);
+  const auto* dome = std::get_if<DomeLight>(&light.emitter);
+  const double halfAngle = sun ? sun->angularRadius : dome->halfAngle;
+  g.area = static_cast<float>(4 * kPi * std::pow(std::sin(0.5 * halfAngle), 2) * (d.u1 - d.u0) * (d.v1 - d.v0));
+
+  constexpr int kGrid = 8;
+  Vec3f mean(0.0f);
+  RgbSum radiance(0.0);
+  for (int j = 0; j < kGrid; ++j) {
+    for (int i = 0; i < kGrid; ++i) {
+      const Vec3f w = directionOf(elements, scene, e, (i + 0.5) / kGrid, (j + 0.5) / kGrid);
+      mean += w;
+      radiance += RgbSum(sun ? sun->radiance : skyRadiance(*dome, Vec3(w))) / double(kGrid * kGrid);
+    }
+  }
+  r.B = Rgb(radiance) * light.scale;
+  g.center = glm::length(mean) > 1e-3f ? glm::normalize(mean) : directionOf(elements, scene, e, 0.5, 0.0);
+  g.normal = -g.center;
+  g.normalCone = 1.0f;
+  // The far box holds the cell's directions at a distance at which the scene is small.
+  const double distance = 100.0 * std::max(elements.sceneBox.diagonal(), 1e-6);
+  const Vec3 origin = elements.sceneBox.empty() ? Vec3(0.0) : elements.sceneBox.center();
+  Box box;
+  for (int j = 0; j <= kGrid; ++j) {
+    for (int i = 0; i <= kGrid; ++i) {
+      const Vec3f w = directionOf(elements, scene, e, double(i) / kGrid, double(j) / kGrid);
+      g.normalCone = std::min(g.normalCone, glm::dot(w, g.center));
+      box.extend(origin + distance * Vec3(w));
+    }
+  }
+  const double step = halfAngle * 2 * std::max(d.u1 - d.u0, d.v1 - d.v0) / kGrid;
+  const double bulge = distance * (1 - std::cos(std::min(kPi / 2, step)));
+  setExtent(g, {box.lower - bulge, box.upper + bulge});
+  g.radius = static_cast<float>(std::acos(std::clamp(g.normalCone, -1.0f, 1.0f)));  // angular, for distant elements
+  for (int q = 0; q < 4; ++q) {
+    elements.nodes[e.index()].position[q] =
+        directionOf(elements, scene, e, (q & 1) ? 0.75 : 0.25, (q & 2) ? 0.75 : 0.25);
+    elements.nodes[e.index()].normal[q] = -elements.nodes[e.index()].position[q];
+    elements.nodes[e.index()].weight[q] = 0.25f;
+  }
+}
+
+bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
+  if (!elements.isLeaf(e)) return true;
+  const ElementTopology parent = elements.at(e);
+  const PatchDomain whole = elements.domain[e.index()];
+  if (parent.depth >= kMaxDepth || parent.kind == ElementKind::Cluster || parent.kind == ElementKind::Point)
+    return false;
+  if (parent.kind == ElementKind::Distant && std::holds_alternative<SunLight>(scene[elements.light[e.index()]].emitter))
+    return false;
+
+  bool splitU = true, splitV = true;
+  if (parent.kind == ElementKind::Patch) {
+    const Vec2 size = worldSize(elements, scene, e);
+    splitU = size.x * kLongAndThin > size.y;
+    splitV = size.y * kLongAndThin > size.x;
+  } else if (parent.depth == 0) {
+    splitU = true, splitV = true;
+  }
+  const float um = 0.5f * (whole.u0 + whole.u1), vm = 0.5f * (whole.v0 + whole.v1);
+  std::vector<PatchDomain> parts;
+  std::vector<std::vector<Vec2>> outlines;
+  for (int q = 0; q < 4; ++q) {
+    if ((!splitU && (q & 1)) || (!splitV && (q & 2))) continue;
+    PatchDomain d = whole;
+    if (splitU) (q & 1 ? d.u0 : d.u1) = um;
+    if (splitV) (q & 2 ? d.v0 : d.v1) = vm;
+    d.address = whole.address << 2 | static_cast<std::uint64_t>(q);
+    std::vector<Vec2> outline;
+    if (parent.flat) {
+      const auto source = elements.outline(e);
+      outline.assign(source.begin(), source.end());
+      if (splitU) outline = clipOutline(outline, 0, um, (q & 1) == 0);
+      if (splitV) outline = clipOutline(outline, 1, vm, (q & 2) == 0);
+      const double cell = double(d.u1 - d.u0) * double(d.v1 - d.v0);
+      if (outline.size() < 3 || std::abs(outlineArea(outline)) < 1e-9 * cell) continue;
+    }
+    parts.push_back(d);
+    outlines.push_back(std::move(outline));
+  }
+  if (parts.empty()) return false;
+
+  const ElementId first = elements.addChildren(e, parent.kind, parts.size());
+  const ElementLight inherited = elements.radiometry[e.index()];
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const ElementId c = elements.child(e, i);
+    ElementTopology& t = elements.topology[c.index()];
+    t.front = parent.front, t.emitter = parent.emitter, t.flat = parent.flat;
+    t.depth = static_cast<std::uint8_t>(parent.depth + 1);
+    PatchDomain& d = elements.domain[c.index()];
+    d = parts[i];
+    d.outline = static_cast<std::uint32_t>(elements.outlines.size());
+    d.outlineSize = static_cast<std::uint32_t>(outlines[i].size());
+    elements.outlines.insert(elements.outlines.end(), outlines[i].begin(), outlines[i].end());
+    elements.light[c.index()] = elements.light[e.index()];
+    elements.geometry[c.index()].meanFreePath = elements.geometry[e.index()].meanFreePath;
+    elements.key[c.index()] = combineKeys(elements.key[e.index()], d.address);
+    ElementLight& r = elements.radiometry[c.index()];
+    r = inherited;
+    r.directGathered = r.indirectGathered = r.particle = Rgb(0.0f);
+    if (parent.kind == ElementKind::Distant)
+      shapeDistant(elements, scene, c);
+    else
+      shapePatch(elements, scene, c);
+  }
+  (void)first;
+  return true;
+}
+
+}  // namespace deltalux

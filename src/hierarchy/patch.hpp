@@ -1,0 +1,32 @@
+#pragma once
+// Geometry of patches: from a domain on a primitive to extent, quadrature nodes and children. Flat patches are exact
+// (outline clipped to the quadrant); curved ones follow their primitive's implicit parameterisation.
+#include "hierarchy/element.hpp"
+
+namespace deltalux {
+
+/// A point of a patch with the unit normal of the patch's side.
+struct PatchPoint {
+  Vec3f position, normal;
+};
+
+/// The point at parameters (u,v) of the patch's primitive (of its triangle, for meshes).
+PatchPoint pointOn(const Elements&, const Scene&, ElementId patch, double u, double v);
+
+/// A point of the patch from two numbers in [0,1): uniform by area for flat patches and for equal-area shapes.
+PatchPoint samplePatch(const Elements&, const Scene&, ElementId patch, double a, double b);
+
+/// Fills geometry, nodes, moments and reflectances of a patch whose domain, side and frame are set.
+void shapePatch(Elements&, const Scene&, ElementId patch);
+
+/// Splits a leaf patch into quadrants (into halves when it is long and thin), or a leaf cell of a sky dome into four.
+/// Children inherit light and reflectances; quadrants that miss the outline are left out. False when it cannot be
+/// split.
+bool subdivide(Elements&, const Scene&, ElementId element);
+
+/// Fills a Distant element whose light and domain are set (a cell of its dome's directions, equal in solid angle).
+void shapeDistant(Elements&, const Scene&, ElementId element);
+/// Unit direction towards the point (a,b) in [0,1]^2 of the cell.
+Vec3f directionOf(const Elements&, const Scene&, ElementId element, double a, double b);
+
+}  // namespace deltalux

@@ -1,0 +1,25 @@
+#pragma once
+// Candidate blockers of a link: handed down from parent to child link and shrunk by the child's shaft. An empty list
+// proves that the ends see each other in full; one polygon across the whole shaft proves that they do not. Both without
+// a ray, and both hold until something moves.
+#include <vector>
+
+#include "hierarchy/element.hpp"
+#include "radiosity/shaft.hpp"
+
+namespace deltalux {
+
+/// Clusters and input-level patches that may stand between the ends of a link.
+using Blockers = std::vector<ElementId>;
+
+/// What is left of `candidates` between receiver and sender. Clusters that meet the shaft are opened while the list is
+/// short. Appends to `out`.
+void shrinkBlockers(const Elements&, const Scene&, ElementId receiver, ElementId sender, const ElementId* candidates,
+                    std::size_t count, Blockers& out);
+
+/// Whether one opaque polygon of `candidates` separates every point of the receiver's box from every point of the
+/// sender's box.
+bool provablyBlocked(const Elements&, const Scene&, ElementId receiver, ElementId sender, const ElementId* candidates,
+                     std::size_t count);
+
+}  // namespace deltalux

@@ -1,0 +1,19 @@
+#pragma once
+// A first answer before any link exists: a few rays from every side of every input-level surface give what it sees, the
+// light it gets directly, and from both a radiosity solution with one value a surface. It tells refinement how large
+// the irradiances will be (so that no threshold is absolute), how far surroundings are, and which sides no light can
+// reach: the inside of a closed box gets no element. Cost: about 2^20 rays, whatever the scene's size above 2^15 sides.
+#include "hierarchy/build.hpp"
+#include "tracing/ray_tracer.hpp"
+
+namespace deltalux {
+
+struct CoarseReport {
+  std::uint64_t rays = 0;
+  std::size_t sides = 0, reachable = 0;
+};
+
+/// The sides that light can reach, with mean free path and a first estimate of irradiance.
+std::vector<SurfaceSide> coarseSolution(const Scene&, const RayTracer&, CoarseReport* = nullptr);
+
+}  // namespace deltalux

@@ -1,0 +1,31 @@
+#include "radiosity/form_factor.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace deltalux {
+
+double formFactorToPolygon(const Vec3f& x, const Vec3f& n, std::span<const Vec3f> polygon) {
+  constexpr std::size_t kMax = 64;
+  std::array<Vec3f, 2 * kMax> clipped;
+  std::size_t count = 0;
+  const std::size_t size = std::min(polygon.size(), kMax);
+  for (std::size_t i = 0; i < size; ++i) {
+    const Vec3f a = polygon[i] - x, b = polygon[(i + 1) % size] - x;
+    const float ha = glm::dot(a, n), hb = glm::dot(b, n);
+    if (ha >= 0) clipped[count++] = a;
+    if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) clipped[count++] = a + ha / (ha - hb) * (b - a);
+  }
+  if (count < 3) return 0.0;
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3f &a = clipped[i], &b = clipped[(i + 1) % count];
+    const Vec3f c = glm::cross(a, b);
+    const float length = glm::length(c);
+    if (length <= 0) continue;
+    sum += std::atan2(length, glm::dot(a, b)) * (glm::dot(c, n) / length);
+  }
+  return std::min(1.0, std::abs(sum) / (2 * kPi));
+}
+
+}  // namespace deltalux

@@ -1,0 +1,73 @@
+#include "radiosity/gather.hpp"
+
+#include <algorithm>
+
+#include "base/parallel.hpp"
+
+namespace deltalux {
+
+GatherPlan::GatherPlan(const Links& links, const Elements& elements) {
+  // Counting sort by receiver, direct senders first; links keep their order within.
+  const auto carries = [&](const Link& l) { return l.state == LinkState::Active && l.K > 0 && !isBlack(l.V); };
+  std::vector<std::uint32_t> direct(elements.size() + 1, 0), indirect(elements.size() + 1, 0);
+  for (const Link& l : links.all)
+    if (carries(l)) ++(elements.at(l.sender).emitter ? direct : indirect)[l.receiver.index()];
+  std::uint32_t total = 0;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const std::uint32_t d = direct[e], i = indirect[e];
+    if (d + i > 0) {
+      receivers_.push_back(ElementId(e));
+      begin_.push_back(total);
+      split_.push_back(total + d);
+    }
+    direct[e] = total;
+    indirect[e] = total + d;
+    total += d + i;
+  }
+  begin_.push_back(total);
+  transfers_.resize(total);
+  for (const Link& l : links.all) {
+    if (!carries(l)) continue;
+    auto& next = (elements.at(l.sender).emitter ? direct : indirect)[l.receiver.index()];
+    transfers_[next++] = {l.sender, l.K * l.V};
+  }
+}
+
+std::size_t GatherPlan::memoryBytes() const {
+  return receivers_.capacity() * sizeof(ElementId) + (begin_.capacity() + split_.capacity()) * 4 +
+         transfers_.capacity() * sizeof(Transfer);
+}
+
+void GatherPlan::gatherDirect(Elements& elements) const { gather(elements, true); }
+void GatherPlan::gatherIndirect(Elements& elements) const { gather(elements, false); }
+
+void GatherPlan::gather(Elements& elements, bool direct) const {
+  parallelFor(receivers_.size(), 64, [&](std::size_t i) {
+    const ElementId r = receivers_[i];
+    const std::uint32_t first = direct ? begin_[i] : split_[i], last = direct ? split_[i] : begin_[i + 1];
+    const Vec3f center = elements.shape(r).center;
+    const bool clusterReceiver = elements.isCluster(r);
+    Rgb sum(0.0f);
+    DirectionalRgb field;
+    for (std::uint32_t k = first; k < last; ++k) {
+      const Transfer& t = transfers_[k];
+      const bool distant = elements.isDistant(t.sender);
+      Rgb E = t.T;
+      Vec3f w(0.0f);
+      if (clusterReceiver || elements.isCluster(t.sender))
+        w = distant ? elements.shape(t.sender).center : glm::normalize(elements.shape(t.sender).center - center);
+      E *= elements.isCluster(t.sender) ? elements.cluster(t.sender).intensity.at(-w)
+                                        : elements.radiometry[t.sender.index()].B;
+      if (clusterReceiver)
+        field.addLobe(w, E);
+      else
+        sum += E;
+    }
+    if (clusterReceiver)
+      (direct ? elements.cluster(r).directGathered : elements.cluster(r).indirectGathered) = field;
+    else
+      (direct ? elements.radiometry[r.index()].directGathered : elements.radiometry[r.index()].indirectGathered) = sum;
+  });
+}
+
+}  // namespace deltalux

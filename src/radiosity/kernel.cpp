@@ -1,0 +1,229 @@
+#include "radiosity/kernel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hierarchy/patch.hpp"
+#include "radiosity/form_factor.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr float kNear = 5.0f;  // in radii of the sender: nearer than this, Lambert's formula replaces the nodes
+
+bool isZero(const Vec3f& v) { return v.x == 0.0f && v.y == 0.0f && v.z == 0.0f; }
+
+/// Signed reach of a box above the plane through `p` with normal `n`.
+float reachAbove(const ElementGeometry& g, const Vec3f& p, const Vec3f& n) {
+  const Vec3f half = 0.5f * (g.upper - g.lower);
+  return glm::dot(0.5f * (g.upper + g.lower) - p, n) + glm::dot(half, glm::abs(n));
+}
+
+/// Relative intensity of a point light into `w` (its colour is the element's B).
+double relativeIntensity(const Light& light, const Vec3& w) {
+  return std::visit(
+      [&](const auto& emitter) -> double {
+        if constexpr (requires { radiantIntensity(emitter, w); }) {
+          const float value = maxChannel(radiantIntensity(emitter, w));
+          float peak = 1;
+          if constexpr (requires { emitter.intensity; })
+            peak = maxChannel(emitter.intensity);
+          else
+            peak = maxChannel(emitter.scale);
+          return peak > 0 ? value / peak : 0.0f;
+        } else {
+          return 0.0;
+        }
+      },
+      light.emitter);
+}
+
+const SpotCone* spotOf(const Elements& elements, const Scene& scene, ElementId sender) {
+  if (!elements.at(sender).emitter || !elements.isPatch(sender)) return nullptr;
+  const auto& emission = scene.materialOf(elements.domain[sender.index()].primitive).emission;
+  return emission && emission->spot ? &*emission->spot : nullptr;
+}
+
+/// Radiance's rule inside the cone: the inverse square counts from a focus behind the source. [conventions.md]
+double spotFactor(const SpotCone& spot, const Vec3f& toReceiver, float distance) {
+  const double focal = glm::length(spot.direction);
+  const double cosine = focal > 0 ? glm::dot(Vec3(toReceiver), spot.direction) / focal : 1.0;
+  if (cosine < std::cos(0.5 * spot.fullAngle)) return 0.0;
+  const double ratio = distance / (distance + focal);
+  return ratio * ratio;
+}
+
+/// World vertices of a flat patch's outline, up to 64.
+std::size_t worldOutline(const Elements& elements, ElementId e, std::array<Vec3f, 64>& out) {
+  const PlaneFrame& f = elements.frames[elements.domain[e.index()].frame];
+  const auto outline = elements.outline(e);
+  const std::size_t count = std::min<std::size_t>(outline.size(), out.size());
+  for (std::size_t i = 0; i < count; ++i) out[i] = Vec3f(f.origin + outline[i].x * f.edgeU + outline[i].y * f.edgeV);
+  return count;
+}
+
+/// The point of `g`'s box nearest to `p`; for flat patches moved into their plane.
+Vec3f nearestPoint(const ElementGeometry& g, const Vec3f& p, bool flat) {
+  Vec3f q = glm::clamp(p, g.lower, g.upper);
+  if (flat) q -= glm::dot(q - g.center, g.normal) * g.normal;
+  return q;
+}
+
+/// Whether the side of a curved shape looks at itself.
+bool hollow(const Shape& shape, bool front) {
+  return std::visit(
+      [&](const auto& s) {
+        if constexpr (requires { s.inward; })
+          return s.inward == front;
+        else
+          return false;
+      },
+      shape);
+}
+
+}  // namespace
+
+double pointKernel(const Elements& elements, const Scene& scene, const Vec3f& x, const Vec3f& n, ElementId sender,
+                   const Vec3f& y, const Vec3f& m) {
+  if (elements.isDistant(sender)) return isZero(n) ? 1.0 : std::max(0.0f, glm::dot(n, y));
+  const Vec3f d = y - x;
+  const float squared = glm::dot(d, d);
+  if (squared <= 0) return 0;
+  const float distance = std::sqrt(squared);
+  const Vec3f w = d / distance;
+  const float cosReceiver = isZero(n) ? 1.0f : glm::dot(n, w);
+  if (cosReceiver <= 0) return 0;
+  if (elements.isPoint(sender))
+    return relativeIntensity(scene[elements.light[sender.index()]], -Vec3(w)) * cosReceiver / squared;
+  if (elements.isCluster(sender)) return cosReceiver / squared;
+  const float cosSender = -glm::dot(m, w);
+  if (cosSender <= 0) return 0;
+  double k = cosReceiver * cosSender / (kPi * squared);
+  if (const SpotCone* spot = spotOf(elements, scene, sender)) k *= spotFactor(*spot, -w, distance);
+  return k;
+}
+
+double kernelAtPoint(const Elements& elements, const Scene& scene, const Vec3f& x, const Vec3f& n, ElementId sender) {
+  const ElementGeometry& g = elements.shape(sender);
+  const ElementNodes& nodes = elements.nodes[sender.index()];
+  if (elements.isPoint(sender)) return pointKernel(elements, scene, x, n, sender, g.center, Vec3f(0.0f));
+  if (elements.isPatch(sender) && elements.at(sender).flat && !isZero(n) && !spotOf(elements, scene, sender)) {
+    const Vec3f d = g.center - x;
+    if (glm::dot(d, d) < kNear * kNear * g.radius * g.radius) {
+      if (glm::dot(x - g.center, g.normal) <= 0) return 0;
+      std::array<Vec3f, 64> outline;
+      const std::size_t count = worldOutline(elements, sender, outline);
+      return formFactorToPolygon(x, n, {outline.data(), count});
+    }
+  }
+  double sum = 0;
+  for (int j = 0; j < 4; ++j) {
+    if (nodes.weight[j] <= 0) continue;
+    double k = pointKernel(elements, scene, x, n, sender, nodes.position[j], nodes.normal[j]);
+    if (elements.isPatch(sender)) {
+      // The kernel towards a disc of the node's area stays bounded when the points nearly touch.
+      const Vec3f d = nodes.position[j] - x;
+      const double squared = glm::dot(d, d), part = nodes.weight[j] * g.area;
+      k *= g.area * squared / (squared + part / kPi);
+    } else if (elements.isDistant(sender)) {
+      k *= g.area;
+    }
+    sum += nodes.weight[j] * k;
+  }
+  return sum;
+}
+
+namespace {
+/// A hollow patch lights itself: mean over pairs of its nodes, of which little is certain.
+void selfKernel(const Elements& elements, const Scene& scene, ElementId e, Kernel& result) {
+  const ElementNodes& nodes = elements.nodes[e.index()];
+  double sum = 0, weights = 0;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      if (i == j) continue;
+      const double w = nodes.weight[i] * nodes.weight[j];
+      sum +=
+          w * pointKernel(elements, scene, nodes.position[i], nodes.normal[i], e, nodes.position[j], nodes.normal[j]);
+      weights += w;
+    }
+  }
+  if (weights > 0) result.K = static_cast<float>(std::min(1.0, sum / weights * elements.shape(e).area));
+  result.receiverSpread = 0.5f * result.K;
+}
+}  // namespace
+
+Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, ElementId sender) {
+  Kernel result;
+  const ElementGeometry &r = elements.shape(receiver), &s = elements.shape(sender);
+  const ElementTopology &rt = elements.at(receiver), &st = elements.at(sender);
+  const bool clusterReceiver = rt.kind == ElementKind::Cluster, clusterSender = st.kind == ElementKind::Cluster;
+  if (receiver == sender) {
+    if (clusterReceiver)
+      result.overlapping = true;
+    else if (rt.flat || !hollow(scene[elements.domain[receiver.index()].primitive].shape, rt.front))
+      result.averted = true;  // a flat or convex surface does not see itself
+    else
+      selfKernel(elements, scene, receiver, result);
+    return result;
+  }
+  const float size = std::max({std::abs(r.lower.x), std::abs(r.lower.y), std::abs(r.lower.z), std::abs(r.upper.x),
+                               std::abs(r.upper.y), std::abs(r.upper.z)});
+  const float touch = 4e-6f * size;
+  if (rt.flat && !clusterReceiver) {
+    const float reach = st.kind == ElementKind::Distant
+                            ? [&] { float top = -1; for (int j = 0; j < 4; ++j) top = std::max(top, glm::dot(elements.nodes[sender.index()].position[j], r.normal)); return top + s.radius; }()
+                            : reachAbove(s, r.center, r.normal);
+    if (reach <= (st.kind == ElementKind::Distant ? 0.0f : touch)) {
+      result.averted = true;
+      return result;
+    }
+  }
+  if (st.flat && st.kind == ElementKind::Patch && reachAbove(r, s.center, s.normal) <= touch) {
+    result.averted = true;
+    return result;
+  }
+  if ((clusterReceiver || clusterSender) && st.kind != ElementKind::Distant) {
+    result.overlapping = elements.box(receiver).overlaps(elements.box(sender));
+    if (result.overlapping) return result;
+  }
+
+  const ElementNodes& nodes = elements.nodes[receiver.index()];
+  const auto normalAt = [&](int i) { return clusterReceiver ? Vec3f(0.0f) : nodes.normal[i]; };
+  double mean = 0;
+  std::array<double, 4> at{};
+  for (int i = 0; i < 4; ++i) {
+    if (nodes.weight[i] <= 0) continue;
+    at[i] = kernelAtPoint(elements, scene, nodes.position[i], normalAt(i), sender);
+    mean += nodes.weight[i] * at[i];
+  }
+  double spread = 0;
+  for (int i = 0; i < 4; ++i)
+    if (nodes.weight[i] > 0) spread = std::max(spread, std::abs(at[i] - mean));
+  if (st.kind != ElementKind::Distant) {
+    // A small sender close to a large receiver peaks between the nodes: look where it is nearest.
+    const Vec3f x = nearestPoint(r, s.center, rt.flat && !clusterReceiver);
+    const double peak = kernelAtPoint(elements, scene, x, rt.flat && !clusterReceiver ? r.normal : normalAt(0), sender);
+    spread = std::max(spread, std::abs(peak - mean));
+  }
+  result.K = static_cast<float>(mean);
+  result.receiverSpread = static_cast<float>(spread);
+
+  // Over the sender: its nodes one by one, seen from the receiver's centre.
+  double low = kInfinity, high = 0;
+  const ElementNodes& senderNodes = elements.nodes[sender.index()];
+  for (int j = 0; j < 4 && st.kind != ElementKind::Point; ++j) {
+    if (senderNodes.weight[j] <= 0) continue;
+    double k = pointKernel(elements, scene, r.center, clusterReceiver ? Vec3f(0.0f) : r.normal, sender,
+                           senderNodes.position[j], senderNodes.normal[j]);
+    if (st.kind == ElementKind::Patch || st.kind == ElementKind::Distant) k *= s.area;
+    low = std::min(low, k), high = std::max(high, k);
+  }
+  if (high > 0) result.senderSpread = static_cast<float>(0.5 * std::min(high - low, 2 * mean));
+  if (clusterSender) result.senderSpread += kHarmonicSpread * result.K;
+  if (clusterReceiver) result.receiverSpread += kHarmonicSpread * result.K;
+  return result;
+}
+
+}  // namespace deltalux

@@ -1,0 +1,50 @@
+#pragma once
+// When to refine a link, from one number: the target relative error of irradiance. A link may err by the power
+//
+//     budget(r) = share * error * tolerance(r) * max(A_r, A_0(r)),   A_0 = (scale * mean free path)^2
+//
+// where tolerance(r) is the irradiance that r has now (a mean that favours dark parts) and A_0 the area that matters to
+// the light of r's surroundings: light varies over distances like those to other surfaces [as in Ward & Heckbert 1992],
+// so an error on less than A_0 weighs only as much as its share of A_0. Nothing here depends on the scene's size, and
+// shadow edges end at patches of about error * A_0.
+#include "hierarchy/link.hpp"
+
+namespace deltalux {
+
+/// Calibrated against reference values (docs/calibration.md); not meant to be set by users.
+struct OracleSettings {
+  double error = 0.05;  // target relative error of irradiance
+  double share = 0.3;   // of the target that one link may take
+  double scale = 0.08;  // of the mean free path, gives the side of A_0
+  double floor = 0.05;  // least tolerance, relative to the scene's mean tolerance
+};
+
+/// What the oracle finds about one link, all in watts (gray).
+struct LinkError {
+  double receiver = 0;  // what splitting the receiver may mend
+  double sender = 0;    // what splitting the sender may mend
+  double visibility = 0;
+  double power = 0;  // unoccluded transfer
+  double budget = 0;
+
+  double total() const { return receiver + sender + visibility; }
+};
+
+class Oracle {
+ public:
+  Oracle(const Elements&, const OracleSettings&);
+
+  /// The error of a link whose K and spreads are set; visibility counts as far as it is known.
+  LinkError judge(const Link&) const;
+  /// Power that links to `receiver` may err by [W].
+  double budget(ElementId receiver) const;
+  /// Side of the area that matters around an element, squared: A_0.
+  double referenceArea(ElementId) const;
+
+ private:
+  const Elements& elements_;
+  OracleSettings settings_;
+  double floor_ = 0;
+};
+
+}  // namespace deltalux

@@ -1,0 +1,156 @@
+#include "radiosity/push_pull.hpp"
+
+#include <cmath>
+
+namespace deltalux {
+
+namespace {
+
+/// The same place on the other side of a surface, at no finer level; invalid when that side has no element.
+ElementId otherSide(const Elements& elements, ElementId leaf) {
+  ElementId input = leaf;
+  while (elements.at(input).depth > 0) input = elements.at(input).parent;
+  const PatchDomain &d = elements.domain[leaf.index()], &top = elements.domain[input.index()];
+  const ElementId parent = elements.at(input).parent;
+  ElementId other;
+  for (std::size_t i = 0; i < elements.at(parent).childCount; ++i) {
+    const ElementId c = elements.child(parent, i);
+    if (elements.isPatch(c) && elements.domain[c.index()].primitive == top.primitive &&
+        elements.domain[c.index()].triangle == top.triangle && elements.at(c).front != elements.at(input).front)
+      other = c;
+  }
+  if (!other.valid()) return other;
+  const float u = 0.5f * (d.u0 + d.u1), v = 0.5f * (d.v0 + d.v1);
+  while (!elements.isLeaf(other) && elements.at(other).depth < elements.at(leaf).depth) {
+    ElementId next;
+    for (std::size_t i = 0; i < elements.at(other).childCount; ++i) {
+      const PatchDomain& c = elements.domain[elements.child(other, i).index()];
+      if (u >= c.u0 && u <= c.u1 && v >= c.v0 && v <= c.v1) next = elements.child(other, i);
+    }
+    if (!next.valid()) break;
+    other = next;
+  }
+  return other;
+}
+
+/// Light from above each element: scalar below the input level, directional at clusters.
+void push(Elements& elements) {
+  std::vector<DirectionalRgb> direct(elements.clusters.size()), indirect(elements.clusters.size());
+  std::vector<std::uint32_t> source(elements.size(), Id<void>::kNone);  // slot of the cluster above a patch
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const ElementTopology& t = elements.topology[i];
+    if (t.emitter) continue;
+    if (t.kind == ElementKind::Cluster) {
+      const std::uint32_t slot = elements.slot[i];
+      const ClusterLight& own = elements.clusters[slot];
+      direct[slot] = own.directGathered;
+      indirect[slot] = own.indirectGathered;
+      if (t.parent.valid()) {
+        direct[slot] += direct[elements.slot[t.parent.index()]];
+        indirect[slot] += indirect[elements.slot[t.parent.index()]];
+      }
+      continue;
+    }
+    ElementLight& light = elements.radiometry[i];
+    light.direct = light.directGathered;
+    light.indirect = light.indirectGathered;
+    const bool input = t.depth == 0;
+    source[i] = input ? elements.slot[t.parent.index()] : source[t.parent.index()];
+    if (!input) {
+      light.direct += elements.radiometry[t.parent.index()].direct;
+      light.indirect += elements.radiometry[t.parent.index()].indirect;
+    }
+    // A flat surface takes its clusters' light once, a curved one where its orientation is known best: at the leaves.
+    if (t.flat ? input : t.childCount == 0) {
+      light.direct += direct[source[i]].mean(elements.moments[i]);
+      light.indirect += indirect[source[i]].mean(elements.moments[i]);
+    }
+  }
+}
+
+void pullIrradiance(Elements& elements) {
+  for (std::size_t i = elements.size(); i-- > 0;) {
+    const ElementTopology& t = elements.topology[i];
+    if (t.emitter) continue;
+    ElementLight& light = elements.radiometry[i];
+    if (t.childCount == 0) {
+      light.tolerance = gray(light.direct + light.indirect + light.particle);
+      continue;
+    }
+    RgbSum direct(0.0), indirect(0.0), particle(0.0);
+    double area = 0, root = 0;
+    for (std::size_t c = 0; c < t.childCount; ++c) {
+      const std::size_t child = t.firstChild.index() + c;
+      if (elements.topology[child].blocker) continue;
+      const double a = elements.geometry[child].area;
+      const ElementLight& l = elements.radiometry[child];
+      direct += a * RgbSum(l.direct), indirect += a * RgbSum(l.indirect), particle += a * RgbSum(l.particle);
+      root += a * std::sqrt(l.tolerance);
+      area += a;
+    }
+    if (area <= 0) continue;
+    light.direct = Rgb(direct / area), light.indirect = Rgb(indirect / area), light.particle = Rgb(particle / area);
+    light.tolerance = static_cast<float>(root / area * root / area);
+  }
+}
+
+RgbSum reflectAndPull(Elements& elements) {
+  RgbSum change(0.0);
+  for (std::size_t i = elements.size(); i-- > 0;) {
+    const ElementTopology& t = elements.topology[i];
+    const ElementId e(i);
+    if (t.kind == ElementKind::Cluster) {
+      DirectionalRgb& intensity = elements.clusters[elements.slot[i]].intensity;
+      intensity = {};
+      for (std::size_t c = 0; c < t.childCount; ++c) {
+        const ElementId child = elements.child(e, c);
+        if (elements.isCluster(child))
+          intensity += elements.cluster(child).intensity;
+        else if (elements.isPatch(child))
+          intensity.addLobe(elements.moments[child.index()],
+                            elements.shape(child).area / float(kPi) * elements.radiometry[child.index()].B);
+      }
+      continue;
+    }
+    if (t.emitter) continue;
+    ElementLight& light = elements.radiometry[i];
+    const float area = elements.geometry[i].area;
+    if (t.childCount == 0) {
+      Rgb B = light.rho * (light.direct + light.indirect + light.particle);
+      if (!isBlack(light.tau)) {
+        const ElementId other = otherSide(elements, e);
+        if (other.valid()) {
+          const ElementLight& o = elements.radiometry[other.index()];
+          B += light.tau * (o.direct + o.indirect + o.particle);
+        }
+      }
+      change += RgbSum(area * glm::abs(B - light.B));
+      light.B = B;
+      continue;
+    }
+    RgbSum power(0.0);
+    double total = 0;
+    for (std::size_t c = 0; c < t.childCount; ++c) {
+      const std::size_t child = t.firstChild.index() + c;
+      power += double(elements.geometry[child].area) * RgbSum(elements.radiometry[child].B);
+      total += elements.geometry[child].area;
+    }
+    if (total > 0) light.B = Rgb(power / total);
+  }
+  return change;
+}
+
+}  // namespace
+
+void pull(Elements& elements) {
+  pullIrradiance(elements);
+  reflectAndPull(elements);
+}
+
+RgbSum pushPull(Elements& elements) {
+  push(elements);
+  pullIrradiance(elements);
+  return reflectAndPull(elements);
+}
+
+}  // namespace deltalux

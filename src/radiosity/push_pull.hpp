@@ -1,0 +1,17 @@
+#pragma once
+// Push-pull: irradiance gathered at all levels is pushed down to the leaf patches, reflected there (B = rho E + tau E
+// of the other side), and averaged by area on the way up; clusters sum what their surfaces send as a function of
+// direction [GD01 2.1; Sillion 1995]. The one writer of B, direct, indirect, tolerance and cluster intensities. Cost:
+// linear in elements; parents stand before their children, so both ways are plain loops.
+#include "hierarchy/element.hpp"
+
+namespace deltalux {
+
+/// Runs over the whole hierarchy. Returns the power by which leaf radiosities changed: sum of A |dB| per channel [W in
+/// unit^2 as area].
+RgbSum pushPull(Elements&);
+
+/// The upward half alone: from the irradiances that the leaves have (a first estimate), everything above.
+void pull(Elements&);
+
+}  // namespace deltalux

@@ -1,0 +1,300 @@
+#include "radiosity/refine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "hierarchy/patch.hpp"
+#include "radiosity/blockers.hpp"
+#include "radiosity/kernel.hpp"
+#include "radiosity/visibility.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr int kFewSamples = 4, kSomeSamples = 8, kManySamples = 16;
+constexpr float kFineCell = 0.2f;  // radians: sky cells larger than this are split before the surface they light
+
+enum class Split : std::uint8_t { None, Receiver, Sender, Both };
+
+/// A range of blocker candidates in the arena of a level.
+struct ListRef {
+  std::uint32_t begin = 0, count = 0;
+};
+
+struct Task {
+  LinkId link;
+  ListRef candidates;  // in the arena of the parent level
+};
+
+struct Verdict {
+  Link link;  // as judged
+  Split split = Split::None;
+  ListRef blockers;  // in the arena of the block, then of the level
+  std::uint16_t rays = 0;
+};
+
+class Judge {
+ public:
+  Judge(const Elements& elements, const Scene& scene, const RayTracer& tracer, const OracleSettings& settings)
+      : elements_(elements), scene_(scene), tracer_(tracer), oracle_(elements, settings) {}
+
+  /// `candidates` are the parent's blockers; the link's own are appended to `arena`.
+  Verdict judge(Link link, const ElementId* candidates, std::size_t count, Blockers& arena) const {
+    Verdict v;
+    const bool leaf = link.state != LinkState::Interior;
+    const Kernel k = kernel(elements_, scene_, link.receiver, link.sender);
+    const ElementTopology& r = elements_.at(link.receiver);
+    if (k.averted || r.blocker || !sends(link.sender)) {
+      link.state = LinkState::Averted;
+      link.K = 0;
+      v.link = link;
+      return v;
+    }
+    link.K = k.K, link.receiverSpread = k.receiverSpread, link.senderSpread = k.senderSpread;
+    const auto shrink = [&] {
+      v.blockers.begin = static_cast<std::uint32_t>(arena.size());
+      shrinkBlockers(elements_, scene_, link.receiver, link.sender, candidates, count, arena);
+      v.blockers.count = static_cast<std::uint32_t>(arena.size()) - v.blockers.begin;
+    };
+    if (k.overlapping) {
+      shrink();
+      v.split = link.receiver == link.sender ? Split::Both : splitOverlapping(link);
+      v.link = link;
+      return v;
+    }
+    if (!leaf) {
+      shrink();
+      v.link = link;
+      return v;
+    }
+    if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) {
+      shrink();
+      const ElementId* own = arena.data() + v.blockers.begin;
+      const bool solidEnds = !elements_.isCluster(link.receiver) && !elements_.isCluster(link.sender);
+      if (v.blockers.count == 0 && solidEnds) {
+        link.visibility = Visibility::Clear;
+        link.V = Rgb(1.0f);
+        link.visibilitySpread = 0;
+      } else if (link.visibility == Visibility::Unknown &&
+                 provablyBlocked(elements_, scene_, link.receiver, link.sender, own, v.blockers.count)) {
+        link.visibility = Visibility::Blocked;
+        link.V = Rgb(0.0f);
+        link.visibilitySpread = 0;
+      }
+    }
+    if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) sample(link, v);
+    v.split = choose(link);
+    v.link = link;
+    return v;
+  }
+
+  /// Whether an active link, as it stands, would be worth another look.
+  bool unsettled(const Link& link) const {
+    if (link.state != LinkState::Active || link.visibility == Visibility::Blocked) return false;
+    const LinkError e = oracle_.judge(link);
+    return e.total() > e.budget || wantedSamples(link, e) > link.samples;
+  }
+
+ private:
+  bool sends(ElementId sender) const {
+    const ElementTopology& s = elements_.at(sender);
+    if (s.kind != ElementKind::Patch || s.emitter) return true;
+    const ElementLight& l = elements_.radiometry[sender.index()];
+    return !isBlack(l.rho) || !isBlack(l.tau);
+  }
+
+  int wantedSamples(const Link& link, const LinkError& e) const {
+    if (link.visibility != Visibility::Unknown && link.visibility != Visibility::Sampled) return 0;
+    const double weight = e.power / std::max(e.budget, 1e-30);
+    return weight < 0.5 ? kFewSamples : weight < 2 ? kSomeSamples : kManySamples;
+  }
+
+  void sample(Link& link, Verdict& v) const {
+    const auto take = [&](int samples) {
+      if (samples <= link.samples) return;
+      const VisibilityEstimate e = sampleVisibility(elements_, scene_, tracer_, link.receiver, link.sender, samples);
+      v.rays = static_cast<std::uint16_t>(v.rays + samples);
+      link.V = e.V, link.visibilitySpread = e.spread, link.sampleMask = e.mask, link.samples = e.samples;
+      link.visibility = Visibility::Sampled;
+    };
+    const int wanted = wantedSamples(link, oracle_.judge(link));
+    take(std::min(wanted, kFewSamples));
+    // When the kernel alone demands a split and light does pass, better visibility would be thrown away.
+    const LinkError e = oracle_.judge(link);
+    if (wanted > kFewSamples && !(e.receiver + e.sender > e.budget)) take(wanted);
+  }
+
+  Split splitOverlapping(const Link& link) const {
+    const bool clusterReceiver = elements_.isCluster(link.receiver), clusterSender = elements_.isCluster(link.sender);
+    if (clusterReceiver && clusterSender)
+      return elements_.shape(link.receiver).radius >= elements_.shape(link.sender).radius ? Split::Receiver
+                                                                                          : Split::Sender;
+    return clusterReceiver ? Split::Receiver : Split::Sender;
+  }
+
+  Split choose(const Link& link) const {
+    if (link.visibility == Visibility::Blocked) return Split::None;
+    LinkError e = oracle_.judge(link);
+    const ElementGeometry &r = elements_.shape(link.receiver), &s = elements_.shape(link.sender);
+    const bool clusterReceiver = elements_.isCluster(link.receiver), clusterSender = elements_.isCluster(link.sender);
+    if (link.visibility == Visibility::Sampled && isBlack(link.V)) {
+      // What the rays may have missed shrinks with the gaps between them.
+      const double gap = std::sqrt(std::min(1.0, r.area / std::max(oracle_.referenceArea(link.receiver), 1e-30)));
+      e.visibility *= elements_.isDistant(link.sender) && !isSun(link.sender) ? gap * std::min(1.0f, s.radius) : gap;
+    }
+    if (!(e.total() > e.budget)) return Split::None;
+    if (link.receiver == link.sender) return Split::Both;
+    if (elements_.isDistant(link.sender)) {
+      if (!isSun(link.sender) && s.radius > kFineCell) return Split::Sender;
+      return Split::Receiver;
+    }
+    if (elements_.isPoint(link.sender)) return Split::Receiver;
+    if (clusterReceiver != clusterSender) {
+      if (clusterSender)
+        return e.receiver > e.sender + e.visibility && r.radius > s.radius ? Split::Receiver : Split::Sender;
+      return e.sender > e.receiver + e.visibility && s.radius > r.radius ? Split::Sender : Split::Receiver;
+    }
+    if (clusterReceiver) return r.radius >= s.radius ? Split::Receiver : Split::Sender;
+    // Partial visibility is told apart best by the end that is larger.
+    (r.area >= s.area ? e.receiver : e.sender) += e.visibility;
+    return e.receiver >= e.sender ? Split::Receiver : Split::Sender;
+  }
+
+  bool isSun(ElementId e) const { return std::holds_alternative<SunLight>(scene_[elements_.light[e.index()]].emitter); }
+
+  const Elements& elements_;
+  const Scene& scene_;
+  const RayTracer& tracer_;
+  Oracle oracle_;
+};
+
+/// Children of `link` after splitting its end(s), appended contiguously. False when the end cannot be split.
+bool splitLink(Links& links, Elements& elements, const Scene& scene, LinkId id, Split split) {
+  const ElementId receiver = links[id].receiver, sender = links[id].sender;
+  const bool splitReceiver = split != Split::Sender, splitSender = split != Split::Receiver;
+  if (splitReceiver && !elements.isCluster(receiver) && !subdivide(elements, scene, receiver)) return false;
+  if (splitSender && !elements.isCluster(sender) && !subdivide(elements, scene, sender)) return false;
+  const std::size_t rCount = splitReceiver ? elements.at(receiver).childCount : 1;
+  const std::size_t sCount = splitSender ? elements.at(sender).childCount : 1;
+  if (rCount * sCount == 0 || rCount * sCount > 65535) return false;
+  const LinkId first(links.size());
+  for (std::size_t i = 0; i < rCount; ++i) {
+    for (std::size_t j = 0; j < sCount; ++j) {
+      Link child;
+      child.parent = id;
+      child.receiver = splitReceiver ? elements.child(receiver, i) : receiver;
+      child.sender = splitSender ? elements.child(sender, j) : sender;
+      links.all.push_back(child);
+    }
+  }
+  Link& parent = links[id];
+  parent.state = LinkState::Interior;
+  parent.firstChild = first;
+  parent.childCount = static_cast<std::uint16_t>(rCount * sCount);
+  return true;
+}
+
+/// Links that lead to an active link worth another look, marked with all their ancestors.
+std::vector<char> markUnsettled(const Links& links, const Judge& judge) {
+  std::vector<char> marked(links.size(), 0);
+  parallelFor(links.size(), 4096, [&](std::size_t i) { marked[i] = judge.unsettled(links.all[i]); });
+  for (std::size_t i = links.size(); i-- > 0;) {
+    // Children stand behind their parents, so one backward pass reaches the roots.
+    const LinkId parent = links.all[i].parent;
+    if (marked[i] && parent.valid()) marked[parent.index()] = 1;
+  }
+  return marked;
+}
+
+}  // namespace
+
+void makeRootLinks(Links& links, const Elements& elements) {
+  if (!links.roots.empty() || !elements.sceneRoot.valid()) return;
+  const auto add = [&](ElementId sender) {
+    Link link;
+    link.receiver = elements.sceneRoot;
+    link.sender = sender;
+    links.roots.push_back(LinkId(links.size()));
+    links.all.push_back(link);
+  };
+  add(elements.sceneRoot);
+  if (elements.lightRoot.valid()) add(elements.lightRoot);
+  for (const ElementId e : elements.distant) add(e);
+}
+
+RefineReport refine(Links& links, Elements& elements, const Scene& scene, const RayTracer& tracer,
+                    const OracleSettings& settings, const std::function<bool()>& stop) {
+  RefineReport report;
+  makeRootLinks(links, elements);
+  std::vector<char> marked;
+  {
+    const Judge judge(elements, scene, tracer, settings);
+    marked = markUnsettled(links, judge);
+  }
+  const std::size_t known = links.size();
+
+  Blockers arena(1, elements.sceneRoot);
+  std::vector<Task> tasks;
+  for (const LinkId root : links.roots)
+    if (marked[root.index()]) tasks.push_back({root, {0, 1}});
+
+  while (!tasks.empty()) {
+    constexpr std::size_t kBlock = 256;
+    const Judge judge(elements, scene, tracer, settings);
+    std::vector<Verdict> verdicts(tasks.size());
+    std::vector<Blockers> blocks((tasks.size() + kBlock - 1) / kBlock);
+    parallelBlocks(tasks.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+      Blockers& own = blocks[begin / kBlock];
+      for (std::size_t i = begin; i < end; ++i) {
+        const Task& t = tasks[i];
+        verdicts[i] = judge.judge(links[t.link], arena.data() + t.candidates.begin, t.candidates.count, own);
+      }
+    });
+    report.judged += tasks.size();
+
+    Blockers nextArena;
+    std::vector<Task> next;
+    const bool stopping = stop && stop();
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const auto base = static_cast<std::uint32_t>(nextArena.size());
+      nextArena.insert(nextArena.end(), blocks[b].begin(), blocks[b].end());
+      for (std::size_t i = b * kBlock; i < std::min(tasks.size(), (b + 1) * kBlock); ++i) {
+        Verdict& v = verdicts[i];
+        const LinkId id = tasks[i].link;
+        v.blockers.begin += base;
+        report.rays += v.rays;
+        const bool wasInterior = links[id].state == LinkState::Interior;
+        if (!wasInterior) {
+          links[id] = v.link;
+          report.provenClear += v.link.visibility == Visibility::Clear;
+          report.provenBlocked += v.link.visibility == Visibility::Blocked;
+        }
+        const bool mustSplit = v.split != Split::None && !wasInterior;
+        const bool optional =
+            v.link.receiver != v.link.sender && v.link.K >= 0 && v.link.visibility != Visibility::Unknown;
+        if (mustSplit && stopping && optional) {
+          report.stopped = true;
+          continue;
+        }
+        if (mustSplit) {
+          if (!splitLink(links, elements, scene, id, v.split)) continue;
+          ++report.split;
+          report.created += links[id].childCount;
+        } else if (!wasInterior) {
+          continue;
+        }
+        for (std::size_t c = 0; c < links[id].childCount; ++c) {
+          const LinkId child = links.child(id, c);
+          if (child.index() >= known || marked[child.index()]) next.push_back({child, v.blockers});
+        }
+      }
+    }
+    arena = std::move(nextArena);
+    tasks = std::move(next);
+  }
+  return report;
+}
+
+}  // namespace deltalux

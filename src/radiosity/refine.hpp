@@ -1,0 +1,30 @@
+#pragma once
+// Refinement: descends the link tree from its roots (one self-link of the whole scene, and one link from every light),
+// level by level, with the blocker lists handed from parent to child; accepts links whose error is within the budget
+// and splits an end of the others [GD01 2.1; Sillion 1995 III.B; Haines & Wallace 1991].
+//
+// A level is judged in parallel from frozen elements, then committed in order, so the result does not depend on the
+// thread count. Links accepted earlier are judged again with today's radiosities: refining an already refined tree
+// with a smaller error continues it (multigridding).
+// Cost: one kernel, one shaft and at most kMaxSamples rays a link.
+#include <functional>
+
+#include "hierarchy/link.hpp"
+#include "radiosity/oracle.hpp"
+#include "tracing/ray_tracer.hpp"
+
+namespace deltalux {
+
+struct RefineReport {
+  std::uint64_t judged = 0, created = 0, split = 0, rays = 0, provenClear = 0, provenBlocked = 0;
+  bool stopped = false;  // ended early; the tree is consistent, some links err by more than their budget
+};
+
+/// Makes the root links of `elements` if there are none yet.
+void makeRootLinks(Links&, const Elements&);
+
+/// `stop` is asked between levels; true ends refinement with a consistent tree.
+RefineReport refine(Links&, Elements&, const Scene&, const RayTracer&, const OracleSettings&,
+                    const std::function<bool()>& stop = {});
+
+}  // namespace deltalux

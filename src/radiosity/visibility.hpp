@@ -1,0 +1,23 @@
+#pragma once
+// Visibility of a link by stratified rays between points of its ends, weighted by the kernel. Points of clusters are
+// points of their surfaces, so that what a cluster hides of itself counts. The samples depend on the link's stable key
+// alone, and more samples extend the same sequence.
+#include "hierarchy/link.hpp"
+#include "tracing/ray_tracer.hpp"
+
+namespace deltalux {
+
+inline constexpr int kMaxSamples = 32;
+
+struct VisibilityEstimate {
+  Rgb V{0.0f};
+  float spread = 0;  // bound on |V(x) - V| over the receiver
+  std::uint32_t mask = 0;
+  std::uint8_t samples = 0;
+};
+
+/// `samples` in 1..kMaxSamples rays.
+VisibilityEstimate sampleVisibility(const Elements&, const Scene&, const RayTracer&, ElementId receiver,
+                                    ElementId sender, int samples);
+
+}  // namespace deltalux

@@ -1,0 +1,233 @@
+#include "scene/light_sampling.hpp"
+
+#include <algorithm>
+
+#include "base/check.hpp"
+#include "scene/light_sampling_triangle.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr double kMinSolidAngle = 1e-3;  // below, area sampling is as good and keeps more digits
+constexpr std::size_t kMaxTrianglesBySolidAngle = 8;
+
+/// A direction within 1 - cos <= `depth` of `axis`, uniform in solid angle.
+Vec3 sampleCap(const Vec3& axis, double depth, const Vec2& u) {
+  const double down = u.x * depth, radius = std::sqrt(std::max(0.0, down * (2.0 - down))), phi = 2.0 * kPi * u.y;
+  return Frame(axis).toWorld({radius * std::cos(phi), radius * std::sin(phi), 1.0 - down});
+}
+
+double sunDepth(const SunLight& sun) { return solidAngle(sun) / (2.0 * kPi); }
+
+/// 1 - cos of the cone that a sphere fills from outside.
+double coneDepth(double radius, double distance) {
+  const double sin2 = radius * radius / (distance * distance);
+  return sin2 / (1.0 + std::sqrt(1.0 - sin2));
+}
+
+
+template <class Emitter>
+std::optional<LightSample> samplePoint(const Emitter& light, const Rgb& scale, const Vec3& from) {
+  const Vec3 d = light.position - from;
+  const double squared = glm::dot(d, d);
+  if (!(squared > 0.0)) return std::nullopt;
+  const double distance = std::sqrt(squared);
+  const Vec3 direction = d / distance;
+  const Rgb I = radiantIntensity(light, -direction) * scale;
+  if (isBlack(I)) return std::nullopt;
+  return LightSample{direction, distance, Vec3(0), I * static_cast<float>(1.0 / squared), 0.0};
+}
+
+const Emission* emissionOf(const Scene& scene, PrimitiveId p) {
+  const auto& emission = scene.materialOf(p).emission;
+  return emission ? &*emission : nullptr;
+}
+
+}  // namespace
+
+LightSampler::LightSampler(const Scene& scene) : scene_(scene), lightOf_(scene.primitives.size()) {
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    Prepared prepared;
+    const auto& emitter = scene.lights[i].emitter;
+    if (const auto* area = std::get_if<AreaLight>(&emitter)) {
+      if (emissionOf(scene, area->primitive)) {
+        prepared.area = prepareArea(area->primitive);
+        lightOf_[area->primitive.index()] = LightId(i);
+      }
+    } else if (const auto* dome = std::get_if<DomeLight>(&emitter)) {
+      prepared.dome.emplace(*dome);
+      atInfinity_.push_back(LightId(i));
+    } else if (std::holds_alternative<SunLight>(emitter)) {
+      atInfinity_.push_back(LightId(i));
+    }
+    prepared_.push_back(std::move(prepared));
+  }
+}
+
+LightSampler::AreaData LightSampler::prepareArea(PrimitiveId p) const {
+  AreaData data{p, {}, {}, 0};
+  const Shape& shape = scene_[p].shape;
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) {
+    for (const auto& t : polygon->triangles) {
+      data.triangles.push_back({polygon->vertices[t[0]], polygon->vertices[t[1]], polygon->vertices[t[2]]});
+    }
+  } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    for (const auto& t : mesh->triangles) {
+      data.triangles.push_back({mesh->positions[t[0]], mesh->positions[t[1]], mesh->positions[t[2]]});
+    }
+  } else {
+    data.area = area(shape);
+  }
+  for (const Triangle& t : data.triangles) {
+    data.cumulative.push_back(data.area += 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a)));
+  }
+  return data;
+}
+
+bool LightSampler::isPointLike(LightId id) const {
+  const auto& emitter = scene_[id].emitter;
+  return std::holds_alternative<PointLight>(emitter) || std::holds_alternative<SpotLight>(emitter) ||
+         std::holds_alternative<LambertPointLight>(emitter) || std::holds_alternative<PhotometricLight>(emitter);
+}
+
+std::optional<LightSample> LightSampler::sample(LightId id, const Vec3& from, const Vec2& u) const {
+  const Prepared& prepared = prepared_[id.index()];
+  if (prepared.area) return sampleArea(id, *prepared.area, from, u);
+  if (prepared.dome) {
+    const DomeTable::Sample s = prepared.dome->sample(u);
+    return LightSample{s.direction, kInfinity, Vec3(0), radianceFrom(id, s.direction), s.pdf};
+  }
+  const Light& light = scene_[id];
+  if (const auto* sun = std::get_if<SunLight>(&light.emitter)) {
+    const Vec3 direction = sampleCap(sun->direction, sunDepth(*sun), u);
+    return LightSample{direction, kInfinity, Vec3(0), sun->radiance * light.scale, 1.0 / solidAngle(*sun)};
+  }
+  if (const auto* point = std::get_if<PointLight>(&light.emitter)) return samplePoint(*point, light.scale, from);
+  if (const auto* spot = std::get_if<SpotLight>(&light.emitter)) return samplePoint(*spot, light.scale, from);
+  if (const auto* lambert = std::get_if<LambertPointLight>(&light.emitter)) return samplePoint(*lambert, light.scale, from);
+  if (const auto* measured = std::get_if<PhotometricLight>(&light.emitter)) return samplePoint(*measured, light.scale, from);
+  return std::nullopt;
+}
+
+bool LightSampler::bySolidAngle(const AreaData& data, const Vec3& from, double& omega) const {
+  if (data.triangles.empty() || data.triangles.size() > kMaxTrianglesBySolidAngle ||
+      !std::holds_alternative<Polygon>(scene_[data.primitive].shape)) {
+    return false;
+  }
+  // Cheap upper bound first: a far polygon needs no exact solid angle.
+  const Triangle& first = data.triangles.front();
+  const Vec3 normal = std::get<Polygon>(scene_[data.primitive].shape).normal;
+  const double height = std::abs(glm::dot(from - first.a, normal));
+  if (height < 1e-9 * std::sqrt(data.area)) return false;
+  const Vec3 toFirst = first.a - from;
+  if (data.area * height < kMinSolidAngle * 0.1 * std::pow(glm::dot(toFirst, toFirst), 1.5)) return false;
+  omega = 0;
+  for (const Triangle& t : data.triangles) {
+    omega += sphericalTriangleArea(glm::normalize(t.a - from), glm::normalize(t.b - from), glm::normalize(t.c - from));
+  }
+  return omega > kMinSolidAngle;
+}
+
+std::optional<LightSample> LightSampler::finishArea(LightId id, const AreaData& data, const Vec3& from, const Vec3& point,
+                                                    const Vec3& normal, double omega) const {
+  const Vec3 d = point - from;
+  const double squared = glm::dot(d, d);
+  if (!(squared > 0.0)) return std::nullopt;
+  const double distance = std::sqrt(squared);
+  const Vec3 direction = d / distance;
+  const double cosine = -glm::dot(direction, normal);
+  const bool front = cosine > 0.0;
+  if (cosine == 0.0) return std::nullopt;
+  const Rgb L = emittedRadiance(id, -direction, distance, front);
+  if (isBlack(L)) return std::nullopt;
+  const double density = omega > 0.0 ? 1.0 / omega : squared / (data.area * std::abs(cosine));
+  return LightSample{direction, distance, front ? normal : -normal, L, density};
+}
+
+std::optional<LightSample> LightSampler::sampleArea(LightId id, const AreaData& data, const Vec3& from, const Vec2& u) const {
+  const Shape& shape = scene_[data.primitive].shape;
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    const Vec3 toCenter = sphere->center - from;
+    const double d = glm::length(toCenter);
+    const bool outside = d > sphere->radius * (1.0 + 1e-9);
+    const double depth = outside ? coneDepth(sphere->radius, d) : 2.0;
+    const Vec3 direction = sampleCap(d > 0.0 ? toCenter / d : Vec3(0, 0, 1), depth, u);
+    const double along = glm::dot(toCenter, direction);
+    const double half = std::sqrt(std::max(0.0, sphere->radius * sphere->radius - (d * d - along * along)));
+    const Vec3 point = from + (outside ? along - half : along + half) * direction;
+    const Vec3 outward = glm::normalize(point - sphere->center);
+    return finishArea(id, data, from, point, sphere->inward ? -outward : outward, 2.0 * kPi * depth);
+  }
+  if (data.triangles.empty()) {
+    const SurfacePoint point = deltalux::samplePoint(shape, u);
+    return finishArea(id, data, from, point.position, point.normal, 0.0);
+  }
+  double omega = 0;
+  if (bySolidAngle(data, from, omega)) {
+    const Vec3 normal = std::get<Polygon>(shape).normal;
+    double rest = u.x * omega;
+    for (std::size_t i = 0; i < data.triangles.size(); ++i) {
+      const Triangle& t = data.triangles[i];
+      const Vec3 a = glm::normalize(t.a - from), b = glm::normalize(t.b - from), c = glm::normalize(t.c - from);
+      const double part = sphericalTriangleArea(a, b, c);
+      if (rest >= part && i + 1 < data.triangles.size()) {
+        rest -= part;
+        continue;
+      }
+      const Vec3 direction = sampleSphericalTriangle(a, b, c, {std::min(rest / part, 1.0), u.y});
+      const double along = glm::dot(direction, normal);
+      if (along == 0.0) return std::nullopt;
+      return finishArea(id, data, from, from + glm::dot(t.a - from, normal) / along * direction, normal, omega);
+    }
+  }
+  const double target = u.x * data.area;
+  const auto it = std::upper_bound(data.cumulative.begin(), data.cumulative.end() - 1, target);
+  const std::size_t i = static_cast<std::size_t>(it - data.cumulative.begin());
+  const double below = i > 0 ? data.cumulative[i - 1] : 0.0;
+  const double within = std::clamp((target - below) / (*it - below), 0.0, 1.0);
+  const Triangle& t = data.triangles[i];
+  const double root = std::sqrt(within);
+  const Vec3 point = t.a * (1.0 - root) + t.b * (root * (1.0 - u.y)) + t.c * (root * u.y);
+  return finishArea(id, data, from, point, glm::normalize(glm::cross(t.b - t.a, t.c - t.a)), 0.0);
+}
+
+double LightSampler::pdf(LightId id, const Vec3& from, const Vec3& direction, double distance, const Vec3& normal) const {
+  const Prepared& prepared = prepared_[id.index()];
+  if (prepared.dome) return prepared.dome->pdf(direction);
+  if (const auto* sun = std::get_if<SunLight>(&scene_[id].emitter)) return 1.0 / solidAngle(*sun);
+  if (!prepared.area) return 0.0;
+  const AreaData& data = *prepared.area;
+  if (const auto* sphere = std::get_if<Sphere>(&scene_[data.primitive].shape)) {
+    const double d = glm::length(sphere->center - from);
+    return 1.0 / (2.0 * kPi * (d > sphere->radius * (1.0 + 1e-9) ? coneDepth(sphere->radius, d) : 2.0));
+  }
+  double omega = 0;
+  if (bySolidAngle(data, from, omega)) return 1.0 / omega;
+  const double cosine = std::abs(glm::dot(direction, normal));
+  return cosine > 0.0 ? distance * distance / (data.area * cosine) : 0.0;
+}
+
+Rgb LightSampler::emittedRadiance(LightId id, const Vec3& direction, double distance, bool front) const {
+  const Emission& emission = *emissionOf(scene_, std::get<AreaLight>(scene_[id].emitter).primitive);
+  if (!front && !emission.bothSides) return Rgb(0.0f);
+  double factor = 1.0;
+  if (emission.spot) {
+    const double focal = glm::length(emission.spot->direction);
+    const double cosine = glm::dot(direction, emission.spot->direction);
+    if (cosine < std::cos(0.5 * emission.spot->fullAngle) * focal) return Rgb(0.0f);
+    factor = distance / (distance + focal);
+  }
+  return emission.radiance * scene_[id].scale * static_cast<float>(factor * factor);
+}
+
+Rgb LightSampler::radianceFrom(LightId id, const Vec3& towards) const {
+  const Light& light = scene_[id];
+  if (const auto* dome = std::get_if<DomeLight>(&light.emitter)) return skyRadiance(*dome, towards) * light.scale;
+  const auto& sun = std::get<SunLight>(light.emitter);
+  // |a - b|^2 = 2 (1 - cos) keeps the digits that the cosine of a small angle loses.
+  const Vec3 d = towards - sun.direction;
+  return 0.5 * glm::dot(d, d) <= sunDepth(sun) ? sun.radiance * light.scale : Rgb(0.0f);
+}
+
+}  // namespace deltalux

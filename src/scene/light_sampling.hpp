@@ -1,0 +1,79 @@
+#pragma once
+// Light seen from a point: a direction towards every kind of emitter, its density, and the radiance that arrives.
+//
+// Polygons by solid angle (Arvo) where they are large to the eye, else by area; spheres by the cone of visible
+// directions, from inside by all directions; cylinders, cones, rings and meshes by area; suns by their disc; skies by
+// an importance table; point-like lights have one direction and no density. Shadows are the caller's.
+//
+// A spotlight of area A shines only within its cone, and its radiance depends on the distance d to what it lights first,
+// L (d / (d + |direction|))^2, so that E = L A cos cos' / (d + |direction|)^2. [conventions.md]
+#include <deltalux/scene.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scene/light_sampling_dome.hpp"
+
+namespace deltalux {
+
+struct LightSample {
+  Vec3 direction;          // unit, from the point to the light
+  double distance = 0;     // infinite for suns and skies
+  Vec3 normal{0};          // unit, of the emitting side; zero for points and at infinity
+  Rgb radiance{0.0f};      // that arrives unshadowed [W/(sr m2)]; of point-like lights I / d^2 [W/m2]
+  double pdf = 0;          // per solid angle [1/sr]; 0: point-like, the only direction
+};
+
+class LightSampler {
+ public:
+  /// Prepares every light of the scene, which must outlive this. Lights whose primitive does not emit are dark.
+  explicit LightSampler(const Scene&);
+
+  std::size_t size() const { return prepared_.size(); }
+  /// The light that a primitive is, if it emits.
+  LightId lightOf(PrimitiveId p) const { return lightOf_[p.index()]; }
+  /// Suns and skies: where a ray that leaves the scene may still find light.
+  std::span<const LightId> atInfinity() const { return atInfinity_; }
+  /// Point-like lights are reached by sample() alone, never by a ray.
+  bool isPointLike(LightId) const;
+
+  /// A direction from `from` to the light by two numbers in [0,1); nullopt when that sample does not shine on it.
+  std::optional<LightSample> sample(LightId, const Vec3& from, const Vec2& u) const;
+  /// Density of sample() from `from` for the direction that meets the light at `distance`, on the side with `normal`
+  /// (both ignored for lights at infinity) [1/sr].
+  double pdf(LightId, const Vec3& from, const Vec3& direction, double distance, const Vec3& normal) const;
+
+  /// Radiance that an area light sends along unit `direction` to a surface at `distance`; `front`: from its front side.
+  Rgb emittedRadiance(LightId, const Vec3& direction, double distance, bool front) const;
+  /// Radiance that a sun or sky sends from `towards`.
+  Rgb radianceFrom(LightId, const Vec3& towards) const;
+
+ private:
+  struct Triangle {
+    Vec3 a, b, c;
+  };
+  /// What area sampling needs besides the shape itself: triangles of polygons and meshes with summed areas.
+  struct AreaData {
+    PrimitiveId primitive;
+    std::vector<Triangle> triangles;
+    std::vector<double> cumulative;
+    double area = 0;
+  };
+  struct Prepared {
+    std::optional<AreaData> area;
+    std::optional<DomeTable> dome;
+  };
+
+  AreaData prepareArea(PrimitiveId) const;
+  bool bySolidAngle(const AreaData&, const Vec3& from, double& solidAngle) const;
+  std::optional<LightSample> sampleArea(LightId, const AreaData&, const Vec3& from, const Vec2& u) const;
+  std::optional<LightSample> finishArea(LightId, const AreaData&, const Vec3& from, const Vec3& point, const Vec3& normal,
+                                        double solidAngle) const;
+
+  const Scene& scene_;
+  std::vector<Prepared> prepared_;
+  std::vector<LightId> lightOf_;
+  std::vector<LightId> atInfinity_;
+};
+
+}  // namespace deltalux

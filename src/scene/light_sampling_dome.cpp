@@ -1,0 +1,59 @@
+#include "scene/light_sampling_dome.hpp"
+
+#include <algorithm>
+
+namespace deltalux {
+
+namespace {
+constexpr int kLooks = 3;            // per cell and dimension, when the table is made
+constexpr double kUniformShare = 0.05;  // of the density: no cell is ever impossible
+}  // namespace
+
+DomeTable::DomeTable(const DomeLight& dome) : frame_(dome.axis), depth_(1.0 - std::cos(dome.halfAngle)) {
+  std::vector<double> weights(kRings * kSectors);
+  double sum = 0;
+  for (int cell = 0; cell < kRings * kSectors; ++cell) {
+    for (int k = 0; k < kLooks * kLooks; ++k) {
+      const double azimuth = (cell % kSectors + (k % kLooks + 0.5) / kLooks) / kSectors;
+      const double height = (cell / kSectors + (k / kLooks + 0.5) / kLooks) / kRings;
+      weights[cell] += gray(skyRadiance(dome, direction(azimuth, height)));
+    }
+    sum += weights[cell];
+  }
+  const double cells = kRings * kSectors;
+  double total = 0;
+  for (double w : weights) {
+    total += sum > 0 ? kUniformShare / cells + (1.0 - kUniformShare) * w / sum : 1.0 / cells;
+    cumulative_.push_back(total);
+  }
+  for (double& c : cumulative_) c /= total;
+}
+
+Vec3 DomeTable::direction(double azimuth, double height) const {
+  const double down = height * depth_, radius = std::sqrt(std::max(0.0, down * (2.0 - down)));
+  const double phi = 2.0 * kPi * azimuth;
+  return frame_.toWorld({radius * std::cos(phi), radius * std::sin(phi), 1.0 - down});
+}
+
+DomeTable::Sample DomeTable::sample(const Vec2& u) const {
+  const auto it = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, u.x);
+  const int cell = static_cast<int>(it - cumulative_.begin());
+  const double below = cell > 0 ? cumulative_[cell - 1] : 0.0, chance = *it - below;
+  const double within = std::clamp((u.x - below) / chance, 0.0, 1.0);
+  const Vec3 towards = direction((cell % kSectors + within) / kSectors, (cell / kSectors + u.y) / kRings);
+  return {towards, chance * kRings * kSectors / (2.0 * kPi * depth_)};
+}
+
+double DomeTable::pdf(const Vec3& towards) const {
+  const Vec3 local = frame_.toLocal(towards);
+  const double height = (1.0 - local.z) / depth_;
+  if (!(height <= 1.0)) return 0.0;
+  const double azimuth = std::atan2(local.y, local.x) / (2.0 * kPi);
+  const int ring = std::clamp(static_cast<int>(height * kRings), 0, kRings - 1);
+  const int sector = std::clamp(static_cast<int>((azimuth < 0 ? azimuth + 1.0 : azimuth) * kSectors), 0, kSectors - 1);
+  const int cell = ring * kSectors + sector;
+  const double chance = cumulative_[cell] - (cell > 0 ? cumulative_[cell - 1] : 0.0);
+  return chance * kRings * kSectors / (2.0 * kPi * depth_);
+}
+
+}  // namespace deltalux

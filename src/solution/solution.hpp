@@ -1,0 +1,20 @@
+#pragma once
+// One passive value: all state of a solution.
+#include <deltalux/solution.hpp>
+
+#include "hierarchy/element.hpp"
+#include "hierarchy/link.hpp"
+#include "tracing/ray_tracer.hpp"
+
+namespace deltalux {
+
+struct Solution {
+  Scene scene;  // what was solved: without speculars when settings.diffuseOnly
+  SolveSettings settings;
+  std::shared_ptr<const RayTracer> tracer;  // over `scene`
+  Elements elements;
+  Links links;
+  SolveReport report;
+};
+
+}  // namespace deltalux
