@@ -1,0 +1,168 @@
+#include "io/gltf/material.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/gltf/extension.hpp"
+#include "io/gltf/texture.hpp"
+
+namespace deltalux {
+
+namespace {
+
+using Ignored = std::map<std::string, std::size_t>;
+
+// The inputs of the surface models, textures averaged.
+struct Inputs {
+  Rgb factor{1.0f};  // base colour without its texture
+  Rgb base{1.0f};    // with its average
+  float alpha = 1;
+  float metallic = 1, roughness = 1;
+  float ior = 1.5f;
+  Rgb f0{0.04f};
+  float transmission = 0;
+};
+
+float number(double value) { return static_cast<float>(value); }
+
+Inputs inputsOf(const tinygltf::Material& material, GltfTextures& textures) {
+  const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
+  Inputs in;
+  in.factor = in.base = rgbOf(pbr.baseColorFactor);
+  in.alpha = number(pbr.baseColorFactor[3]);
+  if (pbr.baseColorTexture.index >= 0) in.base *= textures.average(pbr.baseColorTexture.index, TexelEncoding::Srgb);
+  in.metallic = number(pbr.metallicFactor), in.roughness = number(pbr.roughnessFactor);
+  if (pbr.metallicRoughnessTexture.index >= 0) {
+    const Rgb texel = textures.average(pbr.metallicRoughnessTexture.index, TexelEncoding::Linear);
+    in.roughness *= texel.g, in.metallic *= texel.b;
+  }
+  // An ior of 0 stands for a surface that reflects everything. [KHR_materials_ior]
+  in.ior = number(numberOf(extensionOf(material.extensions, "KHR_materials_ior"), "ior", 1.5));
+  const float root = in.ior == 0 ? 1.0f : (in.ior - 1) / (in.ior + 1);
+  const tinygltf::Value* specular = extensionOf(material.extensions, "KHR_materials_specular");
+  const Rgb colour = rgbOf(numbersOf(specular, "specularColorFactor", {1, 1, 1}));
+  in.f0 = glm::min(root * root * colour, Rgb(1.0f)) * number(numberOf(specular, "specularFactor", 1));
+  const tinygltf::Value* transmission = extensionOf(material.extensions, "KHR_materials_transmission");
+  in.transmission = number(numberOf(transmission, "transmissionFactor", 0)) * (1 - in.metallic);
+  return in;
+}
+
+float lobeRoughness(float roughness) {
+  constexpr float kMirror = 1e-3f;  // alpha below which a lobe is narrower than the sun
+  const float alpha = roughness * roughness;
+  return alpha < kMirror ? 0.0f : alpha;
+}
+
+// [glTF 2.0, appendix B.2] with constant lobes.
+Opaque opaqueOf(const Inputs& in, const tinygltf::Material& material, GltfTextures& textures, Scene& scene) {
+  Opaque surface;
+  const int texture = material.pbrMetallicRoughness.baseColorTexture.index;
+  surface.diffuse = in.factor * (1 - in.metallic) * (1 - maxChannel(in.f0));
+  if (texture >= 0 && in.metallic < 1) surface.diffuseTexture = textures.put(texture, scene);
+  surface.specular = {glm::mix(in.f0, in.base, in.metallic), lobeRoughness(in.roughness),
+                      SpecularLobe::Distribution::Ggx};
+  return surface;
+}
+
+// [KHR_materials_volume] Transmission per metre.
+Dielectric dielectricOf(const Inputs& in, const tinygltf::Value& volume) {
+  const double distance = numberOf(&volume, "attenuationDistance", kInfinity);
+  const Rgb colour = rgbOf(numbersOf(&volume, "attenuationColor", {1, 1, 1}));
+  Dielectric surface;
+  surface.ior = in.ior == 0 ? 1.5f : in.ior;
+  for (int c = 0; c < 3; ++c) surface.transmission[c] = number(std::pow(static_cast<double>(colour[c]), 1 / distance));
+  return surface;
+}
+
+Surface surfaceOf(const tinygltf::Material& material, GltfTextures& textures, Scene& scene, Ignored& ignored) {
+  const Inputs in = inputsOf(material, textures);
+  const float paneIor = in.ior == 0 ? 1.5f : in.ior;
+  if (in.transmission >= 0.5f) {
+    const tinygltf::Value* volume = extensionOf(material.extensions, "KHR_materials_volume");
+    if (in.roughness > 0.05f) ++ignored["roughness of glass"];
+    if (numberOf(volume, "thicknessFactor", 0) > 0) return dielectricOf(in, *volume);
+    return ThinGlass{in.base * in.transmission, paneIor};
+  }
+  if (in.transmission > 0) ++ignored["transmission below one half"];
+  if (material.alphaMode == "MASK") ++ignored["alpha masks"];
+  if (material.alphaMode == "BLEND" && in.alpha < 1) return ThinGlass{Rgb(1 - in.alpha), paneIor};
+  return opaqueOf(in, material, textures, scene);
+}
+
+std::optional<Emission> emissionOf(const tinygltf::Material& material, double luminousEfficacy,
+                                   GltfTextures& textures) {
+  if (material.emissiveFactor.size() != 3) return std::nullopt;
+  const double strength =
+      numberOf(extensionOf(material.extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
+  Rgb emissive = rgbOf(material.emissiveFactor);
+  if (isBlack(emissive)) return std::nullopt;
+  if (material.emissiveTexture.index >= 0)
+    emissive *= textures.average(material.emissiveTexture.index, TexelEncoding::Srgb);
+  Emission emission;
+  emission.radiance = emissive * number(strength / luminousEfficacy);
+  emission.bothSides = material.doubleSided;
+  if (isBlack(emission.radiance)) return std::nullopt;
+  return emission;
+}
+
+// [KHR_texture_transform] translation * rotation * scale
+std::optional<TextureUse> textureUseOf(const tinygltf::TextureInfo& info) {
+  TextureUse use;
+  const tinygltf::Value* transform = extensionOf(info.extensions, "KHR_texture_transform");
+  use.texcoordSet = static_cast<int>(numberOf(transform, "texCoord", info.texCoord));
+  const std::vector<double> offset = numbersOf(transform, "offset", {0, 0}),
+                            scale = numbersOf(transform, "scale", {1, 1});
+  const double angle = numberOf(transform, "rotation", 0), c = std::cos(angle), s = std::sin(angle);
+  use.transform = glm::dmat3x2(c * scale[0], -s * scale[0], s * scale[1], c * scale[1], offset[0], offset[1]);
+  return use;
+}
+
+void countIgnored(const tinygltf::Material& material, Ignored& ignored) {
+  if (material.normalTexture.index >= 0) ++ignored["normal textures"];
+  if (material.occlusionTexture.index >= 0) ++ignored["occlusion textures"];
+  if (material.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0)
+    ++ignored["metallic-roughness textures (average used)"];
+  if (material.emissiveTexture.index >= 0) ++ignored["emissive textures (average used)"];
+  for (const auto& [name, value] : material.extensions) {
+    const bool read = name == "KHR_materials_emissive_strength" || name == "KHR_materials_ior" ||
+                      name == "KHR_materials_transmission" || name == "KHR_materials_volume" ||
+                      name == "KHR_materials_specular";
+    if (!read) ++ignored[name];
+    if (value.Has("transmissionTexture")) ++ignored["transmission textures"];
+  }
+}
+
+}  // namespace
+
+GltfMaterials addMaterials(const GltfDocument& document, double luminousEfficacy, Scene& scene,
+                           std::map<std::string, std::size_t>& ignored) {
+  GltfTextures textures(document);
+  GltfMaterials result;
+  for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
+    const tinygltf::Material& source = document.model.materials[i];
+    Material material;
+    material.name = source.name.empty() ? "material" + std::to_string(i) : source.name;
+    material.surface = surfaceOf(source, textures, scene, ignored);
+    material.emission = emissionOf(source, luminousEfficacy, textures);
+    countIgnored(source, ignored);
+    const auto* opaque = std::get_if<Opaque>(&material.surface);
+    const bool textured = opaque && opaque->diffuseTexture.valid();
+    result.texture.push_back(textured ? textureUseOf(source.pbrMetallicRoughness.baseColorTexture) : std::nullopt);
+    scene.materials.push_back(std::move(material));
+  }
+  const bool needsFallback =
+      std::any_of(document.model.meshes.begin(), document.model.meshes.end(), [](const auto& mesh) {
+        return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                           [](const auto& p) { return p.material < 0; });
+      });
+  if (needsFallback) {
+    result.fallback = MaterialId(scene.materials.size());
+    Material material;
+    material.name = "default";
+    material.surface = Opaque{Rgb(0.5f), {}, {}};
+    scene.materials.push_back(std::move(material));
+  }
+  return result;
+}
+
+}  // namespace deltalux

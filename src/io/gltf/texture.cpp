@@ -1,0 +1,43 @@
+#include "io/gltf/texture.hpp"
+
+#include <deltalux/error.hpp>
+
+namespace deltalux {
+
+int GltfTextures::imageOf(int texture) const {
+  const int image = document_.model.textures[static_cast<std::size_t>(texture)].source;
+  if (image < 0) {
+    throw InputError(document_.name, 0, "/textures/" + std::to_string(texture) + " has no PNG or JPEG image",
+                     "export the scene with PNG or JPEG textures");
+  }
+  return image;
+}
+
+GltfTextures::Decoded& GltfTextures::decoded(int image, TexelEncoding encoding) {
+  const auto known = decoded_.find({image, encoding});
+  if (known != decoded_.end()) return known->second;
+  const std::string where = "/images/" + std::to_string(image);
+  const GltfImage& source = document_.images[static_cast<std::size_t>(image)];
+  std::string read;
+  if (source.bufferView < 0) read = bytesOfUri(document_.name, document_.folder, source.uri, where);
+  const std::string_view bytes =
+      source.bufferView < 0 ? std::string_view(read) : bytesOfView(document_, source.bufferView);
+  std::optional<Texture> texture = decodeTexture(bytes, where, encoding);
+  if (!texture) {
+    throw InputError(document_.name, 0, where + " is no PNG or JPEG image, or larger than 64 million texels",
+                     "export the scene with smaller PNG or JPEG textures");
+  }
+  const Rgb mean = deltalux::average(*texture);
+  return decoded_.emplace(std::pair(image, encoding), Decoded{std::move(*texture), mean}).first->second;
+}
+
+Rgb GltfTextures::average(int index, TexelEncoding encoding) { return decoded(imageOf(index), encoding).average; }
+
+TextureId GltfTextures::put(int index, Scene& scene) {
+  const int image = imageOf(index);
+  const auto [entry, isNew] = placed_.try_emplace(image, TextureId(scene.textures.size()));
+  if (isNew) scene.textures.push_back(std::move(decoded(image, TexelEncoding::Srgb).texture));
+  return entry->second;
+}
+
+}  // namespace deltalux

@@ -1,0 +1,9 @@
+#pragma once
+#include <deltalux/io.hpp>
+
+namespace deltalux {
+
+/// Appends the one warning that sums up what `report.ignored` counts, if anything.
+void warnOfIgnored(ImportReport& report);
+
+}  // namespace deltalux

@@ -1,0 +1,63 @@
+#include "io/import_texture.hpp"
+
+#include <stb/stb_image.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+namespace deltalux {
+
+namespace {
+
+// [IEC 61966-2-1]
+float linearOfSrgb(int byte) {
+  const double s = byte / 255.0;
+  return static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+}
+
+std::array<float, 256> tableOf(TexelEncoding encoding) {
+  std::array<float, 256> table{};
+  for (int i = 0; i < 256; ++i)
+    table[i] = encoding == TexelEncoding::Srgb ? linearOfSrgb(i) : static_cast<float>(i) / 255.0f;
+  return table;
+}
+
+// No format packs more texels into a byte; a header that says so is a trap for memory.
+bool plausibleSize(double width, double height, std::size_t bytes) {
+  constexpr double kMaxTexels = 64e6, kTexelsPerByte = 1e4;
+  return width > 0 && height > 0 && width * height <= kMaxTexels &&
+         width * height <= kTexelsPerByte * static_cast<double>(bytes);
+}
+
+}  // namespace
+
+std::optional<Texture> decodeTexture(std::string_view bytes, std::string name, TexelEncoding encoding) {
+  constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
+  if (bytes.empty() || bytes.size() > kMaxBytes) return std::nullopt;
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const int size = static_cast<int>(bytes.size());
+  Texture texture;
+  texture.name = std::move(name);
+  int channels = 0;
+  if (!stbi_info_from_memory(data, size, &texture.width, &texture.height, &channels)) return std::nullopt;
+  if (!plausibleSize(texture.width, texture.height, bytes.size())) return std::nullopt;
+  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+      stbi_load_from_memory(data, size, &texture.width, &texture.height, &channels, 3), stbi_image_free);
+  if (!pixels || !plausibleSize(texture.width, texture.height, bytes.size())) return std::nullopt;
+  const std::array<float, 256> table = tableOf(encoding);
+  texture.texels.resize(static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height));
+  for (std::size_t i = 0; i < texture.texels.size(); ++i) {
+    const stbi_uc* pixel = pixels.get() + 3 * i;
+    texture.texels[i] = Rgb(table[pixel[0]], table[pixel[1]], table[pixel[2]]);
+  }
+  return texture;
+}
+
+Rgb average(const Texture& texture) {
+  RgbSum sum(0);
+  for (const Rgb& texel : texture.texels) sum += RgbSum(texel);
+  return Rgb(sum / static_cast<double>(texture.texels.size()));
+}
+
+}  // namespace deltalux
