@@ -2,6 +2,8 @@
 #include <deltalux/error.hpp>
 #include <deltalux/io.hpp>
 
+#include "io/gltf.hpp"
+#include "io/obj.hpp"
 #include "io/radiance.hpp"
 
 namespace deltalux {
@@ -35,7 +37,7 @@ ImportedScene loadScene(const std::vector<fs::path>& files, const ImportSettings
     throw InputError(other->string(), 0, "cannot be joined with other files into one scene",
                      "only several Radiance files make one scene");
   }
-  throw InputError(other->string(), 0, "this format is not supported yet", "convert it to .rad");
+  return extensionOf(*other) == ".obj" ? loadObj(*other, settings) : loadGltf(*other, settings);
 }
 
 }  // namespace deltalux

@@ -1,0 +1,107 @@
+#include "io/obj/faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace deltalux {
+
+namespace {
+
+using Face = std::vector<ObjCorner>;
+using Triangle = std::array<std::size_t, 3>;  // corners of a face
+
+Face withoutRepetitions(const Face& face, const ObjVertices& vertices) {
+  Face kept;
+  const auto place = [&](const ObjCorner& corner) {
+    return vertices.positions[static_cast<std::size_t>(corner.position)];
+  };
+  for (const ObjCorner& corner : face) {
+    if (kept.empty() || place(kept.back()) != place(corner)) kept.push_back(corner);
+  }
+  while (kept.size() > 1 && place(kept.front()) == place(kept.back())) kept.pop_back();
+  return kept;
+}
+
+std::vector<Triangle> fan(std::size_t corners) {
+  std::vector<Triangle> triangles;
+  for (std::size_t i = 1; i + 1 < corners; ++i) triangles.push_back({0, i, i + 1});
+  return triangles;
+}
+
+std::vector<Triangle> triangulated(const Face& face, const ObjVertices& vertices) {
+  if (face.size() <= 3) return fan(face.size());
+  std::vector<Vec3> outline;
+  for (const ObjCorner& corner : face) outline.push_back(vertices.positions[static_cast<std::size_t>(corner.position)]);
+  const auto polygon = makePolygon(std::move(outline));
+  if (!polygon || polygon->vertices.size() != face.size()) return fan(face.size());
+  std::vector<Triangle> triangles;
+  for (const auto& [a, b, c] : polygon->triangles) triangles.push_back({a, b, c});
+  return triangles;
+}
+
+bool hasArea(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double area = glm::length(glm::cross(b - a, c - a)), longest = std::max(glm::length(b - a), glm::length(c - a));
+  return area > 1e-12 * longest * longest && area > 1e-300;
+}
+
+// Puts corners into a mesh, equal ones once.
+class CornerTable {
+ public:
+  CornerTable(const ObjVertices& vertices, bool textured, bool shaded, Mesh& mesh)
+      : vertices_(vertices), textured_(textured), shaded_(shaded), mesh_(mesh) {}
+
+  std::uint32_t put(ObjCorner corner) {
+    if (!textured_) corner.texcoord = -1;
+    if (!shaded_) corner.normal = -1;
+    const auto [entry, isNew] = indices_.try_emplace(corner, static_cast<std::uint32_t>(mesh_.positions.size()));
+    if (!isNew) return entry->second;
+    mesh_.positions.push_back(vertices_.positions[static_cast<std::size_t>(corner.position)]);
+    if (shaded_) mesh_.normals.push_back(glm::normalize(vertices_.normals[static_cast<std::size_t>(corner.normal)]));
+    if (textured_) {
+      const Vec2 at = corner.texcoord < 0 ? Vec2(0) : vertices_.texcoords[static_cast<std::size_t>(corner.texcoord)];
+      mesh_.texcoords.push_back({at.x, 1 - at.y});
+    }
+    return entry->second;
+  }
+
+ private:
+  const ObjVertices& vertices_;
+  bool textured_, shaded_;
+  Mesh& mesh_;
+  std::map<ObjCorner, std::uint32_t> indices_;
+};
+
+bool allShaded(const std::vector<Face>& faces, const ObjVertices& vertices) {
+  return std::all_of(faces.begin(), faces.end(), [&](const Face& face) {
+    return std::all_of(face.begin(), face.end(), [&](const ObjCorner& corner) {
+      if (corner.normal < 0) return false;
+      const double length = glm::length(vertices.normals[static_cast<std::size_t>(corner.normal)]);
+      return length > 1e-100 && length < 1e100;
+    });
+  });
+}
+
+}  // namespace
+
+Mesh meshOf(const ObjVertices& vertices, const std::vector<Face>& faces, bool textured,
+            std::map<std::string, std::size_t>& ignored) {
+  Mesh mesh;
+  CornerTable table(vertices, textured, allShaded(faces, vertices), mesh);
+  for (const Face& given : faces) {
+    const Face face = withoutRepetitions(given, vertices);
+    bool any = false;
+    for (const Triangle& triangle : triangulated(face, vertices)) {
+      const auto at = [&](std::size_t i) {
+        return vertices.positions[static_cast<std::size_t>(face[triangle[i]].position)];
+      };
+      if (!hasArea(at(0), at(1), at(2))) continue;
+      mesh.triangles.push_back(
+          {table.put(face[triangle[0]]), table.put(face[triangle[1]]), table.put(face[triangle[2]])});
+      any = true;
+    }
+    if (!any) ++ignored["faces without area"];
+  }
+  return mesh;
+}
+
+}  // namespace deltalux
