@@ -22,8 +22,8 @@ PointTable readPoints(const std::filesystem::path&);
 PointTable parsePoints(std::string_view text, const std::string& fileName);
 
 enum class ProbeColumns {
-  Irradiance,          // E_r,E_g,E_b [W/m2], lux
-  IrradianceAndErrors  // the same and se_r,se_g,se_b: standard errors of E
+  Values,          // E_r,E_g,E_b [W/m2], lux
+  ValuesAndErrors  // the same and se_r,se_g,se_b: standard errors of E
 };
 
 /// The table's rows plus the results' columns; a column of the table that has a result's name is replaced by it.

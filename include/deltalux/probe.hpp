@@ -1,7 +1,9 @@
 #pragma once
 // Light meters: where irradiance is asked for, and what was found there.
 #include <cstdint>
-#include <deltalux/math.hpp>
+#include <deltalux/scene.hpp>
+#include <optional>
+#include <vector>
 
 namespace deltalux {
 
@@ -16,5 +18,9 @@ struct ProbeResult {
   glm::dvec3 standardError{0};  // of E, per channel [W/m2]; 0 where the method has none to give
   std::uint64_t samples = 0;    // paths behind the value
 };
+
+/// The surface points seen through the centres of a view's pixels, on the side that is seen, row by row from the top;
+/// nullopt where there is no surface. Thin glass is looked through.
+std::vector<std::optional<ProbePoint>> visiblePoints(const Scene&, const View&, int width, int height);
 
 }  // namespace deltalux

@@ -95,11 +95,10 @@ class Parser {
            "every row needs a value for every column");
     std::array<double, 6> v{};
     for (std::size_t i = 0; i < v.size(); ++i) v[i] = number(row[needed_[i]], kNeeded[i]);
-    const Vec3 normal{v[3], v[4], v[5]};
-    const double length = glm::length(normal);
-    if (!(length > 0) || !std::isfinite(length))
-      fail("the normal nx,ny,nz has no direction", "give the surface's normal");
-    table_.points.push_back({{v[0], v[1], v[2]}, normal / length});
+    const double largest = std::max({std::abs(v[3]), std::abs(v[4]), std::abs(v[5])});
+    if (!(largest > 0)) fail("the normal nx,ny,nz has no direction", "give the surface's normal");
+    const Vec3 normal = Vec3(v[3], v[4], v[5]) / largest;  // first, so that squares neither vanish nor overflow
+    table_.points.push_back({{v[0], v[1], v[2]}, glm::normalize(normal)});
     table_.rows.push_back(std::move(row));
   }
 
@@ -123,14 +122,14 @@ class Parser {
 
 std::vector<std::string> resultColumns(ProbeColumns columns) {
   std::vector<std::string> names{"E_r", "E_g", "E_b", "lux"};
-  if (columns == ProbeColumns::IrradianceAndErrors) names.insert(names.end(), {"se_r", "se_g", "se_b"});
+  if (columns == ProbeColumns::ValuesAndErrors) names.insert(names.end(), {"se_r", "se_g", "se_b"});
   return names;
 }
 
 std::string resultFields(const ProbeResult& result, ProbeColumns columns) {
   const glm::dvec3 E = result.irradiance, se = result.standardError;
   std::string text = fmt::format("{:.7g},{:.7g},{:.7g},{:.7g}", E.r, E.g, E.b, photometric(E));
-  if (columns == ProbeColumns::IrradianceAndErrors) text += fmt::format(",{:.4g},{:.4g},{:.4g}", se.r, se.g, se.b);
+  if (columns == ProbeColumns::ValuesAndErrors) text += fmt::format(",{:.4g},{:.4g},{:.4g}", se.r, se.g, se.b);
   return text;
 }
 }  // namespace

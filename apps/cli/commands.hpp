@@ -1,0 +1,16 @@
+#pragma once
+// The commands, one file each: NAME_command.cpp defines add...Command, which puts a subcommand with its options and its
+// callback on the app. Callbacks run while the command line is parsed; what they throw decides the exit code
+// (main.cpp).
+#include <CLI/CLI.hpp>
+
+namespace deltalux::cli {
+
+void addInfoCommand(CLI::App&);
+
+/// All of them, in the order of --help.
+inline void addCommands(CLI::App& app) {
+  addInfoCommand(app);
+}
+
+}  // namespace deltalux::cli

@@ -1,0 +1,31 @@
+#pragma once
+// SCENE and how it is imported, the same for every command that takes one.
+#include <CLI/CLI.hpp>
+#include <deltalux/io.hpp>
+#include <string>
+#include <vector>
+
+#include "run_options.hpp"
+
+namespace deltalux::cli {
+
+struct SceneOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> luminaires;  // FILE@x,y,z
+  ImportSettings import;
+
+  void add(CLI::App&);
+
+  /// Reads the scene, adds the luminaires, notes names, times and statistics in the run's report, and passes the
+  /// import's warnings on. Throws InputError.
+  ImportedScene load(Run&) const;
+
+ private:
+  /// An option that this scene's format does not heed is a mistake worth telling.
+  void requireEffect() const;
+
+  CLI::Option* metresOption_ = nullptr;
+  CLI::Option* efficacyOption_ = nullptr;
+};
+
+}  // namespace deltalux::cli

@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/run_cli.hpp"
+#include "support/shared.hpp"
+#include "support/temp_folder.hpp"
+
+namespace deltalux {
+namespace {
+
+using test::bundledScene;
+using test::CliResult;
+using test::runCli;
+using Json = nlohmann::json;
+using Names = std::vector<std::string>;
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Info, SaysWhatIsThere) {
+  const CliResult result = runCli({"info", bundledScene("cornell-caustic/cornell-caustic.rad")});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  for (const char* part :
+       {"17 polygon", "1 sphere", "short_block: 5 primitives", "tall_block: 5 primitives", "glass: dielectric",
+        "tall_block_surface: mirror 0.9 0.9 0.9", "white: opaque, diffuse 0.725 0.71 0.68", "emits 17 12 4 W/(sr m2)",
+        "lamp: area, polygon", "up is 0 0 1"})
+    EXPECT_TRUE(contains(result.out, part)) << part << "\n" << result.out;
+}
+
+TEST(Info, ReportsTheSameNumbers) {
+  const test::TempFolder folder;
+  const std::string scene = bundledScene("ring/ring.rad"), report = folder / "r.json";
+  const CliResult result = runCli({"info", scene, "--quiet", "--report", report});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.out + result.err, "");
+  const Json json = Json::parse(test::readText(report));
+  EXPECT_EQ(json["command"], "info");
+  EXPECT_EQ(json["scene"], scene);
+  EXPECT_EQ(json["scene_stats"]["primitives"], 6);
+  EXPECT_EQ(json["scene_stats"]["lights"], 2);
+  EXPECT_TRUE(json["scene_stats"]["ignored"].empty());
+  EXPECT_GT(json["scene_stats"]["polygons_if_tessellated"], 24 * 2);
+  EXPECT_GT(json["memory_bytes"]["peak_rss"], 0);
+  EXPECT_GE(json["time_s"]["total"], json["time_s"]["import"]);
+  EXPECT_EQ(folder.names(), Names{"r.json"});
+}
+
+TEST(Info, ReadsSeveralFilesAsOneScene) {
+  const test::TempFolder folder;
+  const auto materials = folder.write("mat.rad", "void plastic grey 0 0 5 .5 .5 .5 0 0\n");
+  const auto surfaces = folder.write("surf.rad", "grey sphere ball 0 0 4 0 0 0 1\n");
+  EXPECT_EQ(runCli({"info", materials, surfaces}).exitCode, 0);
+  EXPECT_EQ(runCli({"info", surfaces, materials}).exitCode, 3);  // the modifier is not there yet
+}
+
+TEST(Info, WrongInputIsExitCodeThreeWithFileAndLine) {
+  const test::TempFolder folder;
+  const std::string broken =
+      folder.write("broken.rad", "void plastic grey 0 0 5 .5 .5 .5 0 0\n\ngrey sphere ball 0 0 3 0 0 0\n");
+  const std::string report = folder.write("r.json", "old");
+  const CliResult result = runCli({"info", broken, "--report", report});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(contains(result.err, broken + ":3")) << result.err;
+  EXPECT_EQ(test::readText(report), "old");
+
+  EXPECT_EQ(runCli({"info", folder / "none.rad"}).exitCode, 3);
+  EXPECT_EQ(runCli({"info", folder.path()}).exitCode, 3);
+  EXPECT_EQ(folder.names(), (Names{"broken.rad", "r.json"}));
+}
+
+TEST(Info, ReportWithoutAPlaceIsExitCodeFour) {
+  const test::TempFolder folder;
+  const CliResult result = runCli({"info", bundledScene("ring/ring.rad"), "--report", folder / "none/r.json"});
+  EXPECT_EQ(result.exitCode, 4);
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(contains(result.err, "there is no folder")) << result.err;
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Info, AddsMeasuredLightsStraightDown) {
+  const test::TempFolder folder;
+  const std::string lamp =
+      folder.write("lamp.ies",
+                   "IESNA:LM-63-2002\n[TEST] a downlight\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 100\n"
+                   "0 45 90\n0\n320 250 0\n");
+  const CliResult result =
+      runCli({"info", bundledScene("ring/ring.rad"), "--ies", lamp + "@1,2.5,3", "--ies", lamp + "@-1,0,3"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_TRUE(contains(result.out, "lamp: area"));  // the ring scene has a lamp of its own
+  EXPECT_TRUE(contains(result.out, "lamp-2: measured at 1 2.5 3 aimed at -0 -0 -1, up to 320 cd") ||
+              contains(result.out, "lamp-2: measured at 1 2.5 3 aimed at 0 0 -1, up to 320 cd"))
+      << result.out;
+  EXPECT_TRUE(contains(result.out, "lamp-3: measured at -1 0 3")) << result.out;
+  EXPECT_EQ(
+      runCli({"info", bundledScene("ring/ring.rad"), "--ies", (folder / "none.ies").string() + "@0,0,1"}).exitCode, 3);
+}
+
+TEST(Info, FindsEverySurfaceOfTheCabin) {
+  DELTALUX_SHARED_OR_SKIP(shared);
+  const CliResult result = runCli({"info", shared / "scenes/cabin/cabin.rad"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  for (const char* part : {"surfaces read  2839", "1507 polygon", "644 cylinder", "512 sphere", "149 cone", "23 ring",
+                           "1 tube", "3 source"})
+    EXPECT_TRUE(contains(result.out, part)) << part;
+}
+
+TEST(Info, ReadsTheAuthoredCabin) {
+  DELTALUX_SHARED_OR_SKIP(shared);
+  std::vector<std::string> arguments{"info"};
+  for (const char* file : {"testmats", "cabin", "bathroom", "furniture", "winpanes.rad", "mirrors.rad", "lights"})
+    arguments.push_back(shared / "scenes/cabin-original" / file);
+  const CliResult result = runCli(arguments);
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+}
+
+}  // namespace
+}  // namespace deltalux
