@@ -1,5 +1,6 @@
 #include "io/obj.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <deltalux/error.hpp>
@@ -60,9 +61,9 @@ TEST(ObjReader, PolygonsOfAnyShape) {
 TEST(ObjReader, MoreThan255CornersInAFace) {
   std::string text, face = "f";
   for (int i = 0; i < 300; ++i) {
-    text +=
-        "v " + std::to_string(std::cos(2 * kPi * i / 300)) + " " + std::to_string(std::sin(2 * kPi * i / 300)) + " 0\n";
-    face += " " + std::to_string(i - 300);
+    const double angle = 2 * kPi * i / 300;
+    text += fmt::format("v {} {} 0\n", std::cos(angle), std::sin(angle));
+    face += fmt::format(" {}", i - 300);
   }
   EXPECT_NEAR(totalArea(read(text + face + "\n").scene), kPi, 1e-3);
 }
