@@ -21,6 +21,7 @@ struct Hit {
   float t = std::numeric_limits<float>::infinity();
   PrimitiveId primitive;
   std::uint32_t triangle = 0;
+  Vec3f position{0.0f};  // on the surface to the last digit, which at(ray, t) is not
   Vec3f normal{0.0f, 0.0f, 1.0f};
   bool front = true;
 
@@ -29,11 +30,11 @@ struct Hit {
 
 inline Vec3f at(const Ray& ray, float t) { return ray.origin + t * ray.direction; }
 
-/// `p` moved off its surface to the side of `direction` by a few units in the last place of its coordinates, enough
-/// for a ray from there not to meet the surface again.
+/// `p` moved off its surface to the side of `direction`, enough for a ray from there not to meet the surface again. For
+/// points that are rounded but not otherwise off their surface (Hit::position, SurfacePoint::position): the step is
+/// some ten times the rounding of their coordinates, a thousandth of what tells surfaces 1 mm apart at 1 m.
 inline Vec3f offsetOrigin(const Vec3f& p, const Vec3f& normal, const Vec3f& direction) {
-  const float size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1e-3f});
-  const float step = 4e-6f * size;
+  const float step = 1e-6f * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1e-6f});
   return p + (glm::dot(normal, direction) >= 0.0f ? step : -step) * normal;
 }
 

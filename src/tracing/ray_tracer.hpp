@@ -23,7 +23,8 @@ class RayTracer {
   virtual Hit closestHit(const Ray&) const = 0;
   /// Whether an opaque surface (anything but thin glass) lies on the segment.
   virtual bool occluded(const Ray&) const = 0;
-  /// Fraction of light that passes the segment straight on: product over thin-glass panes crossed, 0 behind opaque ones.
+  /// Fraction of light that passes the segment straight on: product over thin-glass panes crossed, 0 behind opaque
+  /// ones.
   virtual Rgb transmittance(const Ray&) const = 0;
 
   /// Batches of incoherent rays; results at the same index. Sizes must agree.

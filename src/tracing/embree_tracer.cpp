@@ -1,0 +1,141 @@
+// Embree behind the interface: one Embree scene per group, joined as instances once there is more than one.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/check.hpp"
+#include "tracing/embree_group.hpp"
+#include "tracing/ray_tracer.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr unsigned kOpaqueMask = static_cast<unsigned>(Passage::Opaque);
+constexpr unsigned kAnyMask = ~0u;
+
+RTCRay embreeRay(const Ray& ray, unsigned mask) {
+  RTCRay r;
+  r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
+  r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+  r.tnear = ray.tNear, r.tfar = ray.tFar, r.time = 0, r.mask = mask, r.id = 0, r.flags = 0;
+  return r;
+}
+
+class EmbreeTracer final : public RayTracer {
+ public:
+  explicit EmbreeTracer(const Scene& scene) : scene_(scene), device_(makeEmbreeDevice()) {
+    groups_.emplace_back();
+    build(0);
+    join();
+  }
+
+  Hit closestHit(const Ray& ray) const override {
+    RTCRayHit found;
+    found.ray = embreeRay(ray, kAnyMask);
+    while (true) {
+      found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+      RTCIntersectContext context;
+      rtcInitIntersectContext(&context);
+      rtcIntersect1(top_, &context, &found);
+      if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+      const unsigned group = found.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? 0 : found.hit.instID[0];
+      if (const auto hit = groups_[group]->hit(ray, found)) return *hit;
+      // Rarely: not on the segment after all, such as the plane that the ray starts from. On from there.
+      found.ray.tnear = std::nextafter(found.ray.tfar, std::numeric_limits<float>::infinity());
+      found.ray.tfar = ray.tFar;
+    }
+  }
+
+  bool occluded(const Ray& ray) const override {
+    RTCRay r = embreeRay(ray, kOpaqueMask);
+    PassageQuery query(scene_, ray);
+    rtcOccluded1(top_, &query, &r);
+    return r.tfar < 0;
+  }
+
+  Rgb transmittance(const Ray& ray) const override { return transmittance(ray, top_); }
+
+  Rgb transmittance(const Ray& ray, GroupId group) const override {
+    return transmittance(ray, groups_[group.index()]->embreeScene());
+  }
+
+  GroupId separate(std::span<const PrimitiveId> primitives) override {
+    std::vector<PrimitiveId> own(primitives.begin(), primitives.end());
+    std::sort(own.begin(), own.end());
+    const GroupId fresh(groups_.size());
+    groupOf_.resize(scene_.primitives.size(), GroupId(0));
+    std::vector<bool> touched(groups_.size(), false);
+    for (const PrimitiveId id : own) {
+      DELTALUX_CHECK(id.index() < scene_.primitives.size(), "no such primitive");
+      touched[groupOf_[id.index()].index()] = true;
+      groupOf_[id.index()] = fresh;
+    }
+    groups_.emplace_back();
+    touched.push_back(true);
+    for (std::size_t g = 0; g < touched.size(); ++g)
+      if (touched[g]) build(g);
+    join();
+    return fresh;
+  }
+
+  void rebuild(GroupId group) override {
+    DELTALUX_CHECK(group.index() < groups_.size(), "no such group");
+    build(group.index());
+    join();
+  }
+
+ private:
+  Rgb transmittance(const Ray& ray, RTCScene scene) const {
+    RTCRay r = embreeRay(ray, kAnyMask);
+    PassageQuery query(scene_, ray);
+    rtcOccluded1(scene, &query, &r);
+    return r.tfar < 0 ? Rgb(0.0f) : query.passed;
+  }
+
+  void build(std::size_t group) {
+    groupOf_.resize(scene_.primitives.size(), GroupId(0));  // primitives added since belong to the static rest
+    std::vector<PrimitiveId> members;
+    for (std::size_t i = 0; i < groupOf_.size(); ++i)
+      if (groupOf_[i].index() == group) members.emplace_back(i);
+    groups_[group] = std::make_unique<EmbreeGroup>(device_.get(), scene_, std::move(members));
+  }
+
+  void join() {
+    const auto filled = std::count_if(groups_.begin(), groups_.end(), [](const auto& g) { return !g->empty(); });
+    if (filled <= 1 && !groups_[0]->empty()) {
+      // A top level would cost every ray a step.
+      instances_.reset();
+      top_ = groups_[0]->embreeScene();
+      return;
+    }
+    instances_.reset(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(instances_.get(), RTC_SCENE_FLAG_ROBUST);
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      if (groups_[g]->empty()) continue;
+      const EmbreeGeometry instance(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+      throwEmbreeError(device_.get());
+      rtcSetGeometryInstancedScene(instance.get(), groups_[g]->embreeScene());
+      rtcSetGeometryMask(instance.get(), kAnyMask);
+      rtcCommitGeometry(instance.get());
+      rtcAttachGeometryByID(instances_.get(), instance.get(), static_cast<unsigned>(g));
+    }
+    rtcCommitScene(instances_.get());
+    throwEmbreeError(device_.get());
+    top_ = instances_.get();
+  }
+
+  const Scene& scene_;
+  EmbreeDevice device_;
+  std::vector<std::unique_ptr<EmbreeGroup>> groups_;
+  std::vector<GroupId> groupOf_;  // by primitive
+  EmbreeScene instances_;
+  RTCScene top_ = nullptr;  // the instances, or the static group alone
+};
+
+}  // namespace
+
+std::unique_ptr<RayTracer> makeEmbreeTracer(const Scene& scene) { return std::make_unique<EmbreeTracer>(scene); }
+
+}  // namespace deltalux
