@@ -34,6 +34,9 @@ class CheckCitations(unittest.TestCase):
         self.assertEqual(offences, ["src/kernel.cpp:2: [XY99]: add it to docs/papers.md"])
         self.assertEqual(count, 2)
 
+    def test_reads_several_in_one_bracket(self):
+        self.assertEqual(self.check("// [GD01 5, XY99: a title]\n")[0], ["src/kernel.cpp:1: [XY99]: add it to docs/papers.md"])
+
     def test_reads_comments_only(self):
         self.assertEqual(self.check("double b = values[Index07];\n"), ([], 0))
 
