@@ -17,7 +17,7 @@ struct ReferenceSettings {
   double seconds = 0;            // time limit; 0: none
   bool diffuseOnly = false;      // drop specular lobes and mirrors, keep thin glass straight-through
   std::uint64_t seed = 1;
-  int maxDepth = 64;       // bounces after which a path ends in any case
+  int maxDepth = 0;        // bounces after which a path ends in any case; 0: Russian roulette alone ends it (unbiased)
   double targetError = 0;  // relative standard error at which a point stops; 0: never
 };
 

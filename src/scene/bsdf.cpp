@@ -134,7 +134,7 @@ Bsdf specularPart(Bsdf bsdf) {
 }
 
 Rgb mirrorReflectance(const Bsdf& bsdf, double cosIncidence) {
-  if (bsdf.pane) return reflectance(*bsdf.pane, cosIncidence);
+  if (bsdf.pane) return bsdf.paneReflects ? reflectance(*bsdf.pane, cosIncidence) : Rgb(0.0f);
   if (bsdf.refractingIor) return Rgb(static_cast<float>(fresnelDielectric(cosIncidence, *bsdf.refractingIor)));
   return bsdf.reflection.roughness > 0.0f ? Rgb(0.0f) : bsdf.reflection.reflectance;
 }

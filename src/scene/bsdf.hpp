@@ -20,6 +20,7 @@ struct Bsdf {
   SpecularLobe reflection;
   SpecularLobe transmission;
   std::optional<ThinGlass> pane;
+  bool paneReflects = true;  // false: light only passes straight on
   std::optional<double> refractingIor;
 
   /// Whether anything but Dirac parts is there: a surface light can be connected to.

@@ -28,16 +28,10 @@ double coneDepth(double radius, double distance) {
 
 
 template <class Emitter>
-std::optional<LightSample> samplePoint(const Emitter& light, const Rgb& scale, const Vec3& from) {
-  const Vec3 d = light.position - from;
-  const double squared = glm::dot(d, d);
-  if (!(squared > 0.0)) return std::nullopt;
-  const double distance = std::sqrt(squared);
-  const Vec3 direction = d / distance;
-  const Rgb I = radiantIntensity(light, -direction) * scale;
-  if (isBlack(I)) return std::nullopt;
-  return LightSample{direction, distance, Vec3(0), I * static_cast<float>(1.0 / squared), 0.0};
-}
+constexpr bool kPointLike = requires(const Emitter& e, Vec3 w) {
+  e.position;
+  radiantIntensity(e, w);
+};
 
 const Emission* emissionOf(const Scene& scene, PrimitiveId p) {
   const auto& emission = scene.materialOf(p).emission;
@@ -77,7 +71,7 @@ LightSampler::AreaData LightSampler::prepareArea(PrimitiveId p) const {
       data.triangles.push_back({mesh->positions[t[0]], mesh->positions[t[1]], mesh->positions[t[2]]});
     }
   } else {
-    data.area = area(shape);
+    data.area = deltalux::area(shape);
   }
   for (const Triangle& t : data.triangles) {
     data.cumulative.push_back(data.area += 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a)));
@@ -86,9 +80,37 @@ LightSampler::AreaData LightSampler::prepareArea(PrimitiveId p) const {
 }
 
 bool LightSampler::isPointLike(LightId id) const {
-  const auto& emitter = scene_[id].emitter;
-  return std::holds_alternative<PointLight>(emitter) || std::holds_alternative<SpotLight>(emitter) ||
-         std::holds_alternative<LambertPointLight>(emitter) || std::holds_alternative<PhotometricLight>(emitter);
+  return std::visit([](const auto& e) { return kPointLike<decltype(e)>; }, scene_[id].emitter);
+}
+
+Vec3 LightSampler::position(LightId id) const {
+  return std::visit(
+      [](const auto& e) {
+        if constexpr (kPointLike<decltype(e)>) return e.position;
+        return Vec3(0);
+      },
+      scene_[id].emitter);
+}
+
+Rgb LightSampler::intensity(LightId id, const Vec3& direction) const {
+  const Light& light = scene_[id];
+  return light.scale * std::visit(
+                           [&](const auto& e) {
+                             if constexpr (kPointLike<decltype(e)>) return radiantIntensity(e, direction);
+                             return Rgb(0.0f);
+                           },
+                           light.emitter);
+}
+
+std::optional<LightSample> LightSampler::samplePointLike(LightId id, const Vec3& from) const {
+  const Vec3 d = position(id) - from;
+  const double squared = glm::dot(d, d);
+  if (!(squared > 0.0)) return std::nullopt;
+  const double distance = std::sqrt(squared);
+  const Vec3 direction = d / distance;
+  const Rgb I = intensity(id, -direction);
+  if (isBlack(I)) return std::nullopt;
+  return LightSample{direction, distance, Vec3(0), I * static_cast<float>(1.0 / squared), 0.0};
 }
 
 std::optional<LightSample> LightSampler::sample(LightId id, const Vec3& from, const Vec2& u) const {
@@ -103,11 +125,7 @@ std::optional<LightSample> LightSampler::sample(LightId id, const Vec3& from, co
     const Vec3 direction = sampleCap(sun->direction, sunDepth(*sun), u);
     return LightSample{direction, kInfinity, Vec3(0), sun->radiance * light.scale, 1.0 / solidAngle(*sun)};
   }
-  if (const auto* point = std::get_if<PointLight>(&light.emitter)) return samplePoint(*point, light.scale, from);
-  if (const auto* spot = std::get_if<SpotLight>(&light.emitter)) return samplePoint(*spot, light.scale, from);
-  if (const auto* lambert = std::get_if<LambertPointLight>(&light.emitter)) return samplePoint(*lambert, light.scale, from);
-  if (const auto* measured = std::get_if<PhotometricLight>(&light.emitter)) return samplePoint(*measured, light.scale, from);
-  return std::nullopt;
+  return isPointLike(id) ? samplePointLike(id, from) : std::nullopt;
 }
 
 bool LightSampler::bySolidAngle(const AreaData& data, const Vec3& from, double& omega) const {
@@ -159,10 +177,6 @@ std::optional<LightSample> LightSampler::sampleArea(LightId id, const AreaData& 
     const Vec3 outward = glm::normalize(point - sphere->center);
     return finishArea(id, data, from, point, sphere->inward ? -outward : outward, 2.0 * kPi * depth);
   }
-  if (data.triangles.empty()) {
-    const SurfacePoint point = deltalux::samplePoint(shape, u);
-    return finishArea(id, data, from, point.position, point.normal, 0.0);
-  }
   double omega = 0;
   if (bySolidAngle(data, from, omega)) {
     const Vec3 normal = std::get<Polygon>(shape).normal;
@@ -181,15 +195,29 @@ std::optional<LightSample> LightSampler::sampleArea(LightId id, const AreaData& 
       return finishArea(id, data, from, from + glm::dot(t.a - from, normal) / along * direction, normal, omega);
     }
   }
+  const SurfacePoint point = samplePoint(id, u);
+  return finishArea(id, data, from, point.position, point.normal, 0.0);
+}
+
+double LightSampler::area(LightId id) const {
+  const auto& data = prepared_[id.index()].area;
+  return data ? data->area : 0.0;
+}
+
+SurfacePoint LightSampler::samplePoint(LightId id, const Vec2& u) const {
+  const AreaData& data = *prepared_[id.index()].area;
+  if (data.triangles.empty()) return deltalux::samplePoint(scene_[data.primitive].shape, u);
   const double target = u.x * data.area;
   const auto it = std::upper_bound(data.cumulative.begin(), data.cumulative.end() - 1, target);
   const std::size_t i = static_cast<std::size_t>(it - data.cumulative.begin());
   const double below = i > 0 ? data.cumulative[i - 1] : 0.0;
-  const double within = std::clamp((target - below) / (*it - below), 0.0, 1.0);
+  const double root = std::sqrt(std::clamp((target - below) / (*it - below), 0.0, 1.0));
   const Triangle& t = data.triangles[i];
-  const double root = std::sqrt(within);
-  const Vec3 point = t.a * (1.0 - root) + t.b * (root * (1.0 - u.y)) + t.c * (root * u.y);
-  return finishArea(id, data, from, point, glm::normalize(glm::cross(t.b - t.a, t.c - t.a)), 0.0);
+  SurfacePoint point;
+  point.position = t.a * (1.0 - root) + t.b * (root * (1.0 - u.y)) + t.c * (root * u.y);
+  point.normal = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
+  point.triangle = static_cast<std::uint32_t>(i);
+  return point;
 }
 
 double LightSampler::pdf(LightId id, const Vec3& from, const Vec3& direction, double distance, const Vec3& normal) const {

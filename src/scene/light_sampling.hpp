@@ -36,12 +36,20 @@ class LightSampler {
   std::span<const LightId> atInfinity() const { return atInfinity_; }
   /// Point-like lights are reached by sample() alone, never by a ray.
   bool isPointLike(LightId) const;
+  /// Where a point-like light is, and its intensity into unit `direction` [W/sr].
+  Vec3 position(LightId) const;
+  Rgb intensity(LightId, const Vec3& direction) const;
 
   /// A direction from `from` to the light by two numbers in [0,1); nullopt when that sample does not shine on it.
   std::optional<LightSample> sample(LightId, const Vec3& from, const Vec2& u) const;
   /// Density of sample() from `from` for the direction that meets the light at `distance`, on the side with `normal`
   /// (both ignored for lights at infinity) [1/sr].
   double pdf(LightId, const Vec3& from, const Vec3& direction, double distance, const Vec3& normal) const;
+
+  /// A point uniform by area on an area light; its density is 1 / area().
+  SurfacePoint samplePoint(LightId, const Vec2& u) const;
+  /// Area of an area light's one side [unit^2]; 0 for all other lights.
+  double area(LightId) const;
 
   /// Radiance that an area light sends along unit `direction` to a surface at `distance`; `front`: from its front side.
   Rgb emittedRadiance(LightId, const Vec3& direction, double distance, bool front) const;
@@ -66,6 +74,7 @@ class LightSampler {
 
   AreaData prepareArea(PrimitiveId) const;
   bool bySolidAngle(const AreaData&, const Vec3& from, double& solidAngle) const;
+  std::optional<LightSample> samplePointLike(LightId, const Vec3& from) const;
   std::optional<LightSample> sampleArea(LightId, const AreaData&, const Vec3& from, const Vec2& u) const;
   std::optional<LightSample> finishArea(LightId, const AreaData&, const Vec3& from, const Vec3& point, const Vec3& normal,
                                         double solidAngle) const;

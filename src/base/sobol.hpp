@@ -1,0 +1,47 @@
+#pragma once
+// Stratified points of the unit square: Sobol's first two dimensions, a (0,2)-sequence, Owen-scrambled and shuffled by
+// hashes, so that any number of independent pairs can be padded to one sample. Every power-of-two prefix is stratified.
+// [Burley20: Burley 2020, "Practical Hash-based Owen Scrambling"; Laine and Karras 2011]
+#include <cstdint>
+
+#include "base/random.hpp"
+
+namespace deltalux {
+
+constexpr std::uint32_t reverseBits(std::uint32_t x) {
+  x = (x << 16) | (x >> 16);
+  x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
+  x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
+  x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
+  return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
+}
+
+/// Owen's nested uniform scrambling of the bits of x, from the top bit down. [Burley20, section 3]
+constexpr std::uint32_t owenScramble(std::uint32_t x, std::uint32_t seed) {
+  x = reverseBits(x);
+  x += seed;
+  x ^= x * 0x6c50b47cu;
+  x ^= x * 0xb82f1e52u;
+  x ^= x * 0xc7afe638u;
+  x ^= x * 0x8d22f6e6u;
+  return reverseBits(x);
+}
+
+struct UnitPair {
+  double x, y;
+};
+
+/// Point `index` of the scrambled, shuffled sequence of `key`, in [0,1)^2.
+constexpr UnitPair scrambledSobol(std::uint32_t index, std::uint64_t key) {
+  const std::uint64_t seeds = mix64(key), more = mix64(seeds);
+  const std::uint32_t shuffled = owenScramble(index, static_cast<std::uint32_t>(seeds));
+  std::uint32_t second = 0;
+  for (std::uint32_t i = shuffled, v = 0x80000000u; i != 0; i >>= 1, v ^= v >> 1) {
+    if (i & 1u) second ^= v;
+  }
+  const std::uint32_t x = owenScramble(reverseBits(shuffled), static_cast<std::uint32_t>(seeds >> 32));
+  const std::uint32_t y = owenScramble(second, static_cast<std::uint32_t>(more));
+  return {x * 0x1p-32, y * 0x1p-32};
+}
+
+}  // namespace deltalux

@@ -1,0 +1,176 @@
+#include "render/reference/path_tracer.hpp"
+
+#include <cmath>
+
+namespace deltalux {
+
+namespace {
+
+constexpr int kMeterConnections = 4;     // half of a meter's noise is its direct light
+constexpr int kRouletteFrom = 2;         // scatterings
+constexpr double kMaxSurvival = 0.99;    // so that light caught between perfect surfaces ends some day
+
+/// Weight of a strategy with density p against one with density q. [Veach97]
+double powerHeuristic(double p, double q) {
+  const double ratio = q / p;
+  return 1.0 / (1.0 + ratio * ratio);
+}
+
+/// A white Lambertian receiver: what it scatters is irradiance over pi.
+const Bsdf& meter() {
+  static const Bsdf bsdf = [] {
+    Bsdf b;
+    b.diffuseReflection = Rgb(1.0f);
+    return b;
+  }();
+  return bsdf;
+}
+
+Rgb passed(const Dielectric* medium, double distance) {
+  if (!medium) return Rgb(1.0f);
+  return glm::pow(medium->transmission, Rgb(static_cast<float>(distance)));
+}
+
+}  // namespace
+
+PathTracer::PathTracer(const ReferenceScene& scene, const LightConnections& connections, const ConnectionTable& table, int maxDepth)
+    : scene_(scene), connections_(connections), table_(table), maxDepth_(maxDepth) {}
+
+RgbSum PathTracer::irradiance(const Vec3& position, const Vec3& normal, PathSampler& sampler, std::uint64_t& rays) const {
+  const PathVertex vertex{position, normal, normal, &meter(), nullptr};
+  RgbSum sum(connect(vertex, kMeterConnections, sampler, rays));
+  Walk walk;
+  if (scatter(walk, vertex, PrimitiveId(), true, sampler)) {
+    walk.anchor.connections = kMeterConnections;
+    sum += follow(walk, sampler, rays);
+  }
+  return sum * kPi;
+}
+
+RgbSum PathTracer::radiance(const Vec3& origin, const Vec3& direction, PathSampler& sampler, std::uint64_t& rays) const {
+  Walk walk;
+  walk.origin = origin, walk.direction = direction, walk.offsetNormal = Vec3(0);
+  return follow(walk, sampler, rays);
+}
+
+RgbSum PathTracer::follow(Walk walk, PathSampler& sampler, std::uint64_t& rays) const {
+  RgbSum sum(0);
+  while (true) {
+    Ray ray;
+    ray.direction = Vec3f(walk.direction);
+    ray.origin = offsetOrigin(Vec3f(walk.origin), Vec3f(walk.offsetNormal), ray.direction);
+    const Hit hit = scene_.rays().closestHit(ray);
+    ++rays;
+    if (!hit) return sum + lightAtInfinity(walk);
+    walk.anchor.distance += hit.t, walk.anchor.fromSurface += hit.t;
+    walk.throughput *= passed(walk.medium, hit.t);
+    sum += walk.throughput * lightOf(walk, hit.primitive, hit);
+
+    const Vec3 normal = glm::normalize(Vec3(hit.normal)) * (hit.front ? 1.0 : -1.0);
+    PathVertex vertex{Vec3(hit.position), normal, -walk.direction, &scene_.bsdf(hit.primitive, hit.front), walk.medium};
+    Bsdf textured;
+    if (scene_.isTextured(hit.primitive)) {
+      textured = *vertex.bsdf;
+      textured.diffuseReflection *= scene_.tint(hit.primitive, hit.triangle, vertex.position);
+      vertex.bsdf = &textured;
+    }
+    if (maxDepth_ > 0 && walk.depth >= maxDepth_) return sum;
+    if (vertex.bsdf->hasFinitePart()) sum += walk.throughput * connect(vertex, 1, sampler, rays);
+    if (!scatter(walk, vertex, hit.primitive, hit.front, sampler)) return sum;
+  }
+}
+
+Rgb PathTracer::connect(const PathVertex& v, int count, PathSampler& sampler, std::uint64_t& rays) const {
+  const double which = sampler.next1();
+  Rgb sum(0.0f);
+  for (int i = 0; i < count; ++i) {
+    const Vec2 u = sampler.next2();
+    const ConnectionTable::Choice choice = table_.choose(v.position, v.normal, (i + which) / count);
+    if (choice.connection >= 0) sum += arriving(v, choice, count, u, rays);
+  }
+  return sum;
+}
+
+Rgb PathTracer::arriving(const PathVertex& v, const ConnectionTable::Choice& choice, int count, const Vec2& u, std::uint64_t& rays) const {
+  const Frame frame(v.normal);
+  const Vec3 wo = frame.toLocal(v.wo);
+  const double tries = count * choice.chance;
+  Rgb sum(0.0f);
+  const Arrivals arrivals = connections_.sample(choice.connection, v.position, v.normal, u);
+  for (int i = 0; i < arrivals.count; ++i) {
+    const Arrival& a = arrivals.list[i];
+    const Vec3 wi = frame.toLocal(a.direction);
+    const Rgb f = evaluate(*v.bsdf, wo, wi);
+    if (isBlack(f)) continue;
+    Rgb T = scene_.rays().transmittance(a.first);
+    ++rays;
+    if (a.rays == 2 && !isBlack(T)) T *= scene_.rays().transmittance(a.second), ++rays;
+    if (isBlack(T)) continue;
+    const double weight = a.pdf > 0.0 ? powerHeuristic(tries * a.pdf, pdf(*v.bsdf, wo, wi)) : 1.0;
+    sum += f * a.value * T * passed(v.medium, a.first.tFar) * static_cast<float>(weight / tries);
+  }
+  return sum;
+}
+
+bool PathTracer::scatter(Walk& walk, const PathVertex& v, PrimitiveId primitive, bool front, PathSampler& sampler) const {
+  const Frame frame(v.normal);
+  const double part = sampler.next1();
+  const Vec2 u = sampler.next2();
+  const auto s = sample(*v.bsdf, frame.toLocal(v.wo), {part, u.x, u.y});
+  if (!s) return false;
+  walk.throughput *= s->weight * static_cast<float>(1.0 / s->etaSquared);
+  walk.origin = v.position, walk.offsetNormal = v.normal;
+  walk.direction = glm::normalize(frame.toWorld(s->direction));
+
+  Anchor& anchor = walk.anchor;
+  const bool throughPane = s->event == ScatterEvent::StraightTransmission && v.bsdf->pane.has_value();
+  if (!throughPane) anchor.fromSurface = 0;
+  if (!isDirac(s->event)) {
+    anchor = {v.position, v.normal, 1, s->pdf, Anchor::Since::Straight, {}, Vec3(0), 0.0, 0.0};
+  } else if (s->event == ScatterEvent::MirrorReflection && anchor.since == Anchor::Since::Straight &&
+             scene_.isConnectableMirror(primitive, front)) {
+    anchor.since = Anchor::Since::Mirror, anchor.mirror = primitive, anchor.mirrorPoint = v.position;
+  } else if (!throughPane && anchor.since != Anchor::Since::Camera) {
+    anchor.since = Anchor::Since::Unconnectable;
+  }
+  if (s->event == ScatterEvent::Refraction) walk.medium = front ? scene_.body(primitive) : nullptr;
+
+  ++walk.depth;
+  if (walk.depth <= kRouletteFrom) return true;
+  const double survival = std::min<double>(kMaxSurvival, maxChannel(walk.throughput));
+  if (!(sampler.next1() < survival)) return false;
+  walk.throughput *= static_cast<float>(1.0 / survival);
+  return true;
+}
+
+/// How much of a light that scattering has met counts, the rest being the connections' share.
+double PathTracer::meetingWeight(const Walk& walk, LightId light, const Vec3& normal, double distance) const {
+  const Anchor& anchor = walk.anchor;
+  if (anchor.since == Anchor::Since::Camera || anchor.since == Anchor::Since::Unconnectable) return 1.0;
+  const bool overMirror = anchor.since == Anchor::Since::Mirror;
+  const int connection = overMirror ? connections_.mirrored(anchor.mirror, light) : connections_.straight(light);
+  if (connection < 0) return 1.0;
+  const LightMeeting meeting{anchor.position, walk.direction, distance, normal, anchor.mirrorPoint};
+  const double tries = anchor.connections * table_.chance(anchor.position, anchor.normal, connection);
+  return powerHeuristic(anchor.pdf, tries * connections_.pdf(connection, meeting));
+}
+
+RgbSum PathTracer::lightAtInfinity(const Walk& walk) const {
+  RgbSum sum(0);
+  for (LightId light : scene_.lights().atInfinity()) {
+    const Rgb L = scene_.lights().radianceFrom(light, walk.direction);
+    if (isBlack(L)) continue;
+    sum += walk.throughput * L * static_cast<float>(meetingWeight(walk, light, Vec3(0), kInfinity));
+  }
+  return sum;
+}
+
+Rgb PathTracer::lightOf(const Walk& walk, PrimitiveId primitive, const Hit& hit) const {
+  const LightId light = scene_.lights().lightOf(primitive);
+  if (!light.valid()) return Rgb(0.0f);
+  const Rgb L = scene_.lights().emittedRadiance(light, -walk.direction, walk.anchor.fromSurface, hit.front);
+  if (isBlack(L)) return L;
+  return L * static_cast<float>(meetingWeight(walk, light, Vec3(hit.normal), walk.anchor.distance));
+}
+
+}  // namespace deltalux

@@ -1,0 +1,80 @@
+#pragma once
+// Unbiased light transport along one path: what a surface point scatters towards a direction, and what a ray sees.
+//
+// Path tracing with connections to lights and multiple importance sampling (power heuristic) [Veach97]. At
+// every surface with a finite part a connection is drawn from the table of its grid cell (at a light meter four, with
+// stratified choices): straight to a light, or over
+// one mirror, plane (virtual image) or curved (all mirror points solved for). The same paths found by scattering are
+// weighted against exactly the strategy that also makes them, so caustics of one bounce from suns, points and lamps
+// converge like direct light. Panes are passed straight on the way. Russian roulette after two bounces keeps the
+// throughput per channel: no colour is averaged away.
+//
+// Geometric normals throughout, so that energy is conserved; vertex normals of meshes are for the display.
+//
+// What remains slow, though unbiased: suns and small lamps over two or more mirrors or through refracting bodies, found
+// by scattering alone (rare bright samples); point-like lights over such chains cannot be found at all and are missing
+// (the only light that is). Rough lobes are met by scattering; light that they throw onto a point is found by paths that
+// happen to meet the lobe's surface and connect there.
+//
+// Cost per bounce: one closest hit, one shadow ray (two over a mirror).
+#include "render/reference/connection_table.hpp"
+#include "render/reference/path_sampler.hpp"
+
+namespace deltalux {
+
+/// A point where light scatters: its side towards `wo`, and what it does there.
+struct PathVertex {
+  Vec3 position;
+  Vec3 normal;  // unit, on the side of wo
+  Vec3 wo;      // unit, back along the path
+  const Bsdf* bsdf = nullptr;
+  const Dielectric* medium = nullptr;  // that the vertex is in
+};
+
+class PathTracer {
+ public:
+  /// `maxDepth`: scatterings after which a path ends in any case; 0: none.
+  PathTracer(const ReferenceScene&, const LightConnections&, const ConnectionTable&, int maxDepth);
+
+  /// Irradiance at a point [W/m2], one path's estimate.
+  RgbSum irradiance(const Vec3& position, const Vec3& normal, PathSampler&, std::uint64_t& rays) const;
+  /// Radiance that comes back along a ray [W/(sr m2)], one path's estimate.
+  RgbSum radiance(const Vec3& origin, const Vec3& direction, PathSampler&, std::uint64_t& rays) const;
+
+ private:
+  /// Where the path last scattered by a finite density, and over what it has gone since.
+  struct Anchor {
+    enum class Since : unsigned char { Camera, Straight, Mirror, Unconnectable };
+    Vec3 position{0}, normal{0};
+    int connections = 1;  // that were drawn there
+    double pdf = 0;
+    Since since = Since::Camera;
+    PrimitiveId mirror;
+    Vec3 mirrorPoint{0};
+    double distance = 0;   // from the anchor along the path
+    double fromSurface = 0;  // from the last surface that was not a pane
+  };
+  struct Walk {
+    Vec3 origin, direction, offsetNormal;
+    Rgb throughput{1.0f};
+    const Dielectric* medium = nullptr;
+    Anchor anchor;
+    int depth = 0;
+  };
+
+  RgbSum follow(Walk walk, PathSampler&, std::uint64_t& rays) const;
+  /// Light that `count` connections bring to a vertex and on towards wo.
+  Rgb connect(const PathVertex&, int count, PathSampler&, std::uint64_t& rays) const;
+  Rgb arriving(const PathVertex&, const ConnectionTable::Choice&, int count, const Vec2& u, std::uint64_t& rays) const;
+  bool scatter(Walk&, const PathVertex&, PrimitiveId, bool front, PathSampler&) const;
+  double meetingWeight(const Walk&, LightId, const Vec3& normal, double distance) const;
+  RgbSum lightAtInfinity(const Walk&) const;
+  Rgb lightOf(const Walk&, PrimitiveId, const Hit&) const;
+
+  const ReferenceScene& scene_;
+  const LightConnections& connections_;
+  const ConnectionTable& table_;
+  int maxDepth_;
+};
+
+}  // namespace deltalux

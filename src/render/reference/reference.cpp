@@ -1,0 +1,236 @@
+// The driver: batches of paths per point or pixel, passes of growing size, standard errors from independent batches.
+#include <deltalux/error.hpp>
+#include <deltalux/reference.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+#include "base/check.hpp"
+#include "base/parallel.hpp"
+#include "render/reference/path_tracer.hpp"
+
+namespace deltalux {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr std::uint32_t kBatch = 64;  // paths that share one stratified pattern
+constexpr std::uint64_t kMinBatches = 16;  // behind a standard error, while there are paths enough
+constexpr std::uint64_t kMaxPassBatches = 1024;
+
+/// A power of two, smaller when few paths are asked for.
+std::uint32_t batchSize(std::uint64_t samples) {
+  std::uint32_t size = kBatch;
+  while (size > 1 && samples != 0 && samples < size * kMinBatches) size /= 2;
+  return size;
+}
+
+/// Test samples for the connection table: worth a small part of the paths of an ordinary job.
+double tableBudget(std::uint64_t samples) {
+  return samples == 0 ? 4e6 : std::clamp(500.0 * static_cast<double>(samples), 5e4, 4e6);
+}
+
+/// Mean and spread of batch means per channel. [Welford 1962]
+struct BatchMoments {
+  std::uint64_t count = 0;
+  RgbSum mean{0}, squares{0};
+
+  void add(const RgbSum& x) {
+    ++count;
+    const RgbSum d = x - mean;
+    mean += d / static_cast<double>(count);
+    squares += d * (x - mean);
+  }
+  RgbSum standardError() const {
+    if (count < 2) return RgbSum(0);
+    const double n = static_cast<double>(count);
+    return glm::sqrt(squares / (n * (n - 1)));
+  }
+};
+
+/// Reports of parallel work, one thread at a time; remembers the wish to stop.
+class Reporter {
+ public:
+  explicit Reporter(Progress* progress) : progress_(progress) {}
+  void phase(std::string_view name, double base, double share, std::size_t tasks) {
+    name_ = name, base_ = base, share_ = share, tasks_ = std::max<std::size_t>(tasks, 1), done_ = 0;
+  }
+  void taskDone() {
+    const std::size_t done = ++done_;
+    if (!progress_) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock) return;
+    progress_->report(name_, std::min(1.0, base_ + share_ * static_cast<double>(done) / static_cast<double>(tasks_)));
+    if (progress_->stopRequested()) stopped_ = true;
+  }
+  bool stopped() const { return stopped_; }
+  void throwIfStopped() {
+    if (progress_ && progress_->stopRequested()) stopped_ = true;
+    if (stopped_) throw Interrupted();
+  }
+
+ private:
+  Progress* progress_;
+  std::mutex mutex_;
+  std::string_view name_;
+  double base_ = 0, share_ = 1;
+  std::size_t tasks_ = 1;
+  std::atomic<std::size_t> done_{0};
+  std::atomic<bool> stopped_{false};
+};
+
+}  // namespace
+
+struct ReferenceIntegrator::Impl {
+  Impl(const Scene& s, const ReferenceSettings& wanted)
+      : settings(wanted), scene(s, wanted.diffuseOnly), connections(scene), table(scene, connections, tableBudget(wanted.samples)),
+        tracer(scene, connections, table, wanted.maxDepth) {
+    DELTALUX_CHECK(settings.samples > 0 || settings.seconds > 0 || settings.targetError > 0, "samples, seconds or a target error");
+  }
+
+  /// How many batches the next pass makes; 0 ends.
+  struct Schedule {
+    std::uint64_t total;  // batches; 0: no limit
+    std::uint64_t done = 0;
+  };
+  std::uint64_t nextPass(const Schedule&, double elapsed) const;
+  double fractionDone(const Schedule&, double elapsed) const;
+
+  template <class Estimate>
+  RgbSum batchMean(std::uint64_t key, std::uint32_t size, const Estimate& estimate);
+  bool settled(const BatchMoments&) const;
+
+  ReferenceSettings settings;
+  ReferenceScene scene;
+  LightConnections connections;
+  ConnectionTable table;
+  PathTracer tracer;
+  std::atomic<std::uint64_t> rays{0}, paths{0};
+  double seconds = 0;
+};
+
+std::uint64_t ReferenceIntegrator::Impl::nextPass(const Schedule& s, double elapsed) const {
+  std::uint64_t batches = std::min<std::uint64_t>(std::max<std::uint64_t>(s.done, 4), kMaxPassBatches);
+  if (s.total > 0) batches = std::min(batches, s.total - s.done);
+  if (settings.seconds > 0 && s.done > 0) {
+    const double perBatch = elapsed / static_cast<double>(s.done);
+    const double fit = (settings.seconds - elapsed) / perBatch;
+    batches = fit < 1.0 ? 0 : std::min(batches, static_cast<std::uint64_t>(fit));
+  }
+  return batches;
+}
+
+double ReferenceIntegrator::Impl::fractionDone(const Schedule& s, double elapsed) const {
+  const double bySamples = s.total > 0 ? static_cast<double>(s.done) / static_cast<double>(s.total) : 0.0;
+  return std::max(bySamples, settings.seconds > 0 ? elapsed / settings.seconds : 0.0);
+}
+
+template <class Estimate>
+RgbSum ReferenceIntegrator::Impl::batchMean(std::uint64_t key, std::uint32_t size, const Estimate& estimate) {
+  RgbSum sum(0);
+  std::uint64_t traced = 0;
+  for (std::uint32_t i = 0; i < size; ++i) {
+    PathSampler sampler(key, i);
+    sum += estimate(sampler, traced);
+  }
+  rays.fetch_add(traced, std::memory_order_relaxed);
+  paths.fetch_add(size, std::memory_order_relaxed);
+  return sum / static_cast<double>(size);
+}
+
+bool ReferenceIntegrator::Impl::settled(const BatchMoments& m) const {
+  if (settings.targetError <= 0 || m.count < 2 * kMinBatches) return false;
+  return glm::all(glm::lessThanEqual(m.standardError(), settings.targetError * m.mean));
+}
+
+ReferenceIntegrator::ReferenceIntegrator(const Scene& scene, ReferenceSettings settings)
+    : impl_(std::make_unique<Impl>(scene, settings)) {}
+ReferenceIntegrator::~ReferenceIntegrator() = default;
+
+std::vector<ProbeResult> ReferenceIntegrator::probe(std::span<const ProbePoint> points, Progress* progress) {
+  Impl& impl = *impl_;
+  const auto start = Clock::now();
+  const std::uint32_t size = batchSize(impl.settings.samples);
+  Impl::Schedule schedule{(impl.settings.samples + size - 1) / size};
+  std::vector<BatchMoments> moments(points.size());
+  std::vector<std::size_t> active(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) active[i] = i;
+  Reporter reporter(progress);
+  std::vector<RgbSum> means;
+  while (!active.empty()) {
+    const std::uint64_t batches = impl.nextPass(schedule, secondsSince(start));
+    if (batches == 0) break;
+    const double before = impl.fractionDone(schedule, secondsSince(start));
+    const double after = schedule.total > 0 ? static_cast<double>(schedule.done + batches) / static_cast<double>(schedule.total) : before;
+    means.assign(active.size() * batches, RgbSum(0));
+    reporter.phase("probes", before, std::max(0.0, after - before), means.size());
+    parallelFor(means.size(), 1, [&](std::size_t task) {
+      if (reporter.stopped()) return;
+      const std::size_t point = active[task / batches];
+      const std::uint64_t batch = schedule.done + task % batches;
+      const std::uint64_t key = combineKeys(combineKeys(impl.settings.seed, point), batch);
+      means[task] = impl.batchMean(key, size, [&](PathSampler& sampler, std::uint64_t& rays) {
+        return impl.tracer.irradiance(points[point].position, glm::normalize(points[point].normal), sampler, rays);
+      });
+      reporter.taskDone();
+    });
+    reporter.throwIfStopped();
+    for (std::size_t task = 0; task < means.size(); ++task) moments[active[task / batches]].add(means[task]);
+    schedule.done += batches;
+    std::erase_if(active, [&](std::size_t point) { return impl.settled(moments[point]); });
+  }
+  std::vector<ProbeResult> results;
+  for (const BatchMoments& m : moments) results.push_back({m.mean, m.standardError(), m.count * size});
+  impl.seconds += secondsSince(start);
+  return results;
+}
+
+Image ReferenceIntegrator::render(const View& view, int width, int height, Progress* progress) {
+  Impl& impl = *impl_;
+  const auto start = Clock::now();
+  const std::uint32_t size = std::min<std::uint32_t>(16, batchSize(impl.settings.samples));
+  Impl::Schedule schedule{(impl.settings.samples + size - 1) / size};
+  const std::size_t pixels = static_cast<std::size_t>(width) * height;
+  std::vector<BatchMoments> moments(pixels);
+  Reporter reporter(progress);
+  while (true) {
+    const std::uint64_t batches = impl.nextPass(schedule, secondsSince(start));
+    if (batches == 0) break;
+    const double before = impl.fractionDone(schedule, secondsSince(start));
+    const double after = schedule.total > 0 ? static_cast<double>(schedule.done + batches) / static_cast<double>(schedule.total) : before;
+    constexpr std::size_t kBlock = 64;
+    reporter.phase("render", before, std::max(0.0, after - before), (pixels + kBlock - 1) / kBlock);
+    parallelBlocks(pixels, kBlock, [&](std::size_t begin, std::size_t end) {
+      if (reporter.stopped()) return;
+      for (std::size_t pixel = begin; pixel < end; ++pixel) {
+        if (impl.settled(moments[pixel])) continue;
+        const double x = static_cast<double>(pixel % width), y = static_cast<double>(pixel / width);
+        for (std::uint64_t b = schedule.done; b < schedule.done + batches; ++b) {
+          const std::uint64_t key = combineKeys(combineKeys(~impl.settings.seed, pixel), b);
+          moments[pixel].add(impl.batchMean(key, size, [&](PathSampler& sampler, std::uint64_t& rays) {
+            const Vec2 in = sampler.next2();
+            const ViewRay ray = viewRay(view, (x + in.x) / width, (y + in.y) / height);
+            return impl.tracer.radiance(ray.origin, ray.direction, sampler, rays);
+          }));
+        }
+      }
+      reporter.taskDone();
+    });
+    reporter.throwIfStopped();
+    schedule.done += batches;
+  }
+  Image image;
+  image.width = width, image.height = height;
+  for (const BatchMoments& m : moments) image.pixels.push_back(Rgb(m.mean));
+  impl.seconds += secondsSince(start);
+  return image;
+}
+
+ReferenceStats ReferenceIntegrator::stats() const { return {impl_->rays, impl_->paths, impl_->seconds}; }
+
+}  // namespace deltalux

@@ -1,0 +1,67 @@
+#include "render/reference/reference_scene.hpp"
+
+namespace deltalux {
+
+namespace {
+
+Scene prepare(const Scene& scene, bool diffuseOnly) {
+  Scene copy = diffuseOnly ? diffuseOnlyScene(scene) : scene;
+  addAreaLights(copy);
+  return copy;
+}
+
+const Texture* textureOf(const Scene& scene, PrimitiveId p) {
+  const auto* opaque = std::get_if<Opaque>(&scene.materialOf(p).surface);
+  const auto* mesh = std::get_if<Mesh>(&scene[p].shape);
+  if (!opaque || !opaque->diffuseTexture.valid() || !mesh || mesh->texcoords.empty()) return nullptr;
+  return &scene.textures[opaque->diffuseTexture.index()];
+}
+
+/// Barycentric coordinates of the point of triangle a b c nearest to p in its plane.
+Vec3 barycentric(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
+  const Vec3 n = glm::cross(b - a, c - a);
+  const double squared = glm::dot(n, n);
+  if (!(squared > 0.0)) return {1, 0, 0};
+  const double v = glm::dot(glm::cross(p - a, c - a), n) / squared;
+  const double w = glm::dot(glm::cross(b - a, p - a), n) / squared;
+  return {1 - v - w, v, w};
+}
+
+}  // namespace
+
+Scene diffuseOnlyScene(Scene scene) {
+  for (Material& material : scene.materials) {
+    if (auto* opaque = std::get_if<Opaque>(&material.surface)) {
+      opaque->specular = {};
+    } else if (auto* trans = std::get_if<Trans>(&material.surface)) {
+      trans->reflection = trans->transmission = {};
+    } else if (!isThinGlass(material)) {
+      material.surface = Opaque{};
+    }
+  }
+  return scene;
+}
+
+ReferenceScene::ReferenceScene(const Scene& scene, bool diffuseOnly)
+    : scene_(prepare(scene, diffuseOnly)), lights_(scene_), rays_(makeEmbreeTracer(scene_)) {
+  for (const Material& material : scene_.materials) {
+    for (bool front : {false, true}) {
+      bsdfs_.push_back(makeBsdf(material, front));
+      bsdfs_.back().paneReflects = !diffuseOnly;
+    }
+  }
+  for (std::size_t i = 0; i < scene_.primitives.size(); ++i) {
+    textured_.push_back(textureOf(scene_, PrimitiveId(i)) != nullptr);
+  }
+}
+
+Rgb ReferenceScene::tint(PrimitiveId p, std::uint32_t triangle, const Vec3& position) const {
+  const Texture* texture = textureOf(scene_, p);
+  if (!texture) return Rgb(1.0f);
+  const Mesh& mesh = std::get<Mesh>(scene_[p].shape);
+  const auto& t = mesh.triangles[triangle];
+  const Vec3 w = barycentric(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]], position);
+  return texture->sample(w.x * mesh.texcoords[t[0]] + w.y * mesh.texcoords[t[1]] + w.z * mesh.texcoords[t[2]]);
+}
+
+}  // namespace deltalux

@@ -1,0 +1,42 @@
+#pragma once
+// The scene as the reference integrator wants it: a copy with its lights listed, scattering looked up per material and
+// side, and the rays.
+#include <deltalux/scene.hpp>
+#include <memory>
+#include <vector>
+
+#include "scene/bsdf.hpp"
+#include "scene/light_sampling.hpp"
+#include "tracing/ray_tracer.hpp"
+
+namespace deltalux {
+
+/// `scene` with speculars off: lobes dropped, mirrors and refracting bodies black; panes stay.
+Scene diffuseOnlyScene(Scene scene);
+
+class ReferenceScene {
+ public:
+  ReferenceScene(const Scene&, bool diffuseOnly);
+
+  const Scene& scene() const { return scene_; }
+  const RayTracer& rays() const { return *rays_; }
+  const LightSampler& lights() const { return lights_; }
+  /// Scattering of a primitive's side, textures left out.
+  const Bsdf& bsdf(PrimitiveId p, bool front) const { return bsdfs_[2 * scene_[p].material.index() + (front ? 1 : 0)]; }
+  /// The diffuse colour's factor at a point of a textured mesh; 1 elsewhere.
+  Rgb tint(PrimitiveId, std::uint32_t triangle, const Vec3& position) const;
+  bool isTextured(PrimitiveId p) const { return textured_[p.index()]; }
+  /// Whether connections may go over that side's mirror: not inside refracting bodies, where light is absorbed.
+  bool isConnectableMirror(PrimitiveId p, bool front) const { return front || !body(p); }
+  /// Medium behind the front of a dielectric; null for all else.
+  const Dielectric* body(PrimitiveId p) const { return std::get_if<Dielectric>(&scene_.materialOf(p).surface); }
+
+ private:
+  Scene scene_;
+  LightSampler lights_;
+  std::unique_ptr<RayTracer> rays_;
+  std::vector<Bsdf> bsdfs_;
+  std::vector<char> textured_;
+};
+
+}  // namespace deltalux
