@@ -1,6 +1,5 @@
 // Embree behind the interface: one Embree scene per group, joined as instances once there is more than one.
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/check.hpp"
@@ -20,6 +19,12 @@ RTCRay embreeRay(const Ray& ray, unsigned mask) {
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
   r.tnear = ray.tNear, r.tfar = ray.tFar, r.time = 0, r.mask = mask, r.id = 0, r.flags = 0;
   return r;
+}
+
+/// Past `t` by more than Embree's rounding of it, so that the same triangle is not found again.
+float beyond(const Ray& ray, float t) {
+  const Vec3f o = glm::abs(ray.origin);
+  return t + 1e-6f * (std::max({o.x, o.y, o.z}) + std::abs(t)) + 1e-12f;
 }
 
 class EmbreeTracer final : public RayTracer {
@@ -43,7 +48,7 @@ class EmbreeTracer final : public RayTracer {
       const unsigned group = found.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? 0 : found.hit.instID[0];
       if (const auto hit = groups_[group]->hit(ray, found)) return *hit;
       // Rarely: not on the segment after all, such as the plane that the ray starts from. On from there.
-      found.ray.tnear = std::nextafter(found.ray.tfar, std::numeric_limits<float>::infinity());
+      found.ray.tnear = beyond(ray, found.ray.tfar);
       found.ray.tfar = ray.tFar;
     }
   }

@@ -69,6 +69,27 @@ TEST(RayTracer, RaysFromASurfaceDoNotMeetItAgain) {
   }
 }
 
+TEST(RayTracer, RaysThatStartInAPlaneEnd) {
+  // Without an offset, on polygons whose planes round to the ray's own coordinates and off them by a digit.
+  Scene scene = test::emptyScene();
+  test::addBox(scene, {{-1, -2, 0.228529}, {9, 20, 3}});
+  test::addBox(scene, {{0, 0, 0}, {1, 1, 1}});
+  const auto tracer = makeEmbreeTracer(scene);
+  Rng rng(9);
+  for (int i = 0; i < 100000; ++i) {
+    const PrimitiveId id(static_cast<std::size_t>(rng.uniform() * double(scene.primitives.size())));
+    const SurfacePoint p = samplePoint(scene[id].shape, {rng.uniform(), rng.uniform()});
+    Ray ray;
+    ray.origin = Vec3f(p.position) + static_cast<float>(i % 5 - 2) * 1e-7f * Vec3f(p.normal);
+    ray.direction = Vec3f(test::randomDirection(rng));
+    const Hit hit = tracer->closestHit(ray);
+    EXPECT_GE(hit.t, 0.0f);
+    if (hit.primitive == id) {
+      EXPECT_LT(hit.t * std::abs(glm::dot(hit.normal, ray.direction)), 4e-6f) << "one plane is met once";
+    }
+  }
+}
+
 TEST(RayTracer, NothingLeavesASealedBox) {
   Scene scene = test::emptyScene();
   test::addBox(scene, {{-1, -2, -3}, {3, 2, 1}}, test::someTurn());
