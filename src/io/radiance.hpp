@@ -10,7 +10,7 @@
 #include <deltalux/io.hpp>
 #include <string>
 
-#include "io/radiance/file_access.hpp"
+#include "io/radiance/expander.hpp"
 
 namespace deltalux {
 
@@ -18,6 +18,7 @@ namespace deltalux {
 ImportedScene loadRadiance(const std::vector<std::filesystem::path>& files, const ImportSettings&);
 
 /// As above, from one text; what it includes comes through `files`.
-ImportedScene readRadiance(radiance::SourceFile, radiance::FileAccess& files, const ImportSettings&);
+ImportedScene readRadiance(const radiance::SourceFile&, radiance::FileAccess& files, const ImportSettings&,
+                           const radiance::ExpansionLimits& = {});
 
 }  // namespace deltalux

@@ -173,9 +173,10 @@ SurfacePoint samplePoint(const Polygon& p, Vec2 uniform) {
   if (p.fillsFrame) return pointAt(p, uniform);
   const Choice choice = choose(p.cumulativeArea, uniform.x);
   const Vec2 w = uniformInTriangle({choice.remainder, uniform.y});
-  const auto& [a, b, c] = p.triangles[choice.index];
+  const std::array<std::uint32_t, 3>& corners = p.triangles[choice.index];
   const auto mix = [&](const auto& table) {
-    return table[a] + w.x * (table[b] - table[a]) + w.y * (table[c] - table[a]);
+    const auto &a = table[corners[0]], &b = table[corners[1]], &c = table[corners[2]];
+    return a + w.x * (b - a) + w.y * (c - a);
   };
   return {mix(p.vertices), p.normal, mix(p.outline)};
 }

@@ -10,6 +10,8 @@ template <class... Ts>
 struct Overloaded : Ts... {
   using Ts::operator()...;
 };
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;  // Clang 14 does not yet deduce aggregates
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::logic_error("scene: " + what);

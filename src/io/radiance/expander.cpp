@@ -1,10 +1,12 @@
 #include "io/radiance/expander.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "io/radiance/command_line.hpp"
 #include "io/radiance/generators.hpp"
+#include "io/radiance/lexer.hpp"
 #include "io/radiance/xform.hpp"
 
 namespace deltalux::radiance {
@@ -114,11 +116,23 @@ Expander::Objects Expander::transformed(const std::vector<std::string>& words, c
   Objects result;
   result.reserve(static_cast<std::size_t>(copies * objects));
   for (const Placement& placement : command.copies) {
-    for (const Objects* source : sources) {
-      for (const RadObject& object : *source) result.push_back(placed(object, placement));
-    }
+    for (const Objects* source : sources) appendPlaced(result, *source, placement, where);
   }
   return result;
+}
+
+void Expander::appendPlaced(Objects& list, const Objects& source, const Placement& placement,
+                            const SourceLine& where) const {
+  for (const RadObject& object : source) {
+    RadObject copy = placed(object, placement);
+    const auto tooLarge = [](double x) { return !(std::abs(x) <= kLargestNumber); };
+    const auto outside = [&](const Vec3& p) { return tooLarge(p.x) || tooLarge(p.y) || tooLarge(p.z); };
+    if (std::any_of(copy.reals.begin(), copy.reals.end(), tooLarge) ||
+        (copy.mesh && std::any_of(copy.mesh->positions.begin(), copy.mesh->positions.end(), outside))) {
+      throw inputError(where, "the transform takes '" + object.name + "' beyond 1e12", "check its -s, -t and -i");
+    }
+    list.push_back(std::move(copy));
+  }
 }
 
 SourceFile Expander::open(const std::string& name, const SourceLine& where, const fs::path& folder) {

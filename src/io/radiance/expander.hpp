@@ -9,6 +9,7 @@
 
 #include "io/radiance/file_access.hpp"
 #include "io/radiance/rad_parser.hpp"
+#include "io/radiance/transform.hpp"
 
 namespace deltalux::radiance {
 
@@ -34,6 +35,7 @@ class Expander {
   Objects transformed(const std::vector<std::string>& words, const Objects* piped, const SourceLine&,
                       const std::filesystem::path& folder);
   SourceFile open(const std::string& name, const SourceLine&, const std::filesystem::path& folder);
+  void appendPlaced(Objects& list, const Objects& source, const Placement&, const SourceLine&) const;
   void checkSize(double objects, double numbers, const SourceLine&) const;
 
   FileAccess& files_;

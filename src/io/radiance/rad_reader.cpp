@@ -1,6 +1,5 @@
 #include "io/import_file.hpp"
 #include "io/radiance.hpp"
-#include "io/radiance/expander.hpp"
 #include "io/radiance/scene_builder.hpp"
 
 namespace deltalux {
@@ -19,8 +18,9 @@ ImportedScene loadRadiance(const std::vector<fs::path>& files, const ImportSetti
   return radiance::buildScene(objects, settings);
 }
 
-ImportedScene readRadiance(radiance::SourceFile file, radiance::FileAccess& files, const ImportSettings& settings) {
-  return radiance::buildScene(*radiance::Expander(files).expand(file), settings);
+ImportedScene readRadiance(const radiance::SourceFile& file, radiance::FileAccess& files, const ImportSettings& settings,
+                           const radiance::ExpansionLimits& limits) {
+  return radiance::buildScene(*radiance::Expander(files, limits).expand(file), settings);
 }
 
 }  // namespace deltalux
