@@ -145,11 +145,6 @@ TEST(RadReader, UnusedUnsupportedMaterialsDoNoHarm) {
   EXPECT_EQ(errorOf("void antimatter hole 1 void 0 0\nvoid prism1 p 5 a b c d e 0 0\n"), "");
 }
 
-TEST(RadReader, TakesSeveralFilesAsOneNamespace) {
-  const auto missing = [] { loadRadiance({"no/such/file.rad"}, {}); };
-  EXPECT_THROW(missing(), InputError);
-}
-
 TEST(LoadScene, RefusesMixedFormats) {
   EXPECT_THROW(loadScene({"a.rad", "b.gltf"}), InputError);
   EXPECT_THROW(loadScene({}), InputError);
