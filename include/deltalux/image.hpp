@@ -50,8 +50,9 @@ struct ToneMapping {
 /// equal energy becomes the screen's white). Pixels that are not finite turn black.
 DisplayImage toneMap(const Image&, const ToneMapping& = {});
 
-/// The exposure that puts the log-average luminance of the lit pixels at 0.18 [Reinhard02 (1, 2)], in whole tenths of a
-/// stop; 0 for a black picture.
+/// The exposure that puts the log-average luminance of the lit pixels at 0.18 [Reinhard02 (1, 2)], or a lower one that
+/// keeps nine tenths of them at 1 or below (small bright things in dark surroundings); in tenths of a stop, 0 for
+/// black.
 double automaticEv(const Image&);
 
 /// sRGB transfer function [IEC 61966-2-1], [0,1] -> [0,1].

@@ -79,6 +79,14 @@ TEST(AutomaticEv, PutsTheLogAverageAtTheKey) {
   EXPECT_DOUBLE_EQ(automaticEv(onePixel(Rgb(0.0f))), 0.0);
 }
 
+TEST(AutomaticEv, KeepsBrightPlacesInDarkSurroundings) {
+  Image image = test::mixedImage(100, 10);
+  for (int i = 0; i < 1000; ++i) image.pixels[i] = Rgb(i % 5 == 0 ? 8.0f : 0.001f);  // a fifth is bright
+  EXPECT_DOUBLE_EQ(automaticEv(image), -3.0);
+  for (int i = 0; i < 1000; ++i) image.pixels[i] = Rgb(i % 20 == 0 ? 8.0f : 0.18f);  // a twentieth: a lamp, say
+  EXPECT_NEAR(automaticEv(image), -std::log2(8.0 / 0.18) / 20, 0.051);
+}
+
 TEST(ToneOperator, NamesGoThereAndBack) {
   for (const ToneOperator op : {ToneOperator::Linear, ToneOperator::Reinhard})
     EXPECT_EQ(toneOperatorByName(toneOperatorName(op)), op);

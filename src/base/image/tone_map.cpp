@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deltalux/image.hpp>
+#include <numeric>
 
 namespace deltalux {
 
@@ -54,16 +55,17 @@ double encodeSrgb(double linear) {
 }
 
 double automaticEv(const Image& image) {
-  double sum = 0;
-  std::size_t lit = 0;
+  std::vector<double> lit;  // log2 of luminance
   for (const Rgb& pixel : image.pixels) {
     const double Y = gray(glm::dvec3(pixel));
-    if (!(Y > 0.0) || !std::isfinite(Y)) continue;
-    sum += std::log2(Y);
-    ++lit;
+    if (Y > 0.0 && std::isfinite(Y)) lit.push_back(std::log2(Y));
   }
-  if (lit == 0) return 0;
-  return std::round(10.0 * (std::log2(kKey) - sum / static_cast<double>(lit))) / 10.0;
+  if (lit.empty()) return 0;
+  const double average = std::accumulate(lit.begin(), lit.end(), 0.0) / static_cast<double>(lit.size());
+  const auto bright = lit.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(lit.size() - 1));
+  std::nth_element(lit.begin(), bright, lit.end());
+  const double ev = std::min(std::log2(kKey) - average, -*bright);
+  return std::round(10.0 * ev) / 10.0;
 }
 
 DisplayImage toneMap(const Image& image, const ToneMapping& mapping) {
