@@ -7,10 +7,12 @@
 namespace deltalux::cli {
 
 void addInfoCommand(CLI::App&);
+void addReferenceCommand(CLI::App&);
 
 /// All of them, in the order of --help.
 inline void addCommands(CLI::App& app) {
   addInfoCommand(app);
+  addReferenceCommand(app);
 }
 
 }  // namespace deltalux::cli

@@ -8,6 +8,10 @@
 
 namespace deltalux::cli {
 
+namespace {
+std::string notNegative(const std::string& text) { return text.starts_with('-') ? text + " is negative" : ""; }
+}  // namespace
+
 void RunOptions::addReport(CLI::App& app) {
   app.add_option("--report", report, "Write a JSON report of the run")->type_name("FILE.json");
   app.add_flag("--quiet", quiet, "Print nothing but errors");
@@ -17,6 +21,7 @@ void RunOptions::addLongWork(CLI::App& app) {
   app.add_option("--threads", threads, "Threads to use (default: all)")->type_name("N")->check(CLI::Range(1, 4096));
   app.add_option("--seed", seed, "Seed of the random numbers: same seed, same result")
       ->type_name("N")
+      ->check(notNegative)  // CLI11 would wrap it round
       ->capture_default_str();
   app.add_option("--progress", progress, "json: progress as JSON lines on standard output")
       ->type_name("json")
