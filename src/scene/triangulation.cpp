@@ -1,7 +1,9 @@
 #include "scene/triangulation.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
+
+#include "scene/outline_loops.hpp"
 
 namespace deltalux {
 
@@ -9,8 +11,8 @@ namespace {
 
 class EarClipper {
  public:
-  explicit EarClipper(std::span<const Vec2> outline) : points_(outline), left_(outline.size()) {
-    std::iota(left_.begin(), left_.end(), 0u);
+  EarClipper(std::span<const Vec2> outline, std::vector<std::uint32_t> loop)
+      : points_(outline), left_(std::move(loop)) {
     double largest = 0;
     for (const Vec2& p : points_) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
     rounding_ = 8 * std::numeric_limits<double>::epsilon() * largest;
@@ -107,7 +109,12 @@ class EarClipper {
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec2> outline) {
-  return EarClipper(outline).run();
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (auto& loop : outlineLoops(outline)) {
+    const auto part = EarClipper(outline, std::move(loop)).run();
+    triangles.insert(triangles.end(), part.begin(), part.end());
+  }
+  return triangles;
 }
 
 }  // namespace deltalux

@@ -120,6 +120,33 @@ TEST(Triangulation, HolesBySeams) {
   expectTiling(touching, "touching holes");
 }
 
+TEST(Triangulation, SeamsFromOneVertexInAnyOrder) {
+  // Six holes in a row, each by a seam from the lower left corner that passes the others, in shuffled order.
+  Rng rng(21);
+  for (int round = 0; round < 40; ++round) {
+    std::vector<Outline> holes;
+    for (int i = 0; i < 6; ++i) {
+      const double x = 2 + i, y = 6 - i;
+      Outline hole = clockwise({{x, y}, {x + 0.3, y}, {x + 0.3, y + 0.3}, {x, y + 0.3}});
+      std::rotate(hole.begin(), std::find(hole.begin(), hole.end(), Vec2(x, y)), hole.end());
+      holes.push_back(hole);
+    }
+    Outline o = square(0, 8);
+    while (!holes.empty()) {
+      const auto at = static_cast<std::size_t>(rng.uniform() * static_cast<double>(holes.size()));
+      o = withHole(o, 0, holes[at]);
+      holes.erase(holes.begin() + static_cast<std::ptrdiff_t>(at));
+    }
+    expectTiling(o, "seams in any order");
+  }
+}
+
+TEST(Triangulation, OutlineThroughOnePointTwice) {
+  // Two squares that share a corner, walked straight across it, and walked by turning there.
+  expectTiling({{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 2}, {1, 2}, {1, 1}, {0, 1}}, "turning");
+  expectTiling({{1, 1}, {2, 1}, {2, 2}, {1, 2}, {1, 1}, {0, 1}, {0, 0}, {1, 0}}, "crossing");
+}
+
 TEST(Triangulation, RepeatedAndCollinearVertices) {
   expectTiling({{0, 0}, {0, 0}, {1, 0}, {2, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}, "square with extras");
   expectTiling({{0, 0}, {1, 0}, {2, 0}, {0, 2}}, "triangle with a vertex on an edge");
