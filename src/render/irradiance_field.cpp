@@ -1,0 +1,158 @@
+#include "render/irradiance_field.hpp"
+
+#include <algorithm>
+
+#include "base/parallel.hpp"
+#include "render/linear_fit.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr std::size_t kBlock = 512;
+constexpr float kSamePlane = 0.9998f;  // cosine between polygons that make one wall
+constexpr float kSmoothMesh = 0.766f;  // cosine between triangles that a mesh means to be round: 40 degrees
+constexpr float kOffPlane = 1e-3f;     // of the smaller leaf's size: still one plane
+constexpr float kDisagree = 0.3f;      // relative difference that asks whether something stands between
+constexpr float kLift = 0.1f;          // of the smaller leaf's size: height at which that is looked for
+constexpr float kLeeway = 2.0f;        // predictions stay within so many times what the neighbours differ
+
+bool disagree(const Rgb& a, const Rgb& b) {
+  const float x = gray(a), y = gray(b);
+  return std::abs(x - y) > kDisagree * std::max(x, y);
+}
+
+}  // namespace
+
+IrradianceField::IrradianceField(const Elements& elements, const Scene& scene, const RayTracer& tracer,
+                                 const std::vector<LeafIrradiance>& values)
+    : elements_(elements), scene_(scene), siteOf_(elements.size(), Id<void>::kNone) {
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (!isReceivingLeaf(elements, ElementId(i))) continue;
+    siteOf_[i] = static_cast<std::uint32_t>(sites_.size());
+    sites_.push_back({ElementId(i), {}, 0, {}});
+  }
+  parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
+    Site& site = sites_[i];
+    const ElementGeometry& g = elements.shape(site.leaf);
+    site.center = g.center;
+    site.fineness = 1.0f / std::max(g.area, 1e-30f);
+    site.support = PatchSupport(elements, scene, site.leaf);
+  });
+  findNeighbours(tracer, values);
+  fit(direct_, &LeafIrradiance::direct, values);
+  fit(indirect_, &LeafIrradiance::indirect, values);
+}
+
+void IrradianceField::findNeighbours(const RayTracer& tracer, const std::vector<LeafIrradiance>& values) {
+  std::vector<BoxF> boxes(sites_.size());
+  parallelFor(sites_.size(), kBlock,
+              [&](std::size_t i) { boxes[i] = sites_[i].support.bounds(elements_, sites_[i].leaf); });
+  const BoxTree tree(std::move(boxes));
+
+  std::vector<std::vector<std::uint32_t>> lists((sites_.size() + kBlock - 1) / kBlock);
+  begin_.assign(sites_.size() + 1, 0);
+  parallelBlocks(sites_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    auto& list = lists[begin / kBlock];
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t before = list.size();
+      list.push_back(static_cast<std::uint32_t>(i));
+      const ElementGeometry& g = elements_.shape(sites_[i].leaf);
+      tree.overlapping({g.lower, g.upper}, [&](std::uint32_t j) {
+        if (j != i && joined(sites_[i], sites_[j], tracer, values)) list.push_back(j);
+      });
+      std::sort(list.begin() + static_cast<std::ptrdiff_t>(before) + 1, list.end());
+      begin_[i + 1] = static_cast<std::uint32_t>(list.size() - before);
+    }
+  });
+  for (std::size_t i = 0; i < sites_.size(); ++i) begin_[i + 1] += begin_[i];
+  neighbours_.reserve(begin_.back());
+  for (const auto& list : lists) neighbours_.insert(neighbours_.end(), list.begin(), list.end());
+}
+
+bool IrradianceField::sameSurface(ElementId a, ElementId b) const {
+  const PatchDomain &da = elements_.domain[a.index()], &db = elements_.domain[b.index()];
+  const bool samePrimitive = da.primitive == db.primitive;
+  if (!elements_.at(a).flat || !elements_.at(b).flat)
+    return samePrimitive && elements_.at(a).front == elements_.at(b).front;
+  const ElementGeometry &ga = elements_.shape(a), &gb = elements_.shape(b);
+  const float cosine = glm::dot(ga.normal, gb.normal);
+  if (samePrimitive) return cosine > kSmoothMesh;
+  const float size = std::sqrt(std::min(ga.area, gb.area));
+  return cosine > kSamePlane && std::abs(glm::dot(gb.center - ga.center, ga.normal)) < kOffPlane * size;
+}
+
+bool IrradianceField::joined(const Site& home, const Site& other, const RayTracer& tracer,
+                             const std::vector<LeafIrradiance>& values) const {
+  if (!sameSurface(home.leaf, other.leaf) || !other.support.reaches(elements_, scene_, home.leaf)) return false;
+  const LeafIrradiance &a = values[home.leaf.index()], &b = values[other.leaf.index()];
+  if (!home.support.flat() || (!disagree(a.indirect, b.indirect) && !disagree(a.direct, b.direct))) return true;
+  const ElementGeometry &ga = elements_.shape(home.leaf), &gb = elements_.shape(other.leaf);
+  const float lift = kLift * std::sqrt(std::min(ga.area, gb.area));
+  const Vec3f from = ga.center + lift * ga.normal, to = gb.center + lift * gb.normal;
+  Ray ray;
+  ray.origin = from;
+  ray.tFar = glm::length(to - from);
+  ray.direction = (to - from) / std::max(ray.tFar, 1e-30f);
+  return !tracer.occluded(ray);
+}
+
+void IrradianceField::fit(std::vector<Linear>& result, Rgb LeafIrradiance::*quantity,
+                          const std::vector<LeafIrradiance>& values) const {
+  result.resize(sites_.size());
+  parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
+    const Site& site = sites_[i];
+    Linear& linear = result[i];
+    const Rgb own = values[site.leaf.index()].*quantity;
+    linear.value = own;
+    const Vec3f normal = elements_.shape(site.leaf).normal;
+    LinearFit fit(normal);
+    Rgb largest(0.0f);
+    for (std::uint32_t k = begin_[i] + 1; k < begin_[i + 1]; ++k) {
+      const Site& other = sites_[neighbours_[k]];
+      const Rgb difference = values[other.leaf.index()].*quantity - own;
+      fit.add(other.center - site.center, difference);
+      largest = glm::max(largest, glm::abs(difference));
+    }
+    linear.low = glm::max(own - kLeeway * largest, Rgb(0.0f));
+    linear.high = own + kLeeway * largest;
+    fit.slopes(linear.slope);
+    // Within the leaf itself the slope must not go further than to its neighbours.
+    if (!elements_.at(site.leaf).flat) return;
+    const PlaneFrame& f = elements_.frames[elements_.domain[site.leaf.index()].frame];
+    Rgb reach(0.0f);
+    for (const Vec2& q : elements_.outline(site.leaf)) {
+      const Vec3f d = Vec3f(f.origin + q.x * f.edgeU + q.y * f.edgeV) - site.center;
+      reach = glm::max(reach, glm::abs(d.x * linear.slope[0] + d.y * linear.slope[1] + d.z * linear.slope[2]));
+    }
+    for (int c = 0; c < 3; ++c) {
+      if (reach[c] <= 1.1f * largest[c]) continue;
+      for (Rgb& s : linear.slope) s[c] *= 1.1f * largest[c] / reach[c];
+    }
+  });
+}
+
+Rgb IrradianceField::blend(const std::vector<Linear>& linears, const LeafPoint& at, const Vec3f& p) const {
+  const std::uint32_t home = siteOf_[at.leaf.index()];
+  SupportPoint point;
+  point.position = p;
+  if (!sites_[home].support.flat()) {
+    point.uv = glm::vec2(at.uv);
+    point.radius = relativeRadius(scene_[elements_.domain[at.leaf.index()].primitive].shape, at.uv.y);
+  }
+  Rgb sum(0.0f);
+  float weights = 0;
+  for (std::uint32_t k = begin_[home]; k < begin_[home + 1]; ++k) {
+    const std::uint32_t i = neighbours_[k];
+    const Site& site = sites_[i];
+    const float w = site.fineness * site.support.weight(point);
+    if (w <= 0.0f) continue;
+    const Linear& l = linears[i];
+    const Vec3f d = p - site.center;
+    sum += w * glm::clamp(l.value + d.x * l.slope[0] + d.y * l.slope[1] + d.z * l.slope[2], l.low, l.high);
+    weights += w;
+  }
+  return weights > 0.0f ? sum / weights : linears[home].value;
+}
+
+}  // namespace deltalux

@@ -1,0 +1,60 @@
+#pragma once
+// Irradiance at any point of a surface side, reconstructed from one value a leaf patch: every leaf carries a linear
+// function fitted to the leaves around it, and a point blends the functions of all leaves whose supports hold it
+// (Shepard's method with local linear fits [Franke & Nielson 1980; Renka 1988]), finer leaves counting more.
+//
+//   E(p) = sum_i w_i(p) (E_i + g_i . (p - c_i)) / sum_i w_i(p),  w_i = k_i(p) / A_i
+//
+// Continuous whatever the mesh (supports move with their patch, patch_support.hpp), exact for linear fields, so there
+// is no darkening at edges; slopes are limited by what the surrounding leaves differ, so there is no overshoot. Leaves
+// blend across polygons that lie in one plane, and across a mesh's triangles where it is smooth; never across creases
+// or sides. Two leaves that disagree, with something standing between them, do not blend: no light leaks under a wall
+// that stands on a floor. All of that is decided once per pair of leaves, none of it per query.
+//
+// Rejected: vertex interpolation (needs a conforming mesh), one moving least-squares fit per query (a solve each, and
+// fits that jump as leaves enter them).
+// Cost: about 15 neighbours a leaf to build (a ray for pairs that disagree), 0.2-0.5 microseconds a query, no memory.
+#include "render/leaf_irradiance.hpp"
+#include "render/patch_support.hpp"
+#include "render/side_locator.hpp"
+#include "tracing/ray_tracer.hpp"
+
+namespace deltalux {
+
+class IrradianceField {
+ public:
+  /// `values` by element; those of receiving leaves are used. Elements and scene must outlive this.
+  IrradianceField(const Elements&, const Scene&, const RayTracer&, const std::vector<LeafIrradiance>& values);
+
+  /// At the surface point `p`, which `at` locates [W/m2].
+  Rgb direct(const LeafPoint& at, const Vec3f& p) const { return blend(direct_, at, p); }
+  Rgb indirect(const LeafPoint& at, const Vec3f& p) const { return blend(indirect_, at, p); }
+
+ private:
+  /// A leaf's linear function, kept within `low` and `high`.
+  struct Linear {
+    Rgb value{0.0f}, low{0.0f}, high{0.0f};
+    Rgb slope[3] = {Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};  // along x, y, z
+  };
+  struct Site {
+    ElementId leaf;
+    Vec3f center{0.0f};
+    float fineness = 0;  // 1 / area
+    PatchSupport support;
+  };
+
+  void findNeighbours(const RayTracer&, const std::vector<LeafIrradiance>&);
+  bool joined(const Site& home, const Site& other, const RayTracer&, const std::vector<LeafIrradiance>&) const;
+  bool sameSurface(ElementId a, ElementId b) const;
+  void fit(std::vector<Linear>&, Rgb LeafIrradiance::*quantity, const std::vector<LeafIrradiance>&) const;
+  Rgb blend(const std::vector<Linear>&, const LeafPoint&, const Vec3f& p) const;
+
+  const Elements& elements_;
+  const Scene& scene_;
+  std::vector<std::uint32_t> siteOf_;  // per element
+  std::vector<Site> sites_;
+  std::vector<std::uint32_t> begin_, neighbours_;  // per site: those that may take part at its points, itself first
+  std::vector<Linear> direct_, indirect_;
+};
+
+}  // namespace deltalux

@@ -1,0 +1,70 @@
+#include "render/side_locator.hpp"
+
+#include <algorithm>
+
+namespace deltalux {
+
+namespace {
+std::size_t surfacesOf(const Shape& shape) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  return mesh ? mesh->triangles.size() : 1;
+}
+}  // namespace
+
+SideLocator::SideLocator(const Elements& elements, const Scene& scene) : elements_(elements), scene_(scene) {
+  std::size_t total = 0;
+  for (const Primitive& p : scene.primitives) {
+    first_.push_back(static_cast<std::uint32_t>(total));
+    total += 2 * surfacesOf(p.shape);
+  }
+  sides_.resize(total);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const ElementTopology& t = elements.topology[i];
+    if (t.kind != ElementKind::Patch || t.depth > 0 || t.emitter || t.blocker) continue;
+    const PatchDomain& d = elements.domain[i];
+    sides_[first_[d.primitive.index()] + 2 * d.triangle + (t.front ? 0 : 1)] = ElementId(i);
+  }
+  for (const PlaneFrame& f : elements.frames) {
+    const Vec3 n = glm::cross(f.edgeU, f.edgeV);
+    const double squared = std::max(glm::dot(n, n), 1e-300);
+    dualU_.push_back(glm::cross(f.edgeV, n) / squared);
+    dualV_.push_back(glm::cross(n, f.edgeU) / squared);
+    origin_.push_back(f.origin);
+  }
+}
+
+ElementId SideLocator::side(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
+  return sides_[first_[primitive.index()] + 2 * triangle + (front ? 0 : 1)];
+}
+
+LeafPoint SideLocator::locate(ElementId side, const Vec3& p) const {
+  const PatchDomain& d = elements_.domain[side.index()];
+  LeafPoint result;
+  if (elements_.at(side).flat) {
+    const Vec3 from = p - origin_[d.frame];
+    result.uv = {glm::dot(from, dualU_[d.frame]), glm::dot(from, dualV_[d.frame])};
+  } else {
+    result.uv = parameterAt(scene_[d.primitive].shape, p, d.triangle);
+  }
+  result.leaf = leafAt(side, result.uv);
+  return result;
+}
+
+ElementId SideLocator::leafAt(ElementId e, const Vec2& uv) const {
+  const float u = static_cast<float>(uv.x), v = static_cast<float>(uv.y);
+  while (!elements_.isLeaf(e)) {
+    ElementId nearest;
+    float least = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < elements_.at(e).childCount && least > 0; ++i) {
+      const ElementId c = elements_.child(e, i);
+      const PatchDomain& d = elements_.domain[c.index()];
+      // Quadrants outside the outline have no element: a point on the rim may fall just beyond those that do.
+      const float outside = std::max({d.u0 - u, u - d.u1, 0.0f}) + std::max({d.v0 - v, v - d.v1, 0.0f});
+      if (outside < least) least = outside, nearest = c;
+    }
+    e = nearest;
+  }
+  return e;
+}
+
+}  // namespace deltalux

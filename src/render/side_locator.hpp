@@ -1,0 +1,34 @@
+#pragma once
+// From a point of a surface to the element that holds it: the input-level element of the surface's side, and down its
+// quadtree to the leaf. Cost: a handful of comparisons a level, no memory per query.
+#include "hierarchy/element.hpp"
+
+namespace deltalux {
+
+/// A leaf patch and the parameters of a point on its primitive (of its triangle, for meshes).
+struct LeafPoint {
+  ElementId leaf;
+  Vec2 uv{0};
+};
+
+class SideLocator {
+ public:
+  /// Both must outlive this.
+  SideLocator(const Elements&, const Scene&);
+
+  /// The input-level element of a side; invalid when light does not reach it, or when it is glass.
+  ElementId side(PrimitiveId, std::uint32_t triangle, bool front) const;
+  /// The leaf under `side` whose domain holds the surface point `p`, or is nearest to it.
+  LeafPoint locate(ElementId side, const Vec3& p) const;
+  /// The same for parameters that are known.
+  ElementId leafAt(ElementId side, const Vec2& uv) const;
+
+ private:
+  const Elements& elements_;
+  const Scene& scene_;
+  std::vector<std::uint32_t> first_;          // per primitive: its first entry in sides_
+  std::vector<ElementId> sides_;              // front and back of every surface or triangle
+  std::vector<Vec3> dualU_, dualV_, origin_;  // per frame: p -> (dot(p - origin, dualU), dot(p - origin, dualV))
+};
+
+}  // namespace deltalux
