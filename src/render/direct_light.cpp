@@ -1,0 +1,194 @@
+#include "render/direct_light.hpp"
+
+#include <algorithm>
+
+#include "base/sobol.hpp"
+#include "hierarchy/patch.hpp"
+#include "render/patch_support.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr int kBatch = 64,
+              kFirstBatches = 4;  // shadow rays of one independent estimate; estimates before any judgement
+
+SenderChoice summed(std::vector<ExpectedSender> senders) {
+  SenderChoice choice{std::move(senders), {}};
+  float sum = 0;
+  for (const ExpectedSender& s : choice.senders) choice.cumulative.push_back(sum += s.share);
+  return choice;
+}
+
+}  // namespace
+
+DirectLight::DirectLight(const Solution& s)
+    : scene_(s.scene),
+      elements_(s.elements),
+      tracer_(*s.tracer),
+      lights_(s.scene),
+      senders_(s.elements, s.links, s.scene) {}
+
+SenderChoice DirectLight::choiceAt(ElementId leaf) const {
+  std::vector<ExpectedSender> senders;
+  senders_.collect(leaf, senders);
+  return summed(std::move(senders));
+}
+
+SenderChoice DirectLight::choiceAt(const Receiver& x) const {
+  std::vector<ExpectedSender> senders;
+  senders_.collectAll(Vec3f(x.position), Vec3f(x.normal), senders);
+  return summed(std::move(senders));
+}
+
+std::optional<LightArrival> DirectLight::shadowRay(const SenderChoice& choice, const Receiver& x, int k, int rays,
+                                                   std::uint32_t index, std::uint64_t key) const {
+  const float total = choice.total();
+  const double shift = scrambledSobol(index, combineKeys(key, 1)).x;
+  const float target = static_cast<float>((k + shift) / rays) * total;
+  const auto it = std::upper_bound(choice.cumulative.begin(), choice.cumulative.end() - 1, target);
+  const ExpectedSender& s = choice.senders[static_cast<std::size_t>(it - choice.cumulative.begin())];
+  const UnitPair u =
+      scrambledSobol(index * static_cast<std::uint32_t>(rays) + static_cast<std::uint32_t>(k), combineKeys(key, 2));
+  const auto sample = sampleSender(s.sender, x, {u.x, u.y});
+  if (!sample || !(glm::dot(sample->direction, x.normal) > 0)) return std::nullopt;
+
+  const Vec3f from(x.position), n(x.normal), w(sample->direction);
+  Ray ray;
+  if (std::isinf(sample->distance)) {
+    ray.origin = offsetOrigin(from, n, w);
+    ray.direction = w;
+  } else {
+    ray = segment(from, n, Vec3f(x.position + sample->distance * sample->direction), Vec3f(sample->normal));
+  }
+  const Rgb V = tracer_.transmittance(ray);
+  if (isBlack(V)) return std::nullopt;
+  return LightArrival{sample->direction, elements_.light[sample->sender.index()],
+                      (total / (s.share * static_cast<float>(rays))) * V * sample->E};
+}
+
+std::optional<DirectLight::SenderSample> DirectLight::sampleSender(ElementId e, const Receiver& x, Vec2 u) const {
+  float chance = 1;
+  if (elements_.isCluster(e)) e = pickLight(e, Vec3f(x.position), u.x, chance);
+  if (!e.valid()) return std::nullopt;
+  const bool mesh =
+      elements_.isPatch(e) && std::holds_alternative<Mesh>(scene_[elements_.domain[e.index()].primitive].shape);
+  std::optional<SenderSample> result;
+  if (elements_.at(e).depth == 0 && !mesh) {
+    const auto s = lights_.sample(elements_.light[e.index()], x.position, u);
+    if (!s) return std::nullopt;
+    result = SenderSample{e, s->direction, s->distance, s->normal,
+                          s->pdf > 0 ? s->radiance * float(1.0 / s->pdf) : s->radiance};
+    if (!ownSide(e, x.position + s->distance * s->direction, s->normal)) return std::nullopt;
+  } else {
+    result = samplePart(e, x, u);
+  }
+  if (result) result->E *= 1.0f / chance;
+  return result;
+}
+
+/// An emitter that shines from both sides has an element for each, and each speaks for its own side.
+bool DirectLight::ownSide(ElementId e, const Vec3& y, const Vec3& normal) const {
+  if (!elements_.isPatch(e)) return true;
+  const Primitive& primitive = scene_[elements_.domain[e.index()].primitive];
+  if (!scene_[primitive.material].emission->bothSides) return true;
+  const Vec3 front = pointAt(primitive.shape, parameterAt(primitive.shape, y)).normal;
+  return (glm::dot(front, normal) > 0) == elements_.at(e).front;
+}
+
+std::optional<DirectLight::SenderSample> DirectLight::samplePart(ElementId e, const Receiver& x, const Vec2& u) const {
+  const ElementGeometry& g = elements_.shape(e);
+  const LightId light = elements_.light[e.index()];
+  if (elements_.isDistant(e)) {
+    const Vec3 w(directionOf(elements_, scene_, e, u.x, u.y));
+    return SenderSample{e, w, kInfinity, Vec3(0.0), g.area * lights_.radianceFrom(light, w)};
+  }
+  const PatchDomain& domain = elements_.domain[e.index()];
+  const Shape& shape = scene_[domain.primitive].shape;
+  const PatchPoint y = samplePatch(elements_, scene_, e, u.x, u.y);
+  double A = g.area;
+  if (std::holds_alternative<Cone>(shape)) {
+    // Points are uniform in the cone's parameters, its area is not.
+    const double v = glm::mix(double(domain.v0), double(domain.v1), u.y);
+    A *= relativeRadius(shape, v) / (0.5 * (relativeRadius(shape, domain.v0) + relativeRadius(shape, domain.v1)));
+  }
+  const Vec3 d = Vec3(y.position) - x.position;
+  const double squared = glm::dot(d, d);
+  if (!(squared > 0)) return std::nullopt;
+  const double distance = std::sqrt(squared);
+  const Vec3 w = d / distance;
+  const double cosine = -glm::dot(w, Vec3(y.normal));
+  if (!(cosine > 0)) return std::nullopt;
+  const Rgb L = lights_.emittedRadiance(light, -w, distance, elements_.at(e).front);
+  return SenderSample{e, w, distance, Vec3(y.normal), static_cast<float>(A * cosine / squared) * L};
+}
+
+ElementId DirectLight::pickLight(ElementId e, const Vec3f& x, double& u, float& chance) const {
+  // What a child sends this way; a little is credited to all, so that none is impossible.
+  const auto strength = [&](ElementId c) {
+    const ElementGeometry& g = elements_.shape(c);
+    const Vec3f d = x - g.center;
+    const float squared = std::max(glm::dot(d, d), 1e-20f);
+    const float near = squared + g.radius * g.radius;
+    if (elements_.isCluster(c)) {
+      const DirectionalRgb& I = elements_.cluster(c).intensity;
+      return (gray(I.at(d / std::sqrt(squared))) + 0.1f * gray(glm::max(I.c[0], Rgb(0.0f)))) / near;
+    }
+    const float B = gray(elements_.radiometry[c.index()].B);
+    if (elements_.isPoint(c)) return B / near;
+    const float cosine = elements_.at(c).flat ? glm::dot(g.normal, d) / std::sqrt(squared) : 1.0f;
+    return B * g.area * std::max(cosine, 0.05f) / near;
+  };
+  while (elements_.isCluster(e)) {
+    float sum = 0;
+    for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) sum += strength(elements_.child(e, i));
+    if (!(sum > 0)) return {};
+    double rest = u * sum;
+    ElementId picked;
+    float part = 0;
+    for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) {
+      const float s = strength(elements_.child(e, i));
+      if (s <= 0) continue;
+      picked = elements_.child(e, i), part = s;
+      if (rest < s) break;
+      rest -= s;
+    }
+    u = std::clamp(rest / part, 0.0, 0x1.fffffffffffffp-1);
+    chance *= part / sum;
+    e = picked;
+  }
+  return e;
+}
+
+Rgb DirectLight::irradiance(const SenderChoice& choice, const Receiver& x, int rays, std::uint32_t index,
+                            std::uint64_t key) const {
+  Rgb sum(0.0f);
+  sample(choice, x, rays, index, key,
+         [&](const LightArrival& a) { sum += static_cast<float>(glm::dot(a.direction, x.normal)) * a.E; });
+  return sum;
+}
+
+ProbeResult DirectLight::measure(const SenderChoice& choice, const Receiver& x, const Rgb& ambient, double error,
+                                 int maxSamples, std::uint64_t key) const {
+  ProbeResult result;
+  if (!(choice.total() > 0)) return result;
+  RgbSum sum(0.0), squares(0.0);
+  int batches = 0;
+  while (batches < kFirstBatches || result.samples + kBatch <= static_cast<std::uint64_t>(maxSamples)) {
+    const RgbSum E(irradiance(choice, x, kBatch, 0, combineKeys(key, batches)));
+    sum += E, squares += E * E;
+    ++batches;
+    result.samples += kBatch;
+    const double n = batches;
+    result.irradiance = sum / n;
+    const RgbSum variance = glm::max(squares / n - result.irradiance * result.irradiance, RgbSum(0.0));
+    result.standardError = glm::sqrt(variance / std::max(n - 1, 1.0));
+    if (batches >= kFirstBatches &&
+        gray(result.standardError) <= error * (gray(result.irradiance) + gray(RgbSum(ambient))))
+      break;
+  }
+  return result;
+}
+
+}  // namespace deltalux

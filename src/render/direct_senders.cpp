@@ -1,0 +1,94 @@
+#include "render/direct_senders.hpp"
+
+#include <algorithm>
+
+#include "radiosity/kernel.hpp"
+
+namespace deltalux {
+
+namespace {
+constexpr float kDoubt = 0.05f;        // visibility that is credited to links whose sample rays were all blocked
+constexpr float kLeastCosine = 0.1f;   // credited to senders only part of which rises above the horizon
+constexpr float kLeastKernel = 0.02f;  // of the sender's solid angle: its few nodes may all face away, or lie below
+
+bool mayCarry(const Elements& elements, const Link& l) {
+  return elements.at(l.sender).emitter && l.state == LinkState::Active && l.visibility != Visibility::Blocked;
+}
+
+/// Transfer that a sender of unknown orientation is credited with.
+float leastKernel(const Elements& elements, const Vec3f& x, ElementId sender) {
+  const ElementGeometry& g = elements.shape(sender);
+  if (elements.isDistant(sender)) return kLeastKernel * g.area;
+  if (!elements.isPatch(sender)) return 0.0f;
+  const Vec3f d = g.center - x;
+  return kLeastKernel * g.area / (float(kPi) * (glm::dot(d, d) + g.area));
+}
+}  // namespace
+
+DirectSenders::DirectSenders(const Elements& elements, const Links& links, const Scene& scene)
+    : elements_(elements), scene_(scene), begin_(elements.size() + 1, 0) {
+  for (const Link& l : links.all)
+    if (mayCarry(elements, l)) ++begin_[l.receiver.index() + 1];
+  for (std::size_t i = 0; i < elements.size(); ++i) begin_[i + 1] += begin_[i];
+  arriving_.resize(begin_.back());
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+  for (const Link& l : links.all) {
+    if (!mayCarry(elements, l)) continue;
+    const float V = l.visibility == Visibility::Clear ? 1.0f : std::max(gray(l.V), kDoubt);
+    const float K = std::max(l.K, leastKernel(elements, elements.shape(l.receiver).center, l.sender));
+    arriving_[next[l.receiver.index()]++] = {l.sender, K * V * strength(l.receiver, l.sender)};
+  }
+}
+
+float DirectSenders::strength(ElementId receiver, ElementId sender) const {
+  if (!elements_.isCluster(sender)) return gray(elements_.radiometry[sender.index()].B);
+  const Vec3f between = elements_.shape(receiver).center - elements_.shape(sender).center;
+  const float distance = glm::length(between);
+  const DirectionalRgb& intensity = elements_.cluster(sender).intensity;
+  return gray(intensity.at(distance > 0 ? between / distance : Vec3f(0, 0, 1)));
+}
+
+void DirectSenders::collect(ElementId leaf, std::vector<ExpectedSender>& out) const {
+  const ElementGeometry& g = elements_.shape(leaf);
+  for (ElementId e = leaf; e.valid(); e = elements_.at(e).parent) {
+    const bool cluster = elements_.isCluster(e);
+    for (std::uint32_t i = begin_[e.index()]; i < begin_[e.index() + 1]; ++i) {
+      const Arriving& a = arriving_[i];
+      float share = a.share;
+      if (cluster) {
+        const ElementGeometry& s = elements_.shape(a.sender);
+        const bool distant = elements_.isDistant(a.sender);
+        const Vec3f between = distant ? s.center : s.center - g.center;
+        const float distance = std::max(glm::length(between), 1e-20f);
+        // How far the sender and the patch's own curvature reach above the horizon.
+        const float extent = std::min(1.0f, distant ? s.radius : (s.radius + g.radius) / distance);
+        const float bend = g.normalCone > 0 ? std::sqrt(1 - g.normalCone * g.normalCone) : 1.0f;
+        const float cosine = glm::dot(g.normal, between) / distance;
+        if (cosine + extent + bend <= 0) continue;
+        share *= std::max(cosine, kLeastCosine);
+      }
+      if (share > 0) out.push_back({a.sender, share});
+    }
+  }
+}
+
+void DirectSenders::collectAll(const Vec3f& x, const Vec3f& normal, std::vector<ExpectedSender>& out) const {
+  if (elements_.lightRoot.valid()) collectAll(elements_.lightRoot, x, normal, out);
+  for (const ElementId e : elements_.distant) collectAll(e, x, normal, out);
+}
+
+void DirectSenders::collectAll(ElementId e, const Vec3f& x, const Vec3f& normal,
+                               std::vector<ExpectedSender>& out) const {
+  if (elements_.isCluster(e)) {
+    for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) collectAll(elements_.child(e, i), x, normal, out);
+    return;
+  }
+  double K = kernelAtPoint(elements_, scene_, x, normal, e);
+  const ElementGeometry& g = elements_.shape(e);
+  const bool above = elements_.isDistant(e) || glm::dot(g.center - x, normal) + g.radius > 0;
+  if (above) K = std::max(K, double(leastKernel(elements_, x, e)));
+  const float share = static_cast<float>(K) * gray(elements_.radiometry[e.index()].B);
+  if (share > 0) out.push_back({e, share});
+}
+
+}  // namespace deltalux
