@@ -1,0 +1,49 @@
+#pragma once
+// What a solution looks like: light meters and pictures. Indirect light is reconstructed smoothly within surfaces;
+// direct light is measured again with shadow rays, so that shadows are as sharp as they are.
+#include <deltalux/image.hpp>
+#include <deltalux/probe.hpp>
+#include <deltalux/progress.hpp>
+#include <deltalux/solution.hpp>
+#include <deltalux/view.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace deltalux {
+
+struct ProbeSettings {
+  bool mesh = false;         // the mesh's own value at points of surfaces: no reconstruction, no shadow rays
+  double error = 0.01;       // relative standard error at which sampling stops, in (0, 1)
+  int maxSamples = 1 << 14;  // shadow rays, and in free space gathering rays, of a point at most
+  std::uint64_t seed = 1;
+};
+
+/// Irradiance at every point, in their order [W/m2]. A point within 1e-3 of the scene's size from a surface whose side
+/// faces the normal reads the solution there; any other point gathers what it sees. Standard errors are those of the
+/// sampling, not of the solution. Does not depend on the number of threads. Throws Interrupted.
+std::vector<ProbeResult> probe(const SolutionView&, std::span<const ProbePoint>, const ProbeSettings& = {},
+                               Progress* progress = nullptr);
+
+struct RenderSettings {
+  int width = 640, height = 480;
+  int samplesPerPixel = 16;   // camera rays, stratified; at least 1
+  int shadowRays = 4;         // towards lights at each surface that a camera ray meets; at least 1
+  bool meshDirect = false;    // direct light from the mesh too, reconstructed: no shadow rays
+  int maxSpecularDepth = 24;  // mirrors and panes that a camera ray follows
+  std::uint64_t seed = 1;
+};
+
+/// Radiance seen through the view [W/(sr m2)]. Does not depend on the number of threads. Throws Interrupted.
+Image render(const SolutionView&, const View&, const RenderSettings& = {}, Progress* progress = nullptr);
+
+struct MeshViewSettings {
+  int width = 640, height = 480;
+  std::optional<glm::ivec2> linksOf;  // a pixel: draws the links that bring light to the element seen there
+};
+
+/// The mesh as it is, for debugging: radiance of the leaf patches without any reconstruction, their outlines, and the
+/// links of one element as lines (green: unoccluded, yellow: partly, red: occluded; those of its ancestors included).
+Image renderMesh(const SolutionView&, const View&, const MeshViewSettings& = {});
+
+}  // namespace deltalux

@@ -1,0 +1,147 @@
+#include "render/eye_path.hpp"
+
+#include <algorithm>
+
+#include "base/sobol.hpp"
+#include "scene/texture_tint.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux {
+
+namespace {
+constexpr float kFaint = 1e-3f;  // a path that carries less ends
+constexpr std::uint64_t kShadowKey = 1 << 8, kOtherSideKey = 1 << 9, kScatterKey = 1 << 10;
+}  // namespace
+
+struct EyePaths::Vertex {
+  Hit hit;
+  Vec3 position, direction;  // of the ray that came
+  Vec3 normal;               // unit, on the side that the ray came from
+
+  Vec3 sideNormal(bool front) const { return front == hit.front ? normal : -normal; }
+};
+
+EyePaths::EyePaths(const Solution& s, const Reconstruction& reconstruction, EyeSettings settings)
+    : scene_(s.scene),
+      elements_(s.elements),
+      tracer_(*s.tracer),
+      reconstruction_(reconstruction),
+      settings_(settings),
+      panesReflect_(!s.settings.diffuseOnly) {
+  for (const Material& m : scene_.materials) {
+    specular_.push_back(isSpecular(m));
+    for (const bool front : {false, true}) bsdfs_.push_back(makeBsdf(m, front));
+  }
+}
+
+Rgb EyePaths::radiance(const EyeRay& eye, ChoiceCache& cache) const {
+  Rgb L(0.0f), beta(1.0f);
+  Ray ray = eye.ray;
+  bool emitters = eye.emitters;
+  std::optional<Lobe> lobe;
+  for (int depth = 0; depth <= settings_.maxDepth;) {
+    const Hit hit = tracer_.closestHit(ray);
+    if (!hit) return emitters ? L + beta * background(Vec3(ray.direction), lobe ? &*lobe : nullptr) : L;
+    const Vec3 n = hit.front ? Vec3(hit.normal) : -Vec3(hit.normal);
+    const Vertex v{hit, Vec3(at(ray, hit.t)), Vec3(ray.direction), n};
+    if (emitters) L += beta * emitted(v, lobe ? &*lobe : nullptr);
+    const Bsdf& scattering = bsdf(hit.primitive, hit.front);
+    if (scattering.pane && !panesReflect_) {
+      beta *= transmittance(*scattering.pane, -glm::dot(v.direction, n));
+      ray.origin = offsetOrigin(Vec3f(v.position), hit.normal, ray.direction);
+      if (maxChannel(beta) < kFaint) return L;
+      continue;
+    }
+    bool lightsMet = false;
+    L += beta * scattered(v, eye, depth, cache, lightsMet);
+    if (!specular_[scene_[hit.primitive].material.index()]) return L;
+
+    if (const auto* body = std::get_if<Dielectric>(&scene_.materialOf(hit.primitive).surface); body && !hit.front)
+      beta *= glm::pow(body->transmission, Rgb(hit.t));
+    const Frame frame(n);
+    const UnitPair a = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * depth));
+    const UnitPair b = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * depth + 1));
+    const auto s = sample(specularPart(scattering), frame.toLocal(-v.direction), {a.x, b.x, b.y});
+    if (!s) return L;
+    beta *= s->weight / static_cast<float>(s->etaSquared);
+    if (maxChannel(beta) < kFaint) return L;
+    const bool glossy = !isDirac(s->event);
+    const SpecularLobe& shape = s->direction.z > 0 ? scattering.reflection : scattering.transmission;
+    lobe = glossy && lightsMet ? std::optional(Lobe{v.position, shape.roughness}) : std::nullopt;
+    emitters = emitters || s->event != ScatterEvent::StraightTransmission;
+    ray.direction = Vec3f(glm::normalize(frame.toWorld(s->direction)));
+    ray.origin = offsetOrigin(Vec3f(v.position), hit.normal, ray.direction);
+    ++depth;
+  }
+  return L;
+}
+
+bool EyePaths::metByShadowRays(LightId id, const Lobe& lobe) const {
+  const LightSampler& lights = reconstruction_.direct.lights();
+  if (lights.isPointLike(id)) return true;
+  const double width = kPi * double(lobe.roughness) * double(lobe.roughness);  // [sr]
+  if (const auto* sun = std::get_if<SunLight>(&scene_[id].emitter)) return solidAngle(*sun) < width;
+  const auto* area = std::get_if<AreaLight>(&scene_[id].emitter);
+  if (!area) return false;
+  const Box box = bounds(scene_[area->primitive].shape);
+  const Vec3 d = box.center() - lobe.position;
+  return 0.25 * kPi * glm::dot(box.extent(), box.extent()) < width * glm::dot(d, d);
+}
+
+Rgb EyePaths::background(const Vec3& towards, const Lobe* lobe) const {
+  const LightSampler& lights = reconstruction_.direct.lights();
+  Rgb L(0.0f);
+  for (const LightId id : lights.atInfinity())
+    if (!lobe || !metByShadowRays(id, *lobe)) L += lights.radianceFrom(id, towards);
+  return L;
+}
+
+Rgb EyePaths::emitted(const Vertex& v, const Lobe* lobe) const {
+  const LightSampler& lights = reconstruction_.direct.lights();
+  const LightId id = lights.lightOf(v.hit.primitive);
+  if (!id.valid() || (lobe && metByShadowRays(id, *lobe))) return Rgb(0.0f);
+  return lights.emittedRadiance(id, -v.direction, double(v.hit.t), v.hit.front);
+}
+
+Rgb EyePaths::scattered(const Vertex& v, const EyeRay& eye, int depth, ChoiceCache& cache, bool& lightsMet) const {
+  const Bsdf& b = bsdf(v.hit.primitive, v.hit.front);
+  if (!b.hasFinitePart()) return Rgb(0.0f);
+  const Bsdf lobes = specularPart(b);
+  const bool glossy = lobes.hasFinitePart();
+  const Rgb tint = textureTint(scene_, v.hit.primitive, v.hit.triangle, v.position);
+  lightsMet = glossy && settings_.shadowRays > 0;
+  Rgb diffuse(0.0f), highlights(0.0f);
+  const auto from = [&](bool front) {
+    return irradiance(v, front, glossy ? &lobes : nullptr, eye, depth, cache, highlights);
+  };
+  if (!isBlack(b.diffuseReflection) || glossy) diffuse += b.diffuseReflection * from(v.hit.front);
+  if (!isBlack(b.diffuseTransmission) || !isBlack(lobes.transmission.reflectance))
+    diffuse += b.diffuseTransmission * from(!v.hit.front);
+  return float(1 / kPi) * tint * diffuse + highlights;
+}
+
+Rgb EyePaths::irradiance(const Vertex& v, bool front, const Bsdf* lobes, const EyeRay& eye, int depth,
+                         ChoiceCache& cache, Rgb& glossy) const {
+  const ElementId side = reconstruction_.locator.side(v.hit.primitive, v.hit.triangle, front);
+  if (!side.valid()) return Rgb(0.0f);
+  const LeafPoint at = reconstruction_.locator.locate(side, v.position);
+  Rgb E = reconstruction_.field.indirect(at, Vec3f(v.position));
+  if (settings_.shadowRays == 0) return E + reconstruction_.field.direct(at, Vec3f(v.position));
+
+  const Receiver receiver{v.position, v.sideNormal(front)};
+  const std::uint64_t key = combineKeys(eye.key, (front == v.hit.front ? kShadowKey : kOtherSideKey) + depth);
+  const Frame frame(v.normal);
+  const Vec3 wo = frame.toLocal(-v.direction);
+  reconstruction_.direct.sample(cache.at(at.leaf), receiver, settings_.shadowRays, eye.index, key,
+                                [&](const LightArrival& a) {
+                                  E += static_cast<float>(glm::dot(a.direction, receiver.normal)) * a.E;
+                                  if (!lobes) return;
+                                  const Vec3 wi = frame.toLocal(a.direction);
+                                  const SpecularLobe& lobe = wi.z > 0 ? lobes->reflection : lobes->transmission;
+                                  if (lobe.roughness > 0 && metByShadowRays(a.light, {v.position, lobe.roughness}))
+                                    glossy += evaluate(*lobes, wo, wi) * a.E;
+                                });
+  return E;
+}
+
+}  // namespace deltalux

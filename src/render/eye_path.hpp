@@ -1,0 +1,59 @@
+#pragma once
+// Radiance along a ray from the eye: the light that leaves the diffuse part of what it meets is read from the
+// reconstruction, and mirrors, panes, lobes and glass bodies are followed by ray casting [GD01 6]. Each surface with a
+// non-diffuse part continues with one sampled direction.
+//
+// Lights in a rough lobe: those that look smaller than the lobe is wide are met by the shadow rays of the surface,
+// larger ones by the lobe's own rays; never by both.
+#include "render/reconstruction.hpp"
+#include "scene/bsdf.hpp"
+
+namespace deltalux {
+
+struct EyeRay {
+  Ray ray;
+  bool emitters = true;     // whether lights that it meets (straight, or through panes) count
+  std::uint64_t key = 0;    // names the stratified numbers of its pixel ...
+  std::uint32_t index = 0;  // ... and which of them are this ray's
+};
+
+struct EyeSettings {
+  int shadowRays = 4;  // at each diffuse surface; 0: direct light from the mesh
+  int maxDepth = 24;   // non-diffuse events
+};
+
+class EyePaths {
+ public:
+  /// Both must outlive this.
+  EyePaths(const Solution&, const Reconstruction&, EyeSettings);
+
+  /// [W/(sr m2)]
+  Rgb radiance(const EyeRay&, ChoiceCache&) const;
+
+ private:
+  struct Vertex;
+  /// A rough lobe that a path came from: which lights its surface's shadow rays have already met.
+  struct Lobe {
+    Vec3 position;
+    float roughness = 0;
+  };
+
+  Rgb background(const Vec3& towards, const Lobe* lobe) const;
+  Rgb emitted(const Vertex&, const Lobe* lobe) const;
+  Rgb scattered(const Vertex&, const EyeRay&, int depth, ChoiceCache&, bool& sampledLights) const;
+  Rgb irradiance(const Vertex&, bool front, const Bsdf* lobes, const EyeRay&, int depth, ChoiceCache&,
+                 Rgb& glossy) const;
+  bool metByShadowRays(LightId, const Lobe&) const;
+  const Bsdf& bsdf(PrimitiveId p, bool front) const { return bsdfs_[2 * scene_[p].material.index() + (front ? 1 : 0)]; }
+
+  const Scene& scene_;
+  const Elements& elements_;
+  const RayTracer& tracer_;
+  const Reconstruction& reconstruction_;
+  EyeSettings settings_;
+  bool panesReflect_;
+  std::vector<Bsdf> bsdfs_;
+  std::vector<char> specular_;  // per material
+};
+
+}  // namespace deltalux

@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <deltalux/render.hpp>
+
+#include "base/check.hpp"
+#include "base/parallel.hpp"
+#include "base/sobol.hpp"
+#include "render/eye_path.hpp"
+#include "render/work_progress.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr double kOnSurface = 1e-3;  // of the scene's size: this near, a point lies on a surface
+constexpr double kFacing = 0.5;      // cosine from which a side faces the normal
+constexpr int kMaxLayers = 16;       // surfaces that are looked at around a point
+constexpr int kGatherBatch = 256;    // rays of one independent estimate in free space
+constexpr int kFirstBatches = 4;
+constexpr double kDirectShare =
+    0.7;  // of the error that direct light may have; gathered light the same: 0.7^2 + 0.7^2 = 1
+
+/// A point of a surface side.
+struct SurfaceSpot {
+  PrimitiveId primitive;
+  std::uint32_t triangle = 0;
+  bool front = true;
+  Vec3 position, normal;
+};
+
+class LightMeter {
+ public:
+  LightMeter(const Solution& s, const ProbeSettings& settings)
+      : scene_(s.scene),
+        elements_(s.elements),
+        tracer_(*s.tracer),
+        settings_(settings),
+        reconstruction_(s),
+        paths_(s, reconstruction_, {0, 24}),
+        size_(bounds(s.scene).diagonal()) {}
+
+  ProbeResult measure(const ProbePoint& point, std::uint64_t key) const {
+    const auto spot = surfaceAt(point);
+    return spot ? onSurface(*spot, key) : inFreeSpace(point, key);
+  }
+
+ private:
+  /// The nearest surface that faces the normal within reach of the point.
+  std::optional<SurfaceSpot> surfaceAt(const ProbePoint& point) const {
+    const double reach = kOnSurface * size_;
+    const Vec3f n(point.normal);
+    Ray ray;
+    ray.origin = Vec3f(point.position + reach * point.normal);
+    ray.direction = -n;
+    ray.tFar = static_cast<float>(2 * reach);
+    std::optional<SurfaceSpot> best;
+    double least = kInfinity;
+    for (int layer = 0; layer < kMaxLayers; ++layer) {
+      const Hit hit = tracer_.closestHit(ray);
+      if (!hit) break;
+      const Vec3 p(at(ray, hit.t));
+      const double away = glm::length(p - point.position);
+      const Vec3f side = hit.front ? hit.normal : -hit.normal;
+      if (away < least && glm::dot(side, n) > kFacing && !isThinGlass(scene_.materialOf(hit.primitive))) {
+        least = away;
+        best = SurfaceSpot{hit.primitive, hit.triangle, hit.front, p, Vec3(side)};
+      }
+      ray.origin = offsetOrigin(Vec3f(p), hit.normal, ray.direction);
+      ray.tFar -= hit.t;
+      if (!(ray.tFar > 0)) break;
+    }
+    return best;
+  }
+
+  ProbeResult onSurface(const SurfaceSpot& spot, std::uint64_t key) const {
+    const ElementId side = reconstruction_.locator.side(spot.primitive, spot.triangle, spot.front);
+    const Receiver receiver{spot.position, spot.normal};
+    if (!side.valid()) {
+      if (settings_.mesh) return {};
+      return reconstruction_.direct.measure(reconstruction_.direct.choiceAt(receiver), receiver, Rgb(0.0f),
+                                            settings_.error, settings_.maxSamples, key);
+    }
+    const LeafPoint at = reconstruction_.locator.locate(side, spot.position);
+    if (settings_.mesh) {
+      const ElementLight& l = elements_.radiometry[at.leaf.index()];
+      ProbeResult result;
+      result.irradiance = RgbSum(l.direct + l.indirect + l.particle);
+      return result;
+    }
+    const Rgb indirect = reconstruction_.field.indirect(at, Vec3f(spot.position));
+    ProbeResult result = reconstruction_.direct.measure(reconstruction_.direct.choiceAt(at.leaf), receiver, indirect,
+                                                        settings_.error, settings_.maxSamples, key);
+    result.irradiance += RgbSum(indirect);
+    return result;
+  }
+
+  ProbeResult inFreeSpace(const ProbePoint& point, std::uint64_t key) const {
+    const Receiver receiver{point.position, point.normal};
+    const ProbeResult gathered = gather(receiver, combineKeys(key, 1));
+    ProbeResult result =
+        reconstruction_.direct.measure(reconstruction_.direct.choiceAt(receiver), receiver, Rgb(gathered.irradiance),
+                                       kDirectShare * settings_.error, settings_.maxSamples, combineKeys(key, 2));
+    result.irradiance += gathered.irradiance;
+    result.standardError =
+        glm::sqrt(result.standardError * result.standardError + gathered.standardError * gathered.standardError);
+    result.samples += gathered.samples;
+    return result;
+  }
+
+  /// Light from surfaces: cosine-distributed rays read what they see.
+  ProbeResult gather(const Receiver& x, std::uint64_t key) const {
+    ProbeResult result;
+    ChoiceCache cache(reconstruction_.direct);
+    const Frame frame(x.normal);
+    RgbSum sum(0.0), squares(0.0);
+    int batches = 0;
+    while (batches < kFirstBatches ||
+           result.samples + kGatherBatch <= static_cast<std::uint64_t>(settings_.maxSamples)) {
+      RgbSum batch(0.0);
+      const std::uint64_t own = combineKeys(key, batches);
+      for (std::uint32_t i = 0; i < kGatherBatch; ++i) {
+        const UnitPair u = scrambledSobol(i, own);
+        const double r = std::sqrt(u.x), phi = 2 * kPi * u.y;
+        EyeRay eye;
+        eye.ray.origin = Vec3f(x.position);
+        eye.ray.direction = Vec3f(frame.toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u.x)}));
+        eye.emitters = false;  // lights in plain view are measured apart
+        eye.key = own, eye.index = i;
+        batch += RgbSum(paths_.radiance(eye, cache));
+      }
+      batch *= kPi / kGatherBatch;
+      sum += batch, squares += batch * batch;
+      ++batches;
+      result.samples += kGatherBatch;
+      const double n = batches;
+      result.irradiance = sum / n;
+      result.standardError =
+          glm::sqrt(glm::max(squares / n - result.irradiance * result.irradiance, RgbSum(0.0)) / std::max(n - 1, 1.0));
+      if (batches >= kFirstBatches &&
+          gray(result.standardError) <= kDirectShare * settings_.error * gray(result.irradiance))
+        break;
+    }
+    return result;
+  }
+
+  const Scene& scene_;
+  const Elements& elements_;
+  const RayTracer& tracer_;
+  const ProbeSettings& settings_;
+  Reconstruction reconstruction_;
+  EyePaths paths_;
+  double size_;
+};
+
+}  // namespace
+
+std::vector<ProbeResult> probe(const SolutionView& solution, std::span<const ProbePoint> points,
+                               const ProbeSettings& settings, Progress* progress) {
+  DELTALUX_CHECK(settings.error > 0 && settings.error < 1, "the error is a fraction between 0 and 1");
+  const LightMeter meter(solution.get(), settings);
+  std::vector<ProbeResult> results(points.size());
+  WorkProgress work(progress, "probe", points.size());
+  parallelFor(points.size(), 1, [&](std::size_t i) {
+    work.begin();
+    results[i] = meter.measure(points[i], combineKeys(settings.seed, i));
+    work.done();
+  });
+  return results;
+}
+
+}  // namespace deltalux

@@ -1,0 +1,10 @@
+#include "render/reconstruction.hpp"
+
+#include "solution/solution.hpp"
+
+namespace deltalux {
+
+Reconstruction::Reconstruction(const Solution& s)
+    : locator(s.elements, s.scene), field(s.elements, s.scene, *s.tracer, meshIrradiance(s.elements)), direct(s) {}
+
+}  // namespace deltalux
