@@ -7,11 +7,15 @@
 namespace deltalux::cli {
 
 void addInfoCommand(CLI::App&);
+void addProbeCommand(CLI::App&);
+void addRenderCommand(CLI::App&);
 void addReferenceCommand(CLI::App&);
 
 /// All of them, in the order of --help.
 inline void addCommands(CLI::App& app) {
   addInfoCommand(app);
+  addProbeCommand(app);
+  addRenderCommand(app);
   addReferenceCommand(app);
 }
 

@@ -1,0 +1,55 @@
+// deltalux probe: irradiance at points, from the solution.
+#include <fmt/format.h>
+
+#include <deltalux/output.hpp>
+#include <deltalux/points.hpp>
+#include <deltalux/render.hpp>
+
+#include "commands.hpp"
+#include "solution_source.hpp"
+
+namespace deltalux::cli {
+
+namespace {
+struct ProbeOptions {
+  SolutionSource source;
+  RunOptions run;
+  std::string points, output;
+  bool mesh = false;
+};
+
+void runProbe(const ProbeOptions& options) {
+  Run run("probe", options.run);
+  checkWritable(options.output);
+  const PointTable table = readPoints(options.points);
+  ProbeSettings settings;
+  settings.mesh = options.mesh;
+  settings.seed = options.run.seed;
+  {
+    ProgressPrinter progress(options.run.progressStyle());
+    const Engine engine = options.source.solve(run, options.run, progress);
+    const std::vector<ProbeResult> results = probe(engine.solution(), table.points, settings, &progress);
+    writeProbeResults(options.output, table, results, ProbeColumns::Values);
+  }
+  run.say(fmt::format("{}: {} points", options.output, table.points.size()));
+  run.finish();
+}
+}  // namespace
+
+void addProbeCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("probe", "Irradiance at points, from the solution of a scene");
+  const auto options = std::make_shared<ProbeOptions>();
+  options->source.add(*command);
+  command->add_option("--points", options->points, "Points to measure: columns x,y,z,nx,ny,nz")
+      ->type_name("P.csv")
+      ->required();
+  command->add_option("-o", options->output, "Where the rows with E_r, E_g, E_b and lux go")
+      ->type_name("OUT.csv")
+      ->required();
+  command->add_flag("--mesh", options->mesh, "The mesh's own values: nothing reconstructed, no shadow rays");
+  options->run.addLongWork(*command);
+  options->run.addReport(*command);
+  command->callback([options] { runProbe(*options); });
+}
+
+}  // namespace deltalux::cli
