@@ -1,4 +1,5 @@
 // What is wrong with the command line itself: exit code 2, one message, nothing touched.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "support/run_cli.hpp"
@@ -61,7 +62,7 @@ TEST(CommandLine, OnlyCommandsThatWorkAreListed) {
 TEST(CommandLine, FullDisksAreExitCodeFour) {
   const test::TempFolder folder;
   const std::string command =
-      std::string(DELTALUX_CLI) + " info " + bundledScene("plates/parallel.rad") + " >/dev/full 2>/dev/null";
+      fmt::format("{} info {} >/dev/full 2>/dev/null", DELTALUX_CLI, bundledScene("plates/parallel.rad"));
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
 }
 
