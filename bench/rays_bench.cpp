@@ -7,6 +7,7 @@
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <deltalux/io.hpp>
@@ -156,11 +157,14 @@ void run(const std::vector<std::filesystem::path>& files) {
   const double built = secondsOf([&] { tracer = makeEmbreeTracer(scene); });
   const std::vector<Ray> rays = diffusePaths(scene, *tracer, kRays);
 
-  // A twin with a movable group: the hundred primitives in the middle of the scene's list.
+  // A twin with a movable thing: the hundred primitives around the one in the middle of the scene's list.
   const auto grouped = makeEmbreeTracer(scene);
   std::vector<PrimitiveId> movable;
-  for (std::size_t i = 0; i < std::min<std::size_t>(100, scene.primitives.size()); ++i)
-    movable.emplace_back((scene.primitives.size() / 2 + i) % scene.primitives.size());
+  for (std::size_t i = 0; i < scene.primitives.size(); ++i) movable.emplace_back(i);
+  const Vec3 center = bounds(scene.primitives[movable.size() / 2].shape).center();
+  const auto distance = [&](PrimitiveId id) { return glm::distance(bounds(scene[id].shape).center(), center); };
+  std::sort(movable.begin(), movable.end(), [&](PrimitiveId x, PrimitiveId y) { return distance(x) < distance(y); });
+  movable.resize(std::min<std::size_t>(100, movable.size()));
   const GroupId group = grouped->separate(movable);
 
   Triangles triangles;

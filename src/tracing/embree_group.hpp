@@ -79,6 +79,10 @@ class EmbreeGroup {
 
   /// The hit that Embree found for `ray` in this group's scene; nullopt when the exact point is off the segment.
   std::optional<Hit> hit(const Ray&, const RTCRayHit& found) const;
+  /// Starts to load what hit() will need.
+  void prefetch(const RTCRayHit& found) const {
+    if (found.hit.geomID < 2) __builtin_prefetch(&layers_[found.hit.geomID].triangles[found.hit.primID]);
+  }
 
  private:
   /// Opaque primitives, or panes.

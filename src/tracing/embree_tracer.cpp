@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/check.hpp"
+#include "base/parallel.hpp"
 #include "tracing/embree_group.hpp"
 #include "tracing/ray_tracer.hpp"
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr unsigned kOpaqueMask = static_cast<unsigned>(Passage::Opaque);
 constexpr unsigned kAnyMask = ~0u;
+constexpr std::size_t kBatchBlock = 1024;  // rays per task
 
 RTCRay embreeRay(const Ray& ray, unsigned mask) {
   RTCRay r;
@@ -38,19 +40,25 @@ class EmbreeTracer final : public RayTracer {
   Hit closestHit(const Ray& ray) const override {
     RTCRayHit found;
     found.ray = embreeRay(ray, kAnyMask);
-    while (true) {
-      found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      rtcIntersect1(top_, &context, &found);
-      if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-      const unsigned group = found.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? 0 : found.hit.instID[0];
-      if (const auto hit = groups_[group]->hit(ray, found)) return *hit;
-      // Rarely: not on the segment after all, such as the plane that the ray starts from. On from there.
-      found.ray.tnear = beyond(ray, found.ray.tfar);
-      found.ray.tfar = ray.tFar;
-    }
+    intersect(found);
+    return finish(ray, found);
+  }
+
+  void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
+    DELTALUX_CHECK(rays.size() == hits.size(), "one hit per ray");
+    parallelBlocks(rays.size(), kBatchBlock, [&](std::size_t begin, std::size_t end) {
+      // A few rays at a time: what their hits need from the tables is under way while the next are traced.
+      std::array<RTCRayHit, 8> found;
+      for (std::size_t first = begin; first < end; first += found.size()) {
+        const std::size_t few = std::min(found.size(), end - first);
+        for (std::size_t i = 0; i < few; ++i) {
+          found[i].ray = embreeRay(rays[first + i], kAnyMask);
+          intersect(found[i]);
+          if (found[i].hit.geomID != RTC_INVALID_GEOMETRY_ID) groupOf(found[i]).prefetch(found[i]);
+        }
+        for (std::size_t i = 0; i < few; ++i) hits[first + i] = finish(rays[first + i], found[i]);
+      }
+    });
   }
 
   bool occluded(const Ray& ray) const override {
@@ -92,6 +100,29 @@ class EmbreeTracer final : public RayTracer {
   }
 
  private:
+  void intersect(RTCRayHit& found) const {
+    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(top_, &context, &found);
+  }
+
+  const EmbreeGroup& groupOf(const RTCRayHit& found) const {
+    return *groups_[found.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? 0 : found.hit.instID[0]];
+  }
+
+  Hit finish(const Ray& ray, RTCRayHit& found) const {
+    while (found.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
+      if (const auto hit = groupOf(found).hit(ray, found)) return *hit;
+      // Rarely: not on the segment after all, such as the plane that the ray starts from. On from there.
+      found.ray.tnear = beyond(ray, found.ray.tfar);
+      found.ray.tfar = ray.tFar;
+      intersect(found);
+    }
+    return {};
+  }
+
   Rgb transmittance(const Ray& ray, RTCScene scene) const {
     RTCRay r = embreeRay(ray, kAnyMask);
     PassageQuery query(scene_, ray);
