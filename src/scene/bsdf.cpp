@@ -72,18 +72,28 @@ double finitePdf(const Bsdf& bsdf, const Choice& c, const Vec3& wo, const Vec3& 
   const double glossy = chance(reflected ? ScatterEvent::GlossyReflection : ScatterEvent::GlossyTransmission);
   double density = diffuse * std::abs(wi.z) / kPi;
   if (glossy > 0.0) {
-    density += glossy * (reflected ? lobePdf(bsdf.reflection, wo, wi) : lobePdf(bsdf.transmission, wo, throughSurface(wi)));
+    density +=
+        glossy * (reflected ? lobePdf(bsdf.reflection, wo, wi) : lobePdf(bsdf.transmission, wo, throughSurface(wi)));
   }
   return density;
 }
 
-std::optional<BsdfSample> finiteSample(const Bsdf& bsdf, const Choice& c, const Vec3& wo, ScatterEvent event, const Vec2& u) {
+std::optional<BsdfSample> finiteSample(const Bsdf& bsdf, const Choice& c, const Vec3& wo, ScatterEvent event,
+                                       const Vec2& u) {
   Vec3 wi;
   switch (event) {
-    case ScatterEvent::DiffuseReflection: wi = cosineDirection(u); break;
-    case ScatterEvent::DiffuseTransmission: wi = throughSurface(cosineDirection(u)); break;
-    case ScatterEvent::GlossyReflection: wi = lobeDirection(bsdf.reflection, wo, u); break;
-    default: wi = throughSurface(lobeDirection(bsdf.transmission, wo, u)); break;
+    case ScatterEvent::DiffuseReflection:
+      wi = cosineDirection(u);
+      break;
+    case ScatterEvent::DiffuseTransmission:
+      wi = throughSurface(cosineDirection(u));
+      break;
+    case ScatterEvent::GlossyReflection:
+      wi = lobeDirection(bsdf.reflection, wo, u);
+      break;
+    default:
+      wi = throughSurface(lobeDirection(bsdf.transmission, wo, u));
+      break;
   }
   const bool reflection = event == ScatterEvent::DiffuseReflection || event == ScatterEvent::GlossyReflection;
   if (reflection ? wi.z <= 0.0 : wi.z >= 0.0) return std::nullopt;
@@ -145,7 +155,8 @@ Rgb evaluate(const Bsdf& bsdf, const Vec3& wo, const Vec3& wi) {
   const float cosine = static_cast<float>(std::abs(wi.z));
   Rgb f = (reflected ? bsdf.diffuseReflection : bsdf.diffuseTransmission) * static_cast<float>(1.0 / kPi);
   const SpecularLobe& lobe = reflected ? bsdf.reflection : bsdf.transmission;
-  if (isRough(lobe)) f += lobe.reflectance * static_cast<float>(lobeValue(lobe, wo, reflected ? wi : throughSurface(wi)));
+  if (isRough(lobe))
+    f += lobe.reflectance * static_cast<float>(lobeValue(lobe, wo, reflected ? wi : throughSurface(wi)));
   return f * cosine;
 }
 

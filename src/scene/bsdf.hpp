@@ -39,11 +39,11 @@ enum class ScatterEvent : unsigned char {
 constexpr bool isDirac(ScatterEvent e) { return e >= ScatterEvent::MirrorReflection; }
 
 struct BsdfSample {
-  Vec3 direction;          // wi; below the surface (z < 0) for transmission
-  Rgb weight;              // f |cos| / density; for Dirac events reflectance over the chance of being chosen
-  double pdf = 0;          // of all finite parts together, per solid angle [1/sr]; 0 for Dirac events
+  Vec3 direction;  // wi; below the surface (z < 0) for transmission
+  Rgb weight;      // f |cos| / density; for Dirac events reflectance over the chance of being chosen
+  double pdf = 0;  // of all finite parts together, per solid angle [1/sr]; 0 for Dirac events
   ScatterEvent event = ScatterEvent::DiffuseReflection;
-  double etaSquared = 1;   // (n behind / n before)^2 of a refraction; carried radiance is divided by it, flux is not
+  double etaSquared = 1;  // (n behind / n before)^2 of a refraction; carried radiance is divided by it, flux is not
 };
 
 /// The scattering of `material` seen from its front or back; `tint` multiplies the diffuse colour (textures).

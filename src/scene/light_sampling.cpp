@@ -26,7 +26,6 @@ double coneDepth(double radius, double distance) {
   return sin2 / (1.0 + std::sqrt(1.0 - sin2));
 }
 
-
 template <class Emitter>
 constexpr bool kPointLike = requires(const Emitter& e, Vec3 w) {
   e.position;
@@ -147,8 +146,8 @@ bool LightSampler::bySolidAngle(const AreaData& data, const Vec3& from, double& 
   return omega > kMinSolidAngle;
 }
 
-std::optional<LightSample> LightSampler::finishArea(LightId id, const AreaData& data, const Vec3& from, const Vec3& point,
-                                                    const Vec3& normal, double omega) const {
+std::optional<LightSample> LightSampler::finishArea(LightId id, const AreaData& data, const Vec3& from,
+                                                    const Vec3& point, const Vec3& normal, double omega) const {
   const Vec3 d = point - from;
   const double squared = glm::dot(d, d);
   if (!(squared > 0.0)) return std::nullopt;
@@ -163,7 +162,8 @@ std::optional<LightSample> LightSampler::finishArea(LightId id, const AreaData& 
   return LightSample{direction, distance, front ? normal : -normal, L, density};
 }
 
-std::optional<LightSample> LightSampler::sampleArea(LightId id, const AreaData& data, const Vec3& from, const Vec2& u) const {
+std::optional<LightSample> LightSampler::sampleArea(LightId id, const AreaData& data, const Vec3& from,
+                                                    const Vec2& u) const {
   const Shape& shape = scene_[data.primitive].shape;
   if (const auto* sphere = std::get_if<Sphere>(&shape)) {
     const Vec3 toCenter = sphere->center - from;
@@ -220,7 +220,8 @@ SurfacePoint LightSampler::samplePoint(LightId id, const Vec2& u) const {
   return point;
 }
 
-double LightSampler::pdf(LightId id, const Vec3& from, const Vec3& direction, double distance, const Vec3& normal) const {
+double LightSampler::pdf(LightId id, const Vec3& from, const Vec3& direction, double distance,
+                         const Vec3& normal) const {
   const Prepared& prepared = prepared_[id.index()];
   if (prepared.dome) return prepared.dome->pdf(direction);
   if (const auto* sun = std::get_if<SunLight>(&scene_[id].emitter)) return 1.0 / solidAngle(*sun);

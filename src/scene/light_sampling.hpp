@@ -5,8 +5,8 @@
 // directions, from inside by all directions; cylinders, cones, rings and meshes by area; suns by their disc; skies by
 // an importance table; point-like lights have one direction and no density. Shadows are the caller's.
 //
-// A spotlight of area A shines only within its cone, and its radiance depends on the distance d to what it lights first,
-// L (d / (d + |direction|))^2, so that E = L A cos cos' / (d + |direction|)^2. [conventions.md]
+// A spotlight of area A shines only within its cone, and its radiance depends on the distance d to what it lights
+// first, L (d / (d + |direction|))^2, so that E = L A cos cos' / (d + |direction|)^2. [conventions.md]
 #include <deltalux/scene.hpp>
 #include <optional>
 #include <span>
@@ -17,11 +17,11 @@
 namespace deltalux {
 
 struct LightSample {
-  Vec3 direction;          // unit, from the point to the light
-  double distance = 0;     // infinite for suns and skies
-  Vec3 normal{0};          // unit, of the emitting side; zero for points and at infinity
-  Rgb radiance{0.0f};      // that arrives unshadowed [W/(sr m2)]; of point-like lights I / d^2 [W/m2]
-  double pdf = 0;          // per solid angle [1/sr]; 0: point-like, the only direction
+  Vec3 direction;       // unit, from the point to the light
+  double distance = 0;  // infinite for suns and skies
+  Vec3 normal{0};       // unit, of the emitting side; zero for points and at infinity
+  Rgb radiance{0.0f};   // that arrives unshadowed [W/(sr m2)]; of point-like lights I / d^2 [W/m2]
+  double pdf = 0;       // per solid angle [1/sr]; 0: point-like, the only direction
 };
 
 class LightSampler {
@@ -76,8 +76,8 @@ class LightSampler {
   bool bySolidAngle(const AreaData&, const Vec3& from, double& solidAngle) const;
   std::optional<LightSample> samplePointLike(LightId, const Vec3& from) const;
   std::optional<LightSample> sampleArea(LightId, const AreaData&, const Vec3& from, const Vec2& u) const;
-  std::optional<LightSample> finishArea(LightId, const AreaData&, const Vec3& from, const Vec3& point, const Vec3& normal,
-                                        double solidAngle) const;
+  std::optional<LightSample> finishArea(LightId, const AreaData&, const Vec3& from, const Vec3& point,
+                                        const Vec3& normal, double solidAngle) const;
 
   const Scene& scene_;
   std::vector<Prepared> prepared_;

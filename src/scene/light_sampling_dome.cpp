@@ -5,7 +5,7 @@
 namespace deltalux {
 
 namespace {
-constexpr int kLooks = 3;            // per cell and dimension, when the table is made
+constexpr int kLooks = 3;               // per cell and dimension, when the table is made
 constexpr double kUniformShare = 0.05;  // of the density: no cell is ever impossible
 }  // namespace
 

@@ -1,6 +1,6 @@
 #pragma once
-// Directions of a sky by importance: a table of equal solid angles over the dome's cap, each cell drawn in proportion to
-// its radiance and uniformly within. The density is positive wherever the sky shines.
+// Directions of a sky by importance: a table of equal solid angles over the dome's cap, each cell drawn in proportion
+// to its radiance and uniformly within. The density is positive wherever the sky shines.
 #include <deltalux/light.hpp>
 #include <vector>
 

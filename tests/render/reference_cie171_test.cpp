@@ -31,9 +31,10 @@ Scene blackRoom(double height = 3) {
 TEST(Cie171, Case52PointSource) {
   Scene scene = blackRoom();
   addLight(scene, LambertPointLight{{2, 2, 3}, {0, 0, -1}, fromPhotometric(1000)});
-  const std::vector<std::pair<Vec2, double>> cases = {{Vec2(0, 0), 111.11},  {Vec2(.5, 0), 105.21}, {Vec2(1, 0), 90.02},  {Vec2(1.5, 0), 71.11},
-                                                      {Vec2(.5, .5), 99.73}, {Vec2(1, .5), 85.64},  {Vec2(1.5, .5), 68.06}, {Vec2(1, 1), 74.36},
-                                                      {Vec2(1.5, 1), 59.98}, {Vec2(1.5, 1.5), 49.39}};
+  const std::vector<std::pair<Vec2, double>> cases = {
+      {Vec2(0, 0), 111.11},  {Vec2(.5, 0), 105.21},  {Vec2(1, 0), 90.02},    {Vec2(1.5, 0), 71.11},
+      {Vec2(.5, .5), 99.73}, {Vec2(1, .5), 85.64},   {Vec2(1.5, .5), 68.06}, {Vec2(1, 1), 74.36},
+      {Vec2(1.5, 1), 59.98}, {Vec2(1.5, 1.5), 49.39}};
   std::vector<ProbePoint> points;
   for (const auto& [offset, expected] : cases) points.push_back({{2 + offset.x, 2 + offset.y, 0}, {0, 0, 1}});
   const auto results = measure(scene, points, 16);

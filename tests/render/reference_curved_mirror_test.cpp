@@ -25,9 +25,7 @@ Vec3 randomPoint(Rng& rng, double size) {
 }
 
 /// Outward normal at a surface point, by differences of the parameterisation.
-Vec3 normalNear(const Shape& shape, const Vec3& s) {
-  return pointAt(shape, parameterAt(shape, s)).normal;
-}
+Vec3 normalNear(const Shape& shape, const Vec3& s) { return pointAt(shape, parameterAt(shape, s)).normal; }
 
 TEST(CurvedMirror, PointsReflectByTheLaw) {
   Rng rng(4);
@@ -40,7 +38,8 @@ TEST(CurvedMirror, PointsReflectByTheLaw) {
       const MirrorPoints points = mirrorPoints(c.shape, x, y);
       for (int k = 0; k < points.count; ++k) {
         const MirrorPoint& m = points.points[k];
-        EXPECT_LT(glm::length(pointAt(c.shape, parameterAt(c.shape, m.position)).position - m.position), 1e-9) << c.name;
+        EXPECT_LT(glm::length(pointAt(c.shape, parameterAt(c.shape, m.position)).position - m.position), 1e-9)
+            << c.name;
         const Vec3 toX = glm::normalize(x - m.position);
         const Vec3 toY = infinite ? y.at : glm::normalize(y.at - m.position);
         EXPECT_GT(glm::dot(toX, m.normal), 0.0);

@@ -39,12 +39,15 @@ Scene furnace(float rho, float exitance) {
   return scene;
 }
 
-const std::vector<ProbePoint> kFurnacePoints = {{{0.5, 0.5, 0}, {0, 0, 1}}, {{0.01, 0.02, 0}, {0, 0, 1}}, {{1, 0.3, 0.6}, {-1, 0, 0}},
+const std::vector<ProbePoint> kFurnacePoints = {{{0.5, 0.5, 0}, {0, 0, 1}},
+                                                {{0.01, 0.02, 0}, {0, 0, 1}},
+                                                {{1, 0.3, 0.6}, {-1, 0, 0}},
                                                 {{0.3, 0.4, 0.35}, glm::normalize(Vec3(1, 1, 1))}};
 
 TEST(ReferenceFurnace, ClosedBoxHasOneIrradianceEverywhere) {
   for (float rho : {0.1f, 0.5f, 0.9f}) {
-    for (const ProbeResult& r : measure(furnace(rho, 2), kFurnacePoints, 4096)) expectIrradiance(r, 2 / (1 - rho), rho > 0.8f ? 0.03 : 0.01);
+    for (const ProbeResult& r : measure(furnace(rho, 2), kFurnacePoints, 4096))
+      expectIrradiance(r, 2 / (1 - rho), rho > 0.8f ? 0.03 : 0.01);
   }
 }
 
@@ -56,7 +59,8 @@ TEST(ReferenceFurnace, StaysOneWithMirrorsAndGlassInside) {
   addShape(scene, addMaterial(scene, "metal", polished), Sphere{{0.2, 0.7, 0.3}, 0.15});
   addShape(scene, MaterialId(2), Cylinder{{0.6, 0.6, 0.1}, {0.7, 0.7, 0.3}, 0.1});
   addShape(scene, addMaterial(scene, "glass", Dielectric{Rgb(1.0f), 1.5f}), Sphere{{0.7, 0.75, 0.7}, 0.15});
-  addPolygon(scene, addMaterial(scene, "pane", ThinGlass{}), {{0.1, 0.1, 0.8}, {0.5, 0.1, 0.8}, {0.5, 0.5, 0.8}, {0.1, 0.5, 0.8}});
+  addPolygon(scene, addMaterial(scene, "pane", ThinGlass{}),
+             {{0.1, 0.1, 0.8}, {0.5, 0.1, 0.8}, {0.5, 0.5, 0.8}, {0.1, 0.5, 0.8}});
   for (const ProbeResult& r : measure(scene, kFurnacePoints, 4096)) expectIrradiance(r, 4, 0.02);
 }
 
@@ -65,12 +69,16 @@ TEST(ReferenceFurnace, SkyOfRadianceOne) {
   addShape(scene, addMaterial(scene, "white", lambert(1.0f)), Sphere{{0, 0, -3}, 1});
   addLight(scene, DomeLight{{0, 0, 1}, kPi, Rgb(1.0f), UniformSky{1}, {0, 0, 1}});
   // A white ball in a uniform world is invisible to a light meter.
-  for (const ProbeResult& r : measure(scene, {{{0, 0, -1.5}, {0, 0, -1}}, {{0, 0, -2}, {0, 0, 1}}}, 4096)) expectIrradiance(r, kPi, 0.01);
+  for (const ProbeResult& r : measure(scene, {{{0, 0, -1.5}, {0, 0, -1}}, {{0, 0, -2}, {0, 0, 1}}}, 4096))
+    expectIrradiance(r, kPi, 0.01);
 }
 
 Scene litRoom() {
   Scene scene;
-  addBox(scene, addMaterial(scene, "wall", Opaque{.diffuse = Rgb(0.7f, 0.5f, 0.2f), .diffuseTexture = {}, .specular = {Rgb(0.1f), 0.1f, {}}}), Vec3(0), Vec3(2), true);
+  addBox(scene,
+         addMaterial(scene, "wall",
+                     Opaque{.diffuse = Rgb(0.7f, 0.5f, 0.2f), .diffuseTexture = {}, .specular = {Rgb(0.1f), 0.1f, {}}}),
+         Vec3(0), Vec3(2), true);
   const MaterialId lamp = addMaterial(scene, "lamp", lambert(0), Emission{Rgb(5.0f, 4.0f, 3.0f), false, {}});
   addPolygon(scene, lamp, {{0.8, 0.8, 1.99}, {0.8, 1.2, 1.99}, {1.2, 1.2, 1.99}, {1.2, 0.8, 1.99}});
   addShape(scene, lamp, Sphere{{0.3, 1.5, 0.5}, 0.1});
@@ -79,7 +87,8 @@ Scene litRoom() {
   return scene;
 }
 
-const std::vector<ProbePoint> kRoomPoints = {{{1, 1, 0}, {0, 0, 1}}, {{0, 1, 1}, {1, 0, 0}}, {{1.5, 1.8, 2}, {0, 0, -1}}};
+const std::vector<ProbePoint> kRoomPoints = {
+    {{1, 1, 0}, {0, 0, 1}}, {{0, 1, 1}, {1, 0, 0}}, {{1.5, 1.8, 2}, {0, 0, -1}}};
 
 TEST(Reference, SameBitsForAnyThreadCount) {
   const auto run = [](std::size_t threads) {
@@ -118,8 +127,9 @@ TEST(Reference, LightsAddUp) {
   const auto both = dimmed(-1), first = dimmed(0), second = dimmed(1);
   for (std::size_t i = 0; i < both.size(); ++i) {
     const glm::dvec3 difference = both[i].irradiance - first[i].irradiance - second[i].irradiance;
-    const glm::dvec3 error = glm::sqrt(both[i].standardError * both[i].standardError + first[i].standardError * first[i].standardError +
-                                       second[i].standardError * second[i].standardError);
+    const glm::dvec3 error =
+        glm::sqrt(both[i].standardError * both[i].standardError + first[i].standardError * first[i].standardError +
+                  second[i].standardError * second[i].standardError);
     for (int c = 0; c < 3; ++c) EXPECT_LT(std::abs(difference[c]), 4.5 * error[c]);
   }
 }
@@ -129,7 +139,8 @@ TEST(Reference, OtherSeedsAgreeWithinTheirErrors) {
   for (std::uint64_t seed = 1; seed <= 25; ++seed) {
     ReferenceSettings a = withSamples(256), b = withSamples(256);
     a.seed = 2 * seed, b.seed = 2 * seed + 1;
-    const auto x = ReferenceIntegrator(litRoom(), a).probe(kRoomPoints), y = ReferenceIntegrator(litRoom(), b).probe(kRoomPoints);
+    const auto x = ReferenceIntegrator(litRoom(), a).probe(kRoomPoints),
+               y = ReferenceIntegrator(litRoom(), b).probe(kRoomPoints);
     for (std::size_t i = 0; i < x.size(); ++i) {
       z.add((x[i].irradiance.g - y[i].irradiance.g) / std::hypot(x[i].standardError.g, y[i].standardError.g));
     }
@@ -147,7 +158,8 @@ TEST(Reference, DiffuseOnlyDropsMirrorsAndKeepsPanes) {
   ReferenceSettings settings = withSamples(1024);
   settings.diffuseOnly = true;
   const double pane = transmittance(ThinGlass{}, 1.0).g;
-  expectIrradiance(ReferenceIntegrator(scene, settings).probe(std::vector<ProbePoint>{{Vec3(0), {0, 0, 1}}})[0], pane, 0.01);
+  expectIrradiance(ReferenceIntegrator(scene, settings).probe(std::vector<ProbePoint>{{Vec3(0), {0, 0, 1}}})[0], pane,
+                   0.01);
 }
 
 // The mirror x = 1 shows the light at (2, 0, 2): its image adds I cos / d^2, through the pane at its own angle.
@@ -173,22 +185,24 @@ TEST(ReferenceMirror, ImagesOfSunAndLampAreCountedOnce) {
       expected = 0.8 * 10 * kPi * std::pow(std::sin(sun.angularRadius), 2) * -sun.direction.x;
     } else {
       // A ball beside the meter's back, seen in the mirror only, at (4, 0, 0.5): E = pi L cos r^2 / d^2.
-      addShape(scene, addMaterial(scene, "lamp", lambert(0), Emission{Rgb(3.0f), false, {}}), Sphere{{-2, 0, 0.5}, 0.4});
+      addShape(scene, addMaterial(scene, "lamp", lambert(0), Emission{Rgb(3.0f), false, {}}),
+               Sphere{{-2, 0, 0.5}, 0.4});
       expected = 0.8 * 3 * kPi * 0.16 / 16.25 * 4 / std::sqrt(16.25);
     }
     expectIrradiance(measure(scene, {{Vec3(0), {1, 0, 0}}}, 8192)[0], expected, 0.02);
   }
 }
 
-/// Irradiance that a meter at the origin, facing up, gets from a round lamp by way of a mirroring ball: plain quadrature
-/// over the directions that meet the ball.
+/// Irradiance that a meter at the origin, facing up, gets from a round lamp by way of a mirroring ball: plain
+/// quadrature over the directions that meet the ball.
 double byWayOfBall(const Sphere& ball, const Ring& lamp, double radiance) {
   const double d = glm::length(ball.center), depth = 1 - std::sqrt(1 - ball.radius * ball.radius / (d * d));
   const Frame frame(ball.center / d);
   constexpr int n = 3000;
   double sum = 0;
   for (int i = 0; i < n * n; ++i) {
-    const double down = (i % n + 0.5) / n * depth, radius = std::sqrt(down * (2 - down)), phi = 2 * kPi * (i / n + 0.5) / n;
+    const double down = (i % n + 0.5) / n * depth, radius = std::sqrt(down * (2 - down)),
+                 phi = 2 * kPi * (i / n + 0.5) / n;
     const Vec3 w = frame.toWorld({radius * std::cos(phi), radius * std::sin(phi), 1 - down});
     if (w.z <= 0) continue;
     const double along = glm::dot(ball.center, w);
@@ -227,7 +241,9 @@ TEST(ReferenceMirror, SunAndPointOverABall) {
     addShape(scene, addMaterial(scene, "metal", polished), Sphere{{0, 0, 100}, 0.5});
     const SunLight sun{glm::normalize(Vec3(1, 0, -0.2)), 0.004, Rgb(1e6f)};
     if (sunny) addLight(scene, sun);
-    if (!sunny) addLight(scene, PointLight{Vec3(0, 0, 100) + 1e4 * sun.direction, Rgb(1e6f * 1e8f * static_cast<float>(solidAngle(sun)))});
+    if (!sunny)
+      addLight(scene, PointLight{Vec3(0, 0, 100) + 1e4 * sun.direction,
+                                 Rgb(1e6f * 1e8f * static_cast<float>(solidAngle(sun)))});
     const double expected = 0.9 * 1e6 * solidAngle(sun) * 0.25 / (4 * 1e4);
     for (const ProbeResult& r : measure(scene, {{Vec3(0), {0, 0, 1}}}, 1024)) {
       EXPECT_NEAR(r.irradiance.g / expected, 1.0, 0.02);  // the ball is not infinitely far

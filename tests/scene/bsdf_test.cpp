@@ -50,7 +50,9 @@ void expectSamplesFollowDensity(const Bsdf& bsdf, double degrees) {
   around.axis = {-wo.x, -wo.y, wo.z};
   around.concentration = 4;
   // Densities of sampled directions below the horizon count as "nothing drawn"; pdf() is asked above it alone.
-  const auto above = [&](const Vec3& wi) { return bsdf.hasFinitePart() && (wi.z > 0 || !isBlack(bsdf.diffuseTransmission)) ? density(wi) : 0.0; };
+  const auto above = [&](const Vec3& wi) {
+    return bsdf.hasFinitePart() && (wi.z > 0 || !isBlack(bsdf.diffuseTransmission)) ? density(wi) : 0.0;
+  };
   const auto result = chiSquareDirections(draw, above, around);
   EXPECT_GT(result.pValue, kSignificance) << result.message << ", at " << degrees << " degrees";
 }
@@ -63,13 +65,15 @@ TEST(BsdfSampling, LambertFollowsItsDensity) {
 
 TEST(BsdfSampling, WardFollowsItsDensity) {
   for (float roughness : {0.05f, 0.1f, 0.4f}) {
-    for (double degrees : {0.0, 30.0, 70.0}) expectSamplesFollowDensity(glossy(roughness, SpecularLobe::Distribution::Ward), degrees);
+    for (double degrees : {0.0, 30.0, 70.0})
+      expectSamplesFollowDensity(glossy(roughness, SpecularLobe::Distribution::Ward), degrees);
   }
 }
 
 TEST(BsdfSampling, GgxFollowsItsDensity) {
   for (float roughness : {0.05f, 0.25f, 0.8f}) {
-    for (double degrees : {0.0, 30.0, 70.0}) expectSamplesFollowDensity(glossy(roughness, SpecularLobe::Distribution::Ggx), degrees);
+    for (double degrees : {0.0, 30.0, 70.0})
+      expectSamplesFollowDensity(glossy(roughness, SpecularLobe::Distribution::Ggx), degrees);
   }
 }
 
@@ -78,9 +82,11 @@ TEST(BsdfSampling, MixturesFollowTheirDensity) {
   expectSamplesFollowDensity(trans(), 35);
 }
 
-/// Monte Carlo albedo and the integral of evaluate() over the sphere by uniform directions must agree: weights are right.
+/// Monte Carlo albedo and the integral of evaluate() over the sphere by uniform directions must agree: weights are
+/// right.
 TEST(BsdfSampling, WeightsIntegrateTheLobe) {
-  for (const Bsdf& bsdf : {glossy(0.3f, SpecularLobe::Distribution::Ward, 0.3f), glossy(0.4f, SpecularLobe::Distribution::Ggx), trans()}) {
+  for (const Bsdf& bsdf :
+       {glossy(0.3f, SpecularLobe::Distribution::Ward, 0.3f), glossy(0.4f, SpecularLobe::Distribution::Ggx), trans()}) {
     for (double degrees : {10.0, 60.0}) {
       const Vec3 wo = directionAt(degrees);
       Rng rng(3);
@@ -117,7 +123,8 @@ TEST(Bsdf, LobesReflectNoMoreThanTheyGet) {
         Rng rng(11);
         test::Moments albedo;
         for (int i = 0; i < 20000; ++i) {
-          const auto s = sample(glossy(roughness, distribution), directionAt(degrees), {rng.uniform(), rng.uniform(), rng.uniform()});
+          const auto s = sample(glossy(roughness, distribution), directionAt(degrees),
+                                {rng.uniform(), rng.uniform(), rng.uniform()});
           albedo.add(s ? s->weight.r : 0.0);
         }
         EXPECT_LE(albedo.mean(), 0.5 + 4 * albedo.standardError() + 1e-6) << roughness << " " << degrees;

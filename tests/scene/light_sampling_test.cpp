@@ -47,7 +47,8 @@ test::Moments irradiance(const Scene& scene, const Vec3& from, const Vec3& norma
 
 /// Chi-square of sample() against pdf(); `meet` finds where a direction meets the light (distance, normal).
 template <class Meet>
-void expectSamplesFollowDensity(const Scene& scene, const Vec3& from, const Vec3& axis, double concentration, const Meet& meet, bool round = false) {
+void expectSamplesFollowDensity(const Scene& scene, const Vec3& from, const Vec3& axis, double concentration,
+                                const Meet& meet, bool round = false) {
   const LightSampler sampler(scene);
   const auto draw = [&](const Vec3& u) -> std::optional<Vec3> {
     const auto s = sampler.sample(LightId(0), from, {u.x, u.y});
@@ -113,8 +114,11 @@ TEST(LightSampling, SkyFollowsItsDensity) {
     // Multiples of the table's rings and sectors, so that no bin cuts a cell.
     const LightSampler sampler(scene);
     test::DirectionTest around;
-    around.rings = 64, around.sectors = 64, around.ringSubdivisions = around.sectorSubdivisions = 2, around.samples = 400000;
-    const auto draw = [&](const Vec3& u) { return std::optional(sampler.sample(LightId(0), Vec3(0), {u.x, u.y})->direction); };
+    around.rings = 64, around.sectors = 64, around.ringSubdivisions = around.sectorSubdivisions = 2,
+    around.samples = 400000;
+    const auto draw = [&](const Vec3& u) {
+      return std::optional(sampler.sample(LightId(0), Vec3(0), {u.x, u.y})->direction);
+    };
     const auto density = [&](const Vec3& w) { return sampler.pdf(LightId(0), Vec3(0), w, 0, {}); };
     const auto result = test::chiSquareDirections(draw, density, around);
     EXPECT_GT(result.pValue, kSignificance) << result.message;
@@ -164,7 +168,8 @@ TEST(LightSampling, TrianglesOfAMeshByArea) {
 TEST(LightSampling, SpotlightRule) {
   // A small spotlight of area A at distance d on axis: E = L A / (d + |direction|)^2; nothing outside the cone.
   const double radius = 0.01, A = kPi * radius * radius;
-  const Scene scene = lit(Ring{{0, 0, 5}, {0, 0, -1}, 0, radius}, {Rgb(100.0f), false, SpotCone{40 * kPi / 180, {0, 0, -1.5}}});
+  const Scene scene =
+      lit(Ring{{0, 0, 5}, {0, 0, -1}, 0, radius}, {Rgb(100.0f), false, SpotCone{40 * kPi / 180, {0, 0, -1.5}}});
   EXPECT_NEAR(irradiance(scene, Vec3(0), {0, 0, 1}).mean(), 100 * A / std::pow(5 + 1.5, 2), 1e-6);
   EXPECT_EQ(irradiance(scene, {5 * std::tan(21 * kPi / 180), 0, 0}, {0, 0, 1}).mean(), 0.0);
   EXPECT_GT(irradiance(scene, {5 * std::tan(19 * kPi / 180), 0, 0}, {0, 0, 1}).mean(), 0.0);

@@ -51,7 +51,10 @@ TEST(Material, ToldApart) {
   EXPECT_FALSE(isSpecular(plastic));
   std::get<Opaque>(plastic.surface).specular.reflectance = Rgb(0.02f);
   EXPECT_TRUE(isSpecular(plastic));
-  const Material trans{"trans", Trans{.diffuseReflectance = Rgb(0.2f), .diffuseTransmittance = Rgb(0.3f), .reflection = {}, .transmission = {}}, {}};
+  const Material trans{
+      "trans",
+      Trans{.diffuseReflectance = Rgb(0.2f), .diffuseTransmittance = Rgb(0.3f), .reflection = {}, .transmission = {}},
+      {}};
   EXPECT_EQ(diffuseReflectance(trans, false), Rgb(0.2f));
   EXPECT_EQ(diffuseTransmittance(trans), Rgb(0.3f));
   EXPECT_TRUE(isThinGlass({"pane", ThinGlass{}, {}}));

@@ -30,7 +30,8 @@ ChiSquareResult chiSquare(const std::vector<double>& observed, const std::vector
   }
   const double total = std::accumulate(expected.begin(), expected.end(), 0.0);
   return {chiSquareTail(statistic, std::max(1, cells - 1)),
-          fmt::format("chi^2 = {:.1f} with {} cells, {:.1f} expected samples, {:.0f} observed", statistic, cells, total, drawn)};
+          fmt::format("chi^2 = {:.1f} with {} cells, {:.1f} expected samples, {:.0f} observed", statistic, cells, total,
+                      drawn)};
 }
 
 ChiSquareResult chiSquareDirections(const std::function<std::optional<Vec3>(const Vec3&)>& draw,

@@ -27,7 +27,10 @@ TEST(ChiSquare, AcceptsTheRightDensityAndRefusesAWrongOne) {
   const Vec3 axis = glm::normalize(Vec3(1, 2, -1));
   for (double concentration : {1.0, 3.0}) {
     const DirectionTest test{axis, concentration};
-    EXPECT_GT(chiSquareDirections(uniformDirection, [](const Vec3&) { return 1 / (4 * kPi); }, test).pValue, 1e-3);
+    EXPECT_GT(chiSquareDirections(
+                  uniformDirection, [](const Vec3&) { return 1 / (4 * kPi); }, test)
+                  .pValue,
+              1e-3);
     const auto tilted = [](const Vec3& w) { return (1 + 0.1 * w.z) / (4 * kPi); };
     EXPECT_LT(chiSquareDirections(uniformDirection, tilted, test).pValue, 1e-6);
     const auto tooMuch = [](const Vec3&) { return 1.01 / (4 * kPi); };

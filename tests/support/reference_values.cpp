@@ -58,7 +58,8 @@ void Agreement::add(const ReferenceValue& expected, const ProbeResult& measured)
 
 double Agreement::rmsZ() const { return values ? std::sqrt(sumZ2 / values) : 0.0; }
 
-std::map<std::string, Agreement> compare(const std::vector<ReferenceValue>& expected, const std::vector<ProbeResult>& measured) {
+std::map<std::string, Agreement> compare(const std::vector<ReferenceValue>& expected,
+                                         const std::vector<ProbeResult>& measured) {
   std::map<std::string, Agreement> result;
   for (std::size_t i = 0; i < expected.size(); ++i) {
     result["all"].add(expected[i], measured[i]);

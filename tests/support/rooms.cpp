@@ -26,7 +26,9 @@ PrimitiveId addPolygon(Scene& scene, MaterialId material, std::vector<Vec3> vert
 }
 
 void addBox(Scene& scene, MaterialId material, const Vec3& lower, const Vec3& upper, bool inward) {
-  const auto corner = [&](int i) { return Vec3(i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z); };
+  const auto corner = [&](int i) {
+    return Vec3(i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z);
+  };
   // Counter-clockwise seen from outside.
   constexpr int faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   for (const auto& f : faces) {

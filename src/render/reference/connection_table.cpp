@@ -9,11 +9,11 @@ namespace deltalux {
 
 namespace {
 
-constexpr int kLooks = 8;                 // test samples per cell and connection
+constexpr int kLooks = 8;  // test samples per cell and connection
 constexpr double kMaxCells = 16 * 1024;
-constexpr double kShadowedShare = 0.02;   // of what a connection would bring without shadows: there may be a gap
-constexpr double kUniformShare = 0.04;    // of the chances
-constexpr double kAskew = 0.15;           // added to a facing's cosine: its surfaces need not face exactly there
+constexpr double kShadowedShare = 0.02;  // of what a connection would bring without shadows: there may be a gap
+constexpr double kUniformShare = 0.04;   // of the chances
+constexpr double kAskew = 0.15;          // added to a facing's cosine: its surfaces need not face exactly there
 
 template <class Facings>
 void addSeenFrom(const Vec3& direction, double value, Facings& facings) {
@@ -24,13 +24,13 @@ void addSeenFrom(const Vec3& direction, double value, Facings& facings) {
 }
 
 template <class Facings>
-void lookAt(const ReferenceScene& scene, const LightConnections& connections, int connection, const Vec3& x, const Vec2& u,
-            Facings& facings) {
+void lookAt(const ReferenceScene& scene, const LightConnections& connections, int connection, const Vec3& x,
+            const Vec2& u, Facings& facings) {
   const Arrivals arrivals = connections.sample(connection, x, Vec3(0), u);
   for (int i = 0; i < arrivals.count; ++i) {
     const Arrival& a = arrivals.list[i];
-    Rgb T = scene.rays().transmittance(a.first);
-    if (a.rays == 2 && !isBlack(T)) T *= scene.rays().transmittance(a.second);
+    Rgb T(1.0f);
+    for (int l = 0; l < a.legCount && !isBlack(T); ++l) T *= scene.rays().transmittance(a.legs[l]);
     addSeenFrom(a.direction, gray(a.value) * kShadowedShare + gray(a.value * T), facings);
   }
 }
@@ -71,21 +71,23 @@ std::size_t ConnectionTable::rowOf(const Vec3& position, const Vec3& normal) con
   return (cellOf(position) * 6 + 2 * axis + (normal[axis] < 0.0 ? 1 : 0)) * connections_;
 }
 
-std::vector<ConnectionTable::Facings> ConnectionTable::learn(const ReferenceScene& scene, const LightConnections& connections,
+std::vector<ConnectionTable::Facings> ConnectionTable::learn(const ReferenceScene& scene,
+                                                             const LightConnections& connections,
                                                              std::size_t cell) const {
   const Vec3 corner(cell % resolution_.x, cell / resolution_.x % resolution_.y, cell / resolution_.x / resolution_.y);
   const Vec3 center = origin_ + (corner + 0.5) * cellSize_;
   std::vector<Facings> weights(connections_, Facings{});
   for (std::size_t c = 0; c < connections_; ++c) {
     const Connection& connection = connections.list()[c];
-    if (connection.kind == Connection::Kind::Curved) {
-      // Test samples would miss the caustic's bright lines: take the flux as if it left the mirror evenly.
-      const Box mirror = bounds(scene.scene()[connection.mirror].shape);
+    if (connection.chain.curved() >= 0) {
+      // Test samples would miss the caustic's bright lines: take the flux as if it left the bend evenly.
+      const Box mirror = bounds(scene.scene()[connection.chain.bends[0].surface].shape);
       const Vec3 d = mirror.center() - center, outside = glm::max(Vec3(0), glm::abs(d) - 0.5 * mirror.extent());
       const double reach = 0.25 * (mirror.diagonal() + glm::length(cellSize_));
       const double distance = std::max(glm::length(outside), reach);
       const Vec3 direction = glm::length(d) > reach ? glm::normalize(d) : Vec3(0);
-      addSeenFrom(direction, connection.flux / (4 * kPi * distance * distance) / (direction == Vec3(0) ? kAskew : 1.0), weights[c]);
+      addSeenFrom(direction, connection.flux / (4 * kPi * distance * distance) / (direction == Vec3(0) ? kAskew : 1.0),
+                  weights[c]);
       continue;
     }
     Rng rng(cell, c);
@@ -102,7 +104,8 @@ std::vector<ConnectionTable::Facings> ConnectionTable::learn(const ReferenceScen
 void ConnectionTable::smooth(const std::vector<std::vector<Facings>>& learned) {
   cumulative_.resize(learned.size() * 6 * connections_);
   parallelFor(learned.size(), 64, [&](std::size_t cell) {
-    const glm::ivec3 at(cell % resolution_.x, cell / resolution_.x % resolution_.y, cell / resolution_.x / resolution_.y);
+    const glm::ivec3 at(cell % resolution_.x, cell / resolution_.x % resolution_.y,
+                        cell / resolution_.x / resolution_.y);
     std::vector<std::array<double, 6>> sum(connections_, std::array<double, 6>{});
     for (int k = 0; k < 27; ++k) {
       const glm::ivec3 n = at + glm::ivec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);

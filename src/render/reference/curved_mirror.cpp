@@ -100,7 +100,8 @@ Azimuths roots(const Condition& f) {
       continue;
     }
     // The value nearest to zero of a stretch without a change of sign: does it reach across in between?
-    const bool dips = std::abs(left) < std::abs(at(i - 1)) && std::abs(left) <= std::abs(right) && (at(i - 1) > 0) == (left > 0);
+    const bool dips =
+        std::abs(left) < std::abs(at(i - 1)) && std::abs(left) <= std::abs(right) && (at(i - 1) > 0) == (left > 0);
     if (!dips) continue;
     const double sign = left > 0 ? 1.0 : -1.0;
     const double bottom = extremumBetween(f, (i - 1) * kStep, (i + 1) * kStep, sign), value = f(bottom);
@@ -181,12 +182,15 @@ LocalShape localShape(const Shape& shape, const Vec3& s) {
   const Vec3 fromAxis = (s - r->p0) - glm::dot(s - r->p0, r->axis) * r->axis;
   const double radius = glm::length(fromAxis);
   const Vec3 e = fromAxis / radius;
-  return {glm::normalize(e - r->slope * r->axis), glm::cross(r->axis, e), 1.0 / (radius * std::hypot(1.0, r->slope)), 0.0};
+  return {glm::normalize(e - r->slope * r->axis), glm::cross(r->axis, e), 1.0 / (radius * std::hypot(1.0, r->slope)),
+          0.0};
 }
 
 }  // namespace
 
-bool isCurvedMirror(const Shape& shape) { return std::holds_alternative<Sphere>(shape) || revolution(shape).has_value(); }
+bool isCurvedMirror(const Shape& shape) {
+  return std::holds_alternative<Sphere>(shape) || revolution(shape).has_value();
+}
 
 MirrorPoints mirrorPoints(const Shape& shape, const Vec3& x, const LightPlace& light) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return onSphere(*sphere, x, light);
@@ -210,8 +214,8 @@ double reflectedSpread(const Shape& shape, const Vec3& x, const Vec3& s, double 
   const double s12 = sign * (local.around - local.along) * b1 * b2;
   // Curvature of the reflected wavefront: the sphere around x, bent twice by the surface as the beam sees it.
   const double q11 = 1.0 / before + 2.0 * s11 / cosine, q22 = 1.0 / before + 2.0 * s22 * cosine, q12 = 2.0 * s12;
-  const double determinant = std::isinf(after) ? q11 * q22 - q12 * q12
-                                               : (1.0 + after * q11) * (1.0 + after * q22) - after * after * q12 * q12;
+  const double determinant =
+      std::isinf(after) ? q11 * q22 - q12 * q12 : (1.0 + after * q11) * (1.0 + after * q22) - after * after * q12 * q12;
   return before * before * std::abs(determinant);
 }
 

@@ -2,10 +2,10 @@
 // Single mirror reflections off spheres, cylinders and cones: all points that throw light from a given place (or a
 // direction at infinity) to a given point, and how much the reflection spreads the light.
 //
-// A point s of a surface of revolution reflects y to x when the mirror image of x in the tangent plane at s, joined with
-// y, meets that plane at s. The tangent plane is the same along a generatrix, so what remains is one equation in the
-// azimuth: a trigonometric polynomial of degree 2, with at most four roots, all found by bracketing. For a sphere it is
-// Alhazen's problem in the plane of x, y and the centre. The spread follows the wavefront's curvature through the
+// A point s of a surface of revolution reflects y to x when the mirror image of x in the tangent plane at s, joined
+// with y, meets that plane at s. The tangent plane is the same along a generatrix, so what remains is one equation in
+// the azimuth: a trigonometric polynomial of degree 2, with at most four roots, all found by bracketing. For a sphere
+// it is Alhazen's problem in the plane of x, y and the centre. The spread follows the wavefront's curvature through the
 // reflection (Coddington's equations), so no derivative is taken numerically.
 // Cost: about a microsecond a pair of points.
 #include <array>

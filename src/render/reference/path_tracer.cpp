@@ -6,9 +6,9 @@ namespace deltalux {
 
 namespace {
 
-constexpr int kMeterConnections = 4;     // half of a meter's noise is its direct light
-constexpr int kRouletteFrom = 2;         // scatterings
-constexpr double kMaxSurvival = 0.99;    // so that light caught between perfect surfaces ends some day
+constexpr int kMeterConnections = 4;   // half of a meter's noise is its direct light
+constexpr int kRouletteFrom = 2;       // scatterings
+constexpr double kMaxSurvival = 0.99;  // so that light caught between perfect surfaces ends some day
 
 /// Weight of a strategy with density p against one with density q. [Veach97]
 double powerHeuristic(double p, double q) {
@@ -33,10 +33,12 @@ Rgb passed(const Dielectric* medium, double distance) {
 
 }  // namespace
 
-PathTracer::PathTracer(const ReferenceScene& scene, const LightConnections& connections, const ConnectionTable& table, int maxDepth)
+PathTracer::PathTracer(const ReferenceScene& scene, const LightConnections& connections, const ConnectionTable& table,
+                       int maxDepth)
     : scene_(scene), connections_(connections), table_(table), maxDepth_(maxDepth) {}
 
-RgbSum PathTracer::irradiance(const Vec3& position, const Vec3& normal, PathSampler& sampler, std::uint64_t& rays) const {
+RgbSum PathTracer::irradiance(const Vec3& position, const Vec3& normal, PathSampler& sampler,
+                              std::uint64_t& rays) const {
   const PathVertex vertex{position, normal, normal, &meter(), nullptr};
   RgbSum sum(connect(vertex, kMeterConnections, sampler, rays));
   Walk walk;
@@ -47,7 +49,8 @@ RgbSum PathTracer::irradiance(const Vec3& position, const Vec3& normal, PathSamp
   return sum * kPi;
 }
 
-RgbSum PathTracer::radiance(const Vec3& origin, const Vec3& direction, PathSampler& sampler, std::uint64_t& rays) const {
+RgbSum PathTracer::radiance(const Vec3& origin, const Vec3& direction, PathSampler& sampler,
+                            std::uint64_t& rays) const {
   Walk walk;
   walk.origin = origin, walk.direction = direction, walk.offsetNormal = Vec3(0);
   return follow(walk, sampler, rays);
@@ -91,7 +94,10 @@ Rgb PathTracer::connect(const PathVertex& v, int count, PathSampler& sampler, st
   return sum;
 }
 
-Rgb PathTracer::arriving(const PathVertex& v, const ConnectionTable::Choice& choice, int count, const Vec2& u, std::uint64_t& rays) const {
+Rgb PathTracer::arriving(const PathVertex& v, const ConnectionTable::Choice& choice, int count, const Vec2& u,
+                         std::uint64_t& rays) const {
+  // Within a body only straight connections know how much it absorbs.
+  if (v.medium && connections_.list()[choice.connection].chain.count > 0) return Rgb(0.0f);
   const Frame frame(v.normal);
   const Vec3 wo = frame.toLocal(v.wo);
   const double tries = count * choice.chance;
@@ -102,17 +108,17 @@ Rgb PathTracer::arriving(const PathVertex& v, const ConnectionTable::Choice& cho
     const Vec3 wi = frame.toLocal(a.direction);
     const Rgb f = evaluate(*v.bsdf, wo, wi);
     if (isBlack(f)) continue;
-    Rgb T = scene_.rays().transmittance(a.first);
-    ++rays;
-    if (a.rays == 2 && !isBlack(T)) T *= scene_.rays().transmittance(a.second), ++rays;
+    Rgb T = passed(v.medium, a.legs[0].tFar);
+    for (int l = 0; l < a.legCount && !isBlack(T); ++l) T *= scene_.rays().transmittance(a.legs[l]), ++rays;
     if (isBlack(T)) continue;
     const double weight = a.pdf > 0.0 ? powerHeuristic(tries * a.pdf, pdf(*v.bsdf, wo, wi)) : 1.0;
-    sum += f * a.value * T * passed(v.medium, a.first.tFar) * static_cast<float>(weight / tries);
+    sum += f * a.value * T * static_cast<float>(weight / tries);
   }
   return sum;
 }
 
-bool PathTracer::scatter(Walk& walk, const PathVertex& v, PrimitiveId primitive, bool front, PathSampler& sampler) const {
+bool PathTracer::scatter(Walk& walk, const PathVertex& v, PrimitiveId primitive, bool front,
+                         PathSampler& sampler) const {
   const Frame frame(v.normal);
   const double part = sampler.next1();
   const Vec2 u = sampler.next2();
@@ -122,17 +128,7 @@ bool PathTracer::scatter(Walk& walk, const PathVertex& v, PrimitiveId primitive,
   walk.origin = v.position, walk.offsetNormal = v.normal;
   walk.direction = glm::normalize(frame.toWorld(s->direction));
 
-  Anchor& anchor = walk.anchor;
-  const bool throughPane = s->event == ScatterEvent::StraightTransmission && v.bsdf->pane.has_value();
-  if (!throughPane) anchor.fromSurface = 0;
-  if (!isDirac(s->event)) {
-    anchor = {v.position, v.normal, 1, s->pdf, Anchor::Since::Straight, {}, Vec3(0), 0.0, 0.0};
-  } else if (s->event == ScatterEvent::MirrorReflection && anchor.since == Anchor::Since::Straight &&
-             scene_.isConnectableMirror(primitive, front)) {
-    anchor.since = Anchor::Since::Mirror, anchor.mirror = primitive, anchor.mirrorPoint = v.position;
-  } else if (!throughPane && anchor.since != Anchor::Since::Camera) {
-    anchor.since = Anchor::Since::Unconnectable;
-  }
+  follow(walk.anchor, v, *s, primitive, front);
   if (s->event == ScatterEvent::Refraction) walk.medium = front ? scene_.body(primitive) : nullptr;
 
   ++walk.depth;
@@ -143,14 +139,52 @@ bool PathTracer::scatter(Walk& walk, const PathVertex& v, PrimitiveId primitive,
   return true;
 }
 
+/// Keeps the anchor's account of how the path went on from it.
+void PathTracer::follow(Anchor& anchor, const PathVertex& v, const BsdfSample& s, PrimitiveId primitive,
+                        bool front) const {
+  const bool throughPane = s.event == ScatterEvent::StraightTransmission && v.bsdf->pane.has_value();
+  if (throughPane) return;
+  anchor.fromSurface = 0;
+  if (!isDirac(s.event)) {
+    anchor = {v.position, v.normal, 1, s.pdf, Anchor::Since::Connectable, {}, Vec3(0), 0.0, 0.0};
+    return;
+  }
+  if (anchor.since == Anchor::Since::Camera) return;
+  const auto addBend = [&](const std::optional<Bend>& bend) {
+    if (!bend || (bend->kind != Bend::Kind::Plane && anchor.chain.curved() >= 0) || !anchor.chain.add(*bend))
+      return false;
+    if (bend->kind != Bend::Kind::Plane) anchor.bendPoint = v.position;
+    return true;
+  };
+  const bool refracted = s.event == ScatterEvent::Refraction;
+  if (anchor.since == Anchor::Since::InBall) {
+    Bend& bend = anchor.chain.bends[anchor.chain.count - 1];
+    if (bend.surface != primitive || front) {
+      anchor.since = Anchor::Since::Unconnectable;
+    } else if (refracted) {
+      anchor.since = Anchor::Since::Connectable;
+    } else if (const auto further = connections_.ball(primitive, bend.inner + 1)) {
+      bend = *further;
+    } else {
+      anchor.since = Anchor::Since::Unconnectable;
+    }
+  } else if (anchor.since == Anchor::Since::Connectable && !v.medium && s.event == ScatterEvent::MirrorReflection) {
+    if (!addBend(connections_.mirror(primitive, front))) anchor.since = Anchor::Since::Unconnectable;
+  } else if (anchor.since == Anchor::Since::Connectable && !v.medium && refracted && front) {
+    anchor.since = addBend(connections_.ball(primitive)) ? Anchor::Since::InBall : Anchor::Since::Unconnectable;
+  } else {
+    anchor.since = Anchor::Since::Unconnectable;
+  }
+}
+
 /// How much of a light that scattering has met counts, the rest being the connections' share.
-double PathTracer::meetingWeight(const Walk& walk, LightId light, const Vec3& normal, double distance) const {
+double PathTracer::meetingWeight(const Walk& walk, LightId light, const Vec3& normal, const Vec3& point,
+                                 double distance) const {
   const Anchor& anchor = walk.anchor;
-  if (anchor.since == Anchor::Since::Camera || anchor.since == Anchor::Since::Unconnectable) return 1.0;
-  const bool overMirror = anchor.since == Anchor::Since::Mirror;
-  const int connection = overMirror ? connections_.mirrored(anchor.mirror, light) : connections_.straight(light);
+  if (anchor.since != Anchor::Since::Connectable) return 1.0;
+  const int connection = connections_.find(light, anchor.chain);
   if (connection < 0) return 1.0;
-  const LightMeeting meeting{anchor.position, walk.direction, distance, normal, anchor.mirrorPoint};
+  const LightMeeting meeting{anchor.position, walk.direction, distance, normal, anchor.bendPoint, point};
   const double tries = anchor.connections * table_.chance(anchor.position, anchor.normal, connection);
   return powerHeuristic(anchor.pdf, tries * connections_.pdf(connection, meeting));
 }
@@ -160,7 +194,7 @@ RgbSum PathTracer::lightAtInfinity(const Walk& walk) const {
   for (LightId light : scene_.lights().atInfinity()) {
     const Rgb L = scene_.lights().radianceFrom(light, walk.direction);
     if (isBlack(L)) continue;
-    sum += walk.throughput * L * static_cast<float>(meetingWeight(walk, light, Vec3(0), kInfinity));
+    sum += walk.throughput * L * static_cast<float>(meetingWeight(walk, light, Vec3(0), Vec3(0), kInfinity));
   }
   return sum;
 }
@@ -170,7 +204,7 @@ Rgb PathTracer::lightOf(const Walk& walk, PrimitiveId primitive, const Hit& hit)
   if (!light.valid()) return Rgb(0.0f);
   const Rgb L = scene_.lights().emittedRadiance(light, -walk.direction, walk.anchor.fromSurface, hit.front);
   if (isBlack(L)) return L;
-  return L * static_cast<float>(meetingWeight(walk, light, Vec3(hit.normal), walk.anchor.distance));
+  return L * static_cast<float>(meetingWeight(walk, light, Vec3(hit.normal), Vec3(hit.position), walk.anchor.distance));
 }
 
 }  // namespace deltalux

@@ -3,20 +3,21 @@
 //
 // Path tracing with connections to lights and multiple importance sampling (power heuristic) [Veach97]. At
 // every surface with a finite part a connection is drawn from the table of its grid cell (at a light meter four, with
-// stratified choices): straight to a light, or over
-// one mirror, plane (virtual image) or curved (all mirror points solved for). The same paths found by scattering are
-// weighted against exactly the strategy that also makes them, so caustics of one bounce from suns, points and lamps
-// converge like direct light. Panes are passed straight on the way. Russian roulette after two bounces keeps the
-// throughput per channel: no colour is averaged away.
+// stratified choices): straight to a light, or by way of up
+// to two bends: plane mirrors (virtual images), and one curved mirror or refracting ball (all ways solved for). The
+// same paths found by scattering are weighted against exactly the strategy that also makes them, so these caustics of
+// suns, points and lamps converge like direct light. Panes are passed straight on the way. Russian roulette after two
+// bounces keeps the throughput per channel: no colour is averaged away.
 //
 // Geometric normals throughout, so that energy is conserved; vertex normals of meshes are for the display.
 //
-// What remains slow, though unbiased: suns and small lamps over two or more mirrors or through refracting bodies, found
-// by scattering alone (rare bright samples); point-like lights over such chains cannot be found at all and are missing
-// (the only light that is). Rough lobes are met by scattering; light that they throw onto a point is found by paths that
-// happen to meet the lobe's surface and connect there.
+// What remains slow, though unbiased: suns and small lamps by way of two curved bends or more than two of any kind, of
+// meshes, or of refracting bodies other than balls; these are found by scattering alone (rare bright samples).
+// Point-like lights by such ways cannot be found at all: the only light that is missing. Rough lobes are met by
+// scattering; light that they throw onto a point is found by paths that happen to meet the lobe's surface and connect
+// there.
 //
-// Cost per bounce: one closest hit, one shadow ray (two over a mirror).
+// Cost per bounce: one closest hit, one shadow ray (one more per bend).
 #include "render/reference/connection_table.hpp"
 #include "render/reference/path_sampler.hpp"
 
@@ -44,14 +45,14 @@ class PathTracer {
  private:
   /// Where the path last scattered by a finite density, and over what it has gone since.
   struct Anchor {
-    enum class Since : unsigned char { Camera, Straight, Mirror, Unconnectable };
+    enum class Since : unsigned char { Camera, Connectable, InBall, Unconnectable };
     Vec3 position{0}, normal{0};
     int connections = 1;  // that were drawn there
     double pdf = 0;
     Since since = Since::Camera;
-    PrimitiveId mirror;
-    Vec3 mirrorPoint{0};
-    double distance = 0;   // from the anchor along the path
+    BendChain chain;
+    Vec3 bendPoint{0};       // on the chain's curved bend
+    double distance = 0;     // from the anchor along the path
     double fromSurface = 0;  // from the last surface that was not a pane
   };
   struct Walk {
@@ -67,7 +68,8 @@ class PathTracer {
   Rgb connect(const PathVertex&, int count, PathSampler&, std::uint64_t& rays) const;
   Rgb arriving(const PathVertex&, const ConnectionTable::Choice&, int count, const Vec2& u, std::uint64_t& rays) const;
   bool scatter(Walk&, const PathVertex&, PrimitiveId, bool front, PathSampler&) const;
-  double meetingWeight(const Walk&, LightId, const Vec3& normal, double distance) const;
+  void follow(Anchor&, const PathVertex&, const BsdfSample&, PrimitiveId, bool front) const;
+  double meetingWeight(const Walk&, LightId, const Vec3& normal, const Vec3& point, double distance) const;
   RgbSum lightAtInfinity(const Walk&) const;
   Rgb lightOf(const Walk&, PrimitiveId, const Hit&) const;
 

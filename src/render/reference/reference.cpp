@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr std::uint32_t kBatch = 64;  // paths that share one stratified pattern
+constexpr std::uint32_t kBatch = 64;       // paths that share one stratified pattern
 constexpr std::uint64_t kMinBatches = 16;  // behind a standard error, while there are paths enough
 constexpr std::uint64_t kMaxPassBatches = 1024;
 
@@ -88,9 +88,13 @@ class Reporter {
 
 struct ReferenceIntegrator::Impl {
   Impl(const Scene& s, const ReferenceSettings& wanted)
-      : settings(wanted), scene(s, wanted.diffuseOnly), connections(scene), table(scene, connections, tableBudget(wanted.samples)),
+      : settings(wanted),
+        scene(s, wanted.diffuseOnly),
+        connections(scene),
+        table(scene, connections, tableBudget(wanted.samples)),
         tracer(scene, connections, table, wanted.maxDepth) {
-    DELTALUX_CHECK(settings.samples > 0 || settings.seconds > 0 || settings.targetError > 0, "samples, seconds or a target error");
+    DELTALUX_CHECK(settings.samples > 0 || settings.seconds > 0 || settings.targetError > 0,
+                   "samples, seconds or a target error");
   }
 
   /// How many batches the next pass makes; 0 ends.
@@ -166,7 +170,9 @@ std::vector<ProbeResult> ReferenceIntegrator::probe(std::span<const ProbePoint> 
     const std::uint64_t batches = impl.nextPass(schedule, secondsSince(start));
     if (batches == 0) break;
     const double before = impl.fractionDone(schedule, secondsSince(start));
-    const double after = schedule.total > 0 ? static_cast<double>(schedule.done + batches) / static_cast<double>(schedule.total) : before;
+    const double after = schedule.total > 0
+                             ? static_cast<double>(schedule.done + batches) / static_cast<double>(schedule.total)
+                             : before;
     means.assign(active.size() * batches, RgbSum(0));
     reporter.phase("probes", before, std::max(0.0, after - before), means.size());
     parallelFor(means.size(), 1, [&](std::size_t task) {
@@ -202,7 +208,9 @@ Image ReferenceIntegrator::render(const View& view, int width, int height, Progr
     const std::uint64_t batches = impl.nextPass(schedule, secondsSince(start));
     if (batches == 0) break;
     const double before = impl.fractionDone(schedule, secondsSince(start));
-    const double after = schedule.total > 0 ? static_cast<double>(schedule.done + batches) / static_cast<double>(schedule.total) : before;
+    const double after = schedule.total > 0
+                             ? static_cast<double>(schedule.done + batches) / static_cast<double>(schedule.total)
+                             : before;
     constexpr std::size_t kBlock = 64;
     reporter.phase("render", before, std::max(0.0, after - before), (pixels + kBlock - 1) / kBlock);
     parallelBlocks(pixels, kBlock, [&](std::size_t begin, std::size_t end) {
