@@ -140,7 +140,7 @@ class Estimator {
       const auto* glass = std::get_if<ThinGlass>(&scene_.materialOf(hit.primitive).surface);
       if (!glass) return hit;
       through *= transmittance(*glass, std::abs(glm::dot(hit.normal, w)));
-      ray.origin = offsetOrigin(at(ray, hit.t), hit.normal, w);
+      ray.origin = offsetOrigin(hit.position, hit.normal, w);
     }
     return {};
   }

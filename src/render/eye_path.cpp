@@ -43,7 +43,7 @@ Rgb EyePaths::radiance(const EyeRay& eye, ChoiceCache& cache) const {
     const Hit hit = tracer_.closestHit(ray);
     if (!hit) return emitters ? L + beta * background(Vec3(ray.direction), lobe ? &*lobe : nullptr) : L;
     const Vec3 n = hit.front ? Vec3(hit.normal) : -Vec3(hit.normal);
-    const Vertex v{hit, Vec3(at(ray, hit.t)), Vec3(ray.direction), n};
+    const Vertex v{hit, Vec3(hit.position), Vec3(ray.direction), n};
     if (emitters) L += beta * emitted(v, lobe ? &*lobe : nullptr);
     const Bsdf& scattering = bsdf(hit.primitive, hit.front);
     if (scattering.pane && !panesReflect_) {

@@ -54,7 +54,7 @@ class MeshPainter {
         for (const LightId id : lights_.atInfinity()) radiance += lights_.radianceFrom(id, from.direction);
         return {};
       }
-      const Vec3f p = at(ray, hit.t);
+      const Vec3f p = hit.position;
       if (isThinGlass(s_.scene.materialOf(hit.primitive))) {
         ray.origin = offsetOrigin(p, hit.normal, ray.direction);
         continue;

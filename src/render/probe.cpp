@@ -58,7 +58,7 @@ class LightMeter {
     for (int layer = 0; layer < kMaxLayers; ++layer) {
       const Hit hit = tracer_.closestHit(ray);
       if (!hit) break;
-      const Vec3 p(at(ray, hit.t));
+      const Vec3 p(hit.position);
       const double away = glm::length(p - point.position);
       const Vec3f side = hit.front ? hit.normal : -hit.normal;
       if (away < least && glm::dot(side, n) > kFacing && !isThinGlass(scene_.materialOf(hit.primitive))) {

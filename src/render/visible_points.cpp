@@ -14,7 +14,7 @@ std::optional<ProbePoint> firstSurface(const Scene& scene, const RayTracer& trac
   for (int pane = 0; pane <= kMostPanes; ++pane) {
     const Hit hit = tracer.closestHit(ray);
     if (!hit) return std::nullopt;
-    const Vec3f position = at(ray, hit.t);
+    const Vec3f position = hit.position;
     if (!isThinGlass(scene.materialOf(hit.primitive)))
       return ProbePoint{Vec3(position), Vec3(hit.front ? hit.normal : -hit.normal)};
     ray.origin = offsetOrigin(position, hit.normal, ray.direction);
