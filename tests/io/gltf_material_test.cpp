@@ -150,6 +150,16 @@ TEST(GltfMaterial, TextureTransform) {
   }
 }
 
+TEST(GltfMaterial, TexturesThatWouldNotRepeatAreCounted) {
+  GltfBuilder g = textured({{"index", 0}});
+  g.doc["samplers"] = {{{"wrapS", 33071}, {"wrapT", 10497}}};
+  g.doc["textures"][0]["sampler"] = 0;
+  EXPECT_TRUE(read(g).report.ignored.empty());
+  g.doc["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"]["scale"] = {
+      2, 2};
+  EXPECT_EQ(read(g).report.ignored.size(), 1u);
+}
+
 TEST(GltfMaterial, UnreadableImagesAreRefused) {
   GltfBuilder g = textured({{"index", 0}});
   g.bytes[2] = 99;  // no such kind of TGA

@@ -106,7 +106,7 @@ std::optional<Emission> emissionOf(const tinygltf::Material& material, double lu
 }
 
 // [KHR_texture_transform] translation * rotation * scale
-std::optional<TextureUse> textureUseOf(const tinygltf::TextureInfo& info) {
+std::optional<TextureUse> textureUseOf(const tinygltf::TextureInfo& info, const tinygltf::Model& model) {
   TextureUse use;
   const tinygltf::Value* transform = extensionOf(info.extensions, "KHR_texture_transform");
   use.texcoordSet = static_cast<int>(numberOf(transform, "texCoord", info.texCoord));
@@ -114,6 +114,11 @@ std::optional<TextureUse> textureUseOf(const tinygltf::TextureInfo& info) {
                             scale = numbersOf(transform, "scale", {1, 1});
   const double angle = numberOf(transform, "rotation", 0), c = std::cos(angle), s = std::sin(angle);
   use.transform = glm::dmat3x2(c * scale[0], -s * scale[0], s * scale[1], c * scale[1], offset[0], offset[1]);
+  const int sampler = model.textures[static_cast<std::size_t>(info.index)].sampler;
+  if (sampler >= 0) {
+    const tinygltf::Sampler& wrap = model.samplers[static_cast<std::size_t>(sampler)];
+    use.repeats = wrap.wrapS == TINYGLTF_TEXTURE_WRAP_REPEAT && wrap.wrapT == TINYGLTF_TEXTURE_WRAP_REPEAT;
+  }
   return use;
 }
 
@@ -147,7 +152,8 @@ GltfMaterials addMaterials(const GltfDocument& document, double luminousEfficacy
     countIgnored(source, ignored);
     const auto* opaque = std::get_if<Opaque>(&material.surface);
     const bool textured = opaque && opaque->diffuseTexture.valid();
-    result.texture.push_back(textured ? textureUseOf(source.pbrMetallicRoughness.baseColorTexture) : std::nullopt);
+    result.texture.push_back(textured ? textureUseOf(source.pbrMetallicRoughness.baseColorTexture, document.model)
+                                      : std::nullopt);
     scene.materials.push_back(std::move(material));
   }
   const bool needsFallback =

@@ -26,6 +26,7 @@ namespace deltalux {
 struct TextureUse {
   int texcoordSet = 0;
   glm::dmat3x2 transform{1, 0, 0, 1, 0, 0};  // of (u, v, 1) [KHR_texture_transform]
+  bool repeats = true;                       // what every texture of a scene does
 };
 
 /// What meshes need to know of the materials put into a scene.

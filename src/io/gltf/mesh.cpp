@@ -70,13 +70,17 @@ int attributeOf(const GltfDocument& document, const tinygltf::Primitive& primiti
   return found->second;
 }
 
-void readTexcoords(const GltfDocument& document, int accessor, const TextureUse& texture, Mesh& mesh) {
+void readTexcoords(const GltfDocument& document, int accessor, const TextureUse& texture, Mesh& mesh,
+                   std::map<std::string, std::size_t>& ignored) {
   const std::vector<double> values = readVectors(document, accessor, 2);
+  bool leavesImage = false;
   for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
     const Vec2 texcoord = texture.transform * glm::dvec3(values[i], values[i + 1], 1);
     const bool usable = std::abs(texcoord.x) < kLargest && std::abs(texcoord.y) < kLargest;
     mesh.texcoords.push_back(usable ? texcoord : Vec2(0));
+    leavesImage |= glm::clamp(texcoord, 0.0, 1.0) != texcoord;
   }
+  if (leavesImage && !texture.repeats) ++ignored["textures that do not repeat (repeated)"];
 }
 
 void readNormals(const GltfDocument& document, int accessor, Mesh& mesh, std::map<std::string, std::size_t>& ignored) {
@@ -110,7 +114,7 @@ std::optional<Mesh> readMesh(const GltfDocument& document, const tinygltf::Primi
   if (texture) {
     const std::string set = "TEXCOORD_" + std::to_string(texture->texcoordSet);
     const int texcoords = attributeOf(document, primitive, set, vertexCount, where);
-    if (texcoords >= 0) readTexcoords(document, texcoords, *texture, mesh);
+    if (texcoords >= 0) readTexcoords(document, texcoords, *texture, mesh, ignored);
     if (texcoords < 0) {
       mesh.texcoords.assign(vertexCount, Vec2(0));
       ++ignored["textures without coordinates"];
