@@ -1,13 +1,12 @@
-// Any bytes as OBJ: a scene that passes validation, or an InputError. What follows a line "#mtl" is the material file
-// that `mtllib fuzz.mtl` finds.
+// Any bytes as OBJ with MTL: a scene that passes validation, or an InputError.
 #include <unistd.h>
 
 #include <cstdint>
 #include <deltalux/error.hpp>
-#include <filesystem>
-#include <fstream>
+#include <string>
 
 #include "io/obj.hpp"
+#include "obj_input.hpp"
 
 namespace {
 
@@ -24,14 +23,9 @@ const std::filesystem::path& folder() {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  constexpr std::string_view kMark = "\n#mtl\n";
-  const std::size_t mark = bytes.find(kMark);
-  if (mark != std::string_view::npos) {
-    std::ofstream(folder() / "fuzz.mtl", std::ios::binary) << bytes.substr(mark + kMark.size());
-  }
+  const std::string_view text = deltalux::fuzz::objOf({reinterpret_cast<const char*>(data), size}, folder());
   try {
-    validate(deltalux::readObj(bytes.substr(0, mark), "fuzz.obj", folder(), {}).scene);
+    validate(deltalux::readObj(text, "fuzz.obj", folder(), {}).scene);
   } catch (const deltalux::InputError&) {
   }
   return 0;

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "support/temp_folder.hpp"
+
 namespace deltalux {
 namespace {
 
@@ -22,24 +24,18 @@ double totalArea(const Scene& scene) {
   return sum;
 }
 
-// A folder of its own that goes away with the test.
 class ObjFiles : public testing::Test {
  protected:
-  ObjFiles()
-      : folder_(testing::TempDir() + "deltalux-obj-" + testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~ObjFiles() override { std::filesystem::remove_all(folder_); }
   void write(const std::string& name, const std::string& content) {
-    std::ofstream(folder_ / name, std::ios::binary) << content;
+    std::ofstream(folder_.path() / name, std::ios::binary) << content;
   }
   Material materialOf(const std::string& mtl) {
     write("m.mtl", "newmtl a\n" + mtl);
-    imported_ =
-        read("mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n", folder_);
+    imported_ = read("mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n",
+                     folder_.path());
     return imported_.scene.materialOf(PrimitiveId(0));
   }
-  const std::filesystem::path folder_;
+  const test::TempFolder folder_;
   ImportedScene imported_;
 };
 
@@ -146,7 +142,7 @@ TEST_F(ObjFiles, MaterialFilesByAnyName) {
   const ImportedScene imported = read(
       "mtllib my materials.mtl\nmtllib missing.mtl b.mtl\nmtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
       "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n",
-      folder_);
+      folder_.path());
   ASSERT_EQ(imported.scene.primitives.size(), 3u);
   EXPECT_EQ(std::get<Opaque>(imported.scene.materialOf(PrimitiveId(1)).surface).diffuse, Rgb(0.2f));
   EXPECT_EQ(std::get<Opaque>(imported.scene.materialOf(PrimitiveId(2)).surface).diffuse, Rgb(0.5f));
