@@ -84,6 +84,7 @@ TEST(ObjReader, ReadsLinesAsPeopleWriteThem) {
       "f 1//1 \\\r\n 2//1 3//1\r\nl 1 2\r\nf -3 -2 -1");
   EXPECT_NEAR(totalArea(imported.scene), 1, 1e-12);
   EXPECT_EQ(imported.report.ignored.at("points or lines"), 1u);
+  EXPECT_NEAR(totalArea(read("\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").scene), 0.5, 1e-12);
 }
 
 TEST(ObjReader, CoordinatesKeepTheirDigits) {
