@@ -61,6 +61,13 @@ void JsonView::expectInteger(std::int64_t low, std::int64_t high) const {
   }
 }
 
+void JsonView::expectIndex(std::size_t count) const {
+  if (!present()) return;
+  expectInteger(0, std::int64_t{1} << 62);
+  if (value_->get<std::uint64_t>() >= count)
+    fail("is " + value_->dump() + ", but only " + std::to_string(count) + " are there");
+}
+
 void JsonView::expectNumber(double low, double high) const {
   if (!present()) return;
   if (!value_->is_number()) fail("is not a number");

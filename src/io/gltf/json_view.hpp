@@ -28,7 +28,7 @@ class JsonView {
   /// A whole number in [low, high].
   void expectInteger(std::int64_t low, std::int64_t high) const;
   /// An index into `count` things.
-  void expectIndex(std::size_t count) const { expectInteger(0, static_cast<std::int64_t>(count) - 1); }
+  void expectIndex(std::size_t count) const;
   void expectNumber(double low, double high) const;
   /// An array of `size` numbers.
   void expectNumbers(std::size_t size, double low, double high) const;
