@@ -33,16 +33,22 @@ inline Vec3f at(const Ray& ray, float t) { return ray.origin + t * ray.direction
 /// `p` moved off its surface to the side of `direction`, enough for a ray from there not to meet the surface again. For
 /// points that are rounded but not otherwise off their surface (Hit::position, SurfacePoint::position): the step is
 /// some ten times the rounding of their coordinates, a thousandth of what tells surfaces 1 mm apart at 1 m.
-inline Vec3f offsetOrigin(const Vec3f& p, const Vec3f& normal, const Vec3f& direction) {
-  const float step = 1e-6f * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), 1e-6f});
+inline Vec3f offsetOrigin(const Vec3f& p, const Vec3f& normal, const Vec3f& direction, float size) {
+  const float step = 1e-6f * std::max(size, 1e-6f);
   return p + (glm::dot(normal, direction) >= 0.0f ? step : -step) * normal;
 }
+inline float largestCoordinate(const Vec3f& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+inline Vec3f offsetOrigin(const Vec3f& p, const Vec3f& normal, const Vec3f& direction) {
+  return offsetOrigin(p, normal, direction, largestCoordinate(p));
+}
 
-/// The open segment between two surface points, for visibility.
+/// The open segment between two surface points, for visibility. Both ends leave their surfaces by the rounding of the
+/// larger one: a ray from far away does not end more exactly because the point it ends at has small coordinates.
 inline Ray segment(const Vec3f& from, const Vec3f& fromNormal, const Vec3f& to, const Vec3f& toNormal) {
   const Vec3f d = to - from;
-  const Vec3f a = offsetOrigin(from, fromNormal, d);
-  const Vec3f b = offsetOrigin(to, toNormal, -d);
+  const float size = std::max(largestCoordinate(from), largestCoordinate(to));
+  const Vec3f a = offsetOrigin(from, fromNormal, d, size);
+  const Vec3f b = offsetOrigin(to, toNormal, -d, size);
   const Vec3f ab = b - a;
   const float length = glm::length(ab);
   Ray ray;
