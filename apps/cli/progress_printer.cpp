@@ -44,6 +44,7 @@ bool ProgressPrinter::due(std::string_view phase, double fraction) {
     phaseStart_ = now;
     lastFraction_ = -1;
   }
+  if (fraction < lastFraction_) return false;  // an estimate that was too hopeful: wait for the truth to catch up
   const bool finished = fraction >= 1.0 && lastFraction_ < 1.0;
   if (!newPhase && !finished && now - lastPrint_ < kPause) return false;
   if (fraction >= 1.0 && lastFraction_ >= 1.0) return false;

@@ -30,9 +30,11 @@ std::uint32_t batchSize(std::uint64_t samples) {
   return size;
 }
 
-/// Test samples for the connection table: worth a small part of the paths of an ordinary job.
-double tableBudget(std::uint64_t samples) {
-  return samples == 0 ? 4e6 : std::clamp(500.0 * static_cast<double>(samples), 5e4, 4e6);
+/// Test samples for the connection table: worth a small part of the paths of an ordinary job, or of the time limit.
+double tableBudget(const ReferenceSettings& settings) {
+  const double fromSamples = settings.samples > 0 ? 500.0 * static_cast<double>(settings.samples) : 4e6;
+  const double fromSeconds = settings.seconds > 0 ? 5e4 * settings.seconds : 4e6;
+  return std::clamp(std::min(fromSamples, fromSeconds), 5e4, 4e6);
 }
 
 /// Mean and spread of batch means per channel. [Welford 1962]
@@ -91,7 +93,7 @@ struct ReferenceIntegrator::Impl {
       : settings(wanted),
         scene(s, wanted.diffuseOnly),
         connections(scene),
-        table(scene, connections, tableBudget(wanted.samples)),
+        table(scene, connections, tableBudget(wanted)),
         tracer(scene, connections, table, wanted.maxDepth) {
     DELTALUX_CHECK(settings.samples > 0 || settings.seconds > 0 || settings.targetError > 0,
                    "samples, seconds or a target error");
@@ -104,6 +106,7 @@ struct ReferenceIntegrator::Impl {
   };
   std::uint64_t nextPass(const Schedule&, double elapsed) const;
   double fractionDone(const Schedule&, double elapsed) const;
+  double fractionAfter(const Schedule&, std::uint64_t batches, double fractionBefore) const;
 
   template <class Estimate>
   RgbSum batchMean(std::uint64_t key, std::uint32_t size, const Estimate& estimate);
@@ -119,7 +122,9 @@ struct ReferenceIntegrator::Impl {
 };
 
 std::uint64_t ReferenceIntegrator::Impl::nextPass(const Schedule& s, double elapsed) const {
-  std::uint64_t batches = std::min<std::uint64_t>(std::max<std::uint64_t>(s.done, 4), kMaxPassBatches);
+  // With a time limit the first pass is as small as can be: it tells how long a batch takes.
+  const std::uint64_t fewest = settings.seconds > 0 ? 1 : 4;
+  std::uint64_t batches = std::min<std::uint64_t>(std::max<std::uint64_t>(s.done, fewest), kMaxPassBatches);
   if (s.total > 0) batches = std::min(batches, s.total - s.done);
   if (settings.seconds > 0 && s.done > 0) {
     const double perBatch = elapsed / static_cast<double>(s.done);
@@ -132,6 +137,13 @@ std::uint64_t ReferenceIntegrator::Impl::nextPass(const Schedule& s, double elap
 double ReferenceIntegrator::Impl::fractionDone(const Schedule& s, double elapsed) const {
   const double bySamples = s.total > 0 ? static_cast<double>(s.done) / static_cast<double>(s.total) : 0.0;
   return std::max(bySamples, settings.seconds > 0 ? elapsed / settings.seconds : 0.0);
+}
+
+/// What fractionDone will be after `batches` more, if they take as long as those before.
+double ReferenceIntegrator::Impl::fractionAfter(const Schedule& s, std::uint64_t batches, double fractionBefore) const {
+  if (s.total > 0) return static_cast<double>(s.done + batches) / static_cast<double>(s.total);
+  if (s.done == 0) return fractionBefore;
+  return std::min(1.0, fractionBefore * static_cast<double>(s.done + batches) / static_cast<double>(s.done));
 }
 
 template <class Estimate>
@@ -170,9 +182,7 @@ std::vector<ProbeResult> ReferenceIntegrator::probe(std::span<const ProbePoint> 
     const std::uint64_t batches = impl.nextPass(schedule, secondsSince(start));
     if (batches == 0) break;
     const double before = impl.fractionDone(schedule, secondsSince(start));
-    const double after = schedule.total > 0
-                             ? static_cast<double>(schedule.done + batches) / static_cast<double>(schedule.total)
-                             : before;
+    const double after = impl.fractionAfter(schedule, batches, before);
     means.assign(active.size() * batches, RgbSum(0));
     reporter.phase("probes", before, std::max(0.0, after - before), means.size());
     parallelFor(means.size(), 1, [&](std::size_t task) {
@@ -199,7 +209,8 @@ std::vector<ProbeResult> ReferenceIntegrator::probe(std::span<const ProbePoint> 
 Image ReferenceIntegrator::render(const View& view, int width, int height, Progress* progress) {
   Impl& impl = *impl_;
   const auto start = Clock::now();
-  const std::uint32_t size = std::min<std::uint32_t>(16, batchSize(impl.settings.samples));
+  const std::uint32_t size =
+      std::min<std::uint32_t>(impl.settings.seconds > 0 ? 4 : 16, batchSize(impl.settings.samples));
   Impl::Schedule schedule{(impl.settings.samples + size - 1) / size};
   const std::size_t pixels = static_cast<std::size_t>(width) * height;
   std::vector<BatchMoments> moments(pixels);
@@ -208,9 +219,7 @@ Image ReferenceIntegrator::render(const View& view, int width, int height, Progr
     const std::uint64_t batches = impl.nextPass(schedule, secondsSince(start));
     if (batches == 0) break;
     const double before = impl.fractionDone(schedule, secondsSince(start));
-    const double after = schedule.total > 0
-                             ? static_cast<double>(schedule.done + batches) / static_cast<double>(schedule.total)
-                             : before;
+    const double after = impl.fractionAfter(schedule, batches, before);
     constexpr std::size_t kBlock = 64;
     reporter.phase("render", before, std::max(0.0, after - before), (pixels + kBlock - 1) / kBlock);
     parallelBlocks(pixels, kBlock, [&](std::size_t begin, std::size_t end) {
