@@ -16,16 +16,38 @@ constexpr std::uint32_t reverseBits(std::uint32_t x) {
   return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-/// Owen's nested uniform scrambling of the bits of x, from the top bit down. [Burley20, section 3]
-constexpr std::uint32_t owenScramble(std::uint32_t x, std::uint32_t seed) {
-  x = reverseBits(x);
+/// Owen's nested uniform scrambling of a number whose bits stand in reverse. [Burley20, section 3]
+constexpr std::uint32_t scrambleReversed(std::uint32_t x, std::uint32_t seed) {
   x += seed;
   x ^= x * 0x6c50b47cu;
   x ^= x * 0xb82f1e52u;
   x ^= x * 0xc7afe638u;
   x ^= x * 0x8d22f6e6u;
-  return reverseBits(x);
+  return x;
 }
+
+/// The second dimension of the sequence, byte by byte of the index.
+class SecondSobolDimension {
+ public:
+  constexpr SecondSobolDimension() {
+    std::uint32_t direction = 0x80000000u;
+    for (int byte = 0; byte < 4; ++byte) {
+      for (int bit = 0; bit < 8; ++bit, direction ^= direction >> 1) {
+        for (int i = 0; i < 256; ++i) {
+          if (i >> bit & 1) table_[byte][i] ^= direction;
+        }
+      }
+    }
+  }
+  constexpr std::uint32_t operator()(std::uint32_t index) const {
+    return table_[0][index & 255u] ^ table_[1][index >> 8 & 255u] ^ table_[2][index >> 16 & 255u] ^
+           table_[3][index >> 24];
+  }
+
+ private:
+  std::uint32_t table_[4][256] = {};
+};
+inline constexpr SecondSobolDimension kSecondSobolDimension;
 
 struct UnitPair {
   double x, y;
@@ -34,13 +56,11 @@ struct UnitPair {
 /// Point `index` of the scrambled, shuffled sequence of `key`, in [0,1)^2.
 constexpr UnitPair scrambledSobol(std::uint32_t index, std::uint64_t key) {
   const std::uint64_t seeds = mix64(key), more = mix64(seeds);
-  const std::uint32_t shuffled = owenScramble(index, static_cast<std::uint32_t>(seeds));
-  std::uint32_t second = 0;
-  for (std::uint32_t i = shuffled, v = 0x80000000u; i != 0; i >>= 1, v ^= v >> 1) {
-    if (i & 1u) second ^= v;
-  }
-  const std::uint32_t x = owenScramble(reverseBits(shuffled), static_cast<std::uint32_t>(seeds >> 32));
-  const std::uint32_t y = owenScramble(second, static_cast<std::uint32_t>(more));
+  const std::uint32_t shuffled = reverseBits(scrambleReversed(reverseBits(index), static_cast<std::uint32_t>(seeds)));
+  // The first dimension is the index in reverse, so it is already as the scrambling wants it.
+  const std::uint32_t x = reverseBits(scrambleReversed(shuffled, static_cast<std::uint32_t>(seeds >> 32)));
+  const std::uint32_t y =
+      reverseBits(scrambleReversed(reverseBits(kSecondSobolDimension(shuffled)), static_cast<std::uint32_t>(more)));
   return {x * 0x1p-32, y * 0x1p-32};
 }
 

@@ -6,7 +6,7 @@ namespace deltalux {
 
 namespace {
 
-constexpr int kMeterConnections = 4;   // half of a meter's noise is its direct light
+constexpr int kMeterConnections = 2;   // more cost as much as they gain
 constexpr int kRouletteFrom = 2;       // scatterings
 constexpr double kMaxSurvival = 0.99;  // so that light caught between perfect surfaces ends some day
 

@@ -2,7 +2,7 @@
 // Unbiased light transport along one path: what a surface point scatters towards a direction, and what a ray sees.
 //
 // Path tracing with connections to lights and multiple importance sampling (power heuristic) [Veach97]. At
-// every surface with a finite part a connection is drawn from the table of its grid cell (at a light meter four, with
+// every surface with a finite part a connection is drawn from the table of its grid cell (at a light meter two, with
 // stratified choices): straight to a light, or by way of up
 // to two bends: plane mirrors (virtual images), and one curved mirror or refracting ball (all ways solved for). The
 // same paths found by scattering are weighted against exactly the strategy that also makes them, so these caustics of
