@@ -46,18 +46,19 @@ void boundsCallback(const RTCBoundsFunctionArguments* args) {
 
 template <class Surface>
 void intersectCallback(const RTCIntersectFunctionNArguments* args) {
-  const Surface& surface = recordOf<Surface>(args->geometryUserPtr, args->primID).surface;
+  const auto& record = recordOf<Surface>(args->geometryUserPtr, args->primID);
+  auto& query = *static_cast<ClosestQuery*>(args->context);
   const unsigned n = args->N;
   RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
   for (unsigned i = 0; i < n; ++i) {
     if (!args->valid[i]) continue;
     const PacketRay ray{RTCRayHitN_RayN(args->rayhit, n), n, i};
     const Vec3 origin = ray.origin(), direction = ray.direction();
-    const Crossings crossings = surface.crossings(origin, direction);
+    const Crossings crossings = record.surface.crossings(origin, direction);
     for (int k = 0; k < crossings.count; ++k) {
       const double t = crossings.t[static_cast<std::size_t>(k)];
-      if (!ray.reaches(static_cast<float>(t))) continue;
-      ray.tFar() = static_cast<float>(t);
+      if (!query.take(t, &record.primitive)) continue;
+      ray.tFar() = query.reach();
       RTCHitN_primID(hits, n, i) = args->primID;
       RTCHitN_geomID(hits, n, i) = args->geomID;
       RTCHitN_instID(hits, n, i, 0) = args->context->instID[0];
@@ -89,6 +90,21 @@ void occludedCallback(const RTCOccludedFunctionNArguments* args) {
   }
 }
 
+/// (That the ray's reach grows by a few digits over what Embree saw is more than its manual grants to filters, but what
+/// its kernels heed.)
+void closestFilter(const RTCFilterFunctionNArguments* args) {
+  auto& query = *static_cast<ClosestQuery*>(args->context);
+  const auto* records = static_cast<const TriangleRecord*>(args->geometryUserPtr);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (!args->valid[i]) continue;
+    const PacketRay ray{args->ray, args->N, i};
+    if (query.take(records[RTCHitN_primID(args->hit, args->N, i)], ray.tFar()))
+      ray.tFar() = query.reach();
+    else
+      args->valid[i] = 0;
+  }
+}
+
 /// Lets an occlusion query go on past triangles whose exact hit is off the segment, and through panes.
 template <Passage passage>
 void triangleFilter(const RTCFilterFunctionNArguments* args) {
@@ -108,6 +124,40 @@ void triangleFilter(const RTCFilterFunctionNArguments* args) {
 }
 
 }  // namespace
+
+ClosestQuery::ClosestQuery(const Ray& ray)
+    : ray_(&ray), originSize_(std::max({std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)})) {
+  rtcInitIntersectContext(this);
+}
+
+double ClosestQuery::settled() const {
+  const double t = unsettled_->meet(Vec3(ray_->origin), Vec3(ray_->direction), static_cast<float>(nearest_));
+  return t >= ray_->tNear && t <= ray_->tFar ? t : nearest_;
+}
+
+bool ClosestQuery::take(double t, const PrimitiveId* id) {
+  const auto rounded = static_cast<float>(t);
+  if (!(rounded >= ray_->tNear && rounded <= ray_->tFar)) return false;
+  if (unsettled_ && t + doubt(rounded) > nearest_) nearest_ = settled(), unsettled_ = nullptr;
+  const auto best = static_cast<float>(nearest_);
+  if (rounded > best) return false;
+  if (rounded == best && holder_ && (*holder_ < *id || (*holder_ == *id && holder_ < id))) return false;
+  nearest_ = t, holder_ = id, unsettled_ = nullptr;
+  return true;
+}
+
+bool ClosestQuery::take(const TriangleRecord& record, float seen) {
+  const float d = doubt(seen);
+  const bool clear = seen - d > ray_->tNear && seen + d < ray_->tFar && seen + d < nearest_;
+  if (!clear) return take(record.meet(Vec3(ray_->origin), Vec3(ray_->direction), seen), &record.primitive);
+  nearest_ = seen, holder_ = &record.primitive, unsettled_ = &record;
+  return true;
+}
+
+float ClosestQuery::reach() const {
+  const auto t = static_cast<float>(nearest_);
+  return std::min(t + doubt(t), ray_->tFar);
+}
 
 bool PassageQuery::isRepeat(const Crossed& crossed) const {
   // A flat pane is crossed once; others are met twice at one place only on an edge between two of their triangles.
@@ -229,6 +279,7 @@ void EmbreeGroup::attachTriangles(RTCDevice device, Passage passage, const Colle
   std::copy(collection.vertices.begin(), collection.vertices.end(), vertices);
   std::copy(collection.indices.begin(), collection.indices.end(), indices);
   rtcSetGeometryUserData(geometry.get(), collection.layer.triangles.data());
+  rtcSetGeometryIntersectFilterFunction(geometry.get(), closestFilter);
   rtcSetGeometryOccludedFilterFunction(
       geometry.get(), passage == Passage::Pane ? triangleFilter<Passage::Pane> : triangleFilter<Passage::Opaque>);
   attach(geometry.get(), passage, kTriangles);
@@ -258,59 +309,52 @@ void EmbreeGroup::attach(RTCGeometry geometry, Passage passage, unsigned kind) {
 
 namespace {
 
-Hit hitAt(const Ray& ray, double t, PrimitiveId primitive, const Vec3& position, const Vec3& normal) {
+Hit hitAt(const ClosestQuery& query, double t, const Vec3& position, const Vec3& normal) {
   Hit hit;
   hit.t = static_cast<float>(t);
-  hit.primitive = primitive;
+  hit.primitive = query.primitive();
   hit.position = Vec3f(position);
   hit.normal = Vec3f(normal);
-  hit.front = glm::dot(normal, Vec3(ray.direction)) < 0;
+  hit.front = glm::dot(normal, Vec3(query.ray().direction)) < 0;
   return hit;
 }
 
+Vec3 pointAt(const Ray& ray, double t) { return Vec3(ray.origin) + t * Vec3(ray.direction); }
+
 template <class Surface>
-Hit hitOn(const AnalyticRecord<Surface>& record, const Ray& ray, float rounded) {
-  // The crossing once more, in double precision: normals of thin wires turn much within the last digit of t.
-  const Vec3 origin(ray.origin), direction(ray.direction);
-  const Crossings crossings = record.surface.crossings(origin, direction);
-  double t = rounded;
-  for (int k = 0; k < crossings.count; ++k)
-    if (static_cast<float>(crossings.t[static_cast<std::size_t>(k)]) == rounded)
-      t = crossings.t[static_cast<std::size_t>(k)];
-  const Vec3 p = origin + t * direction;
-  return hitAt(ray, t, record.primitive, p, record.surface.normal(p));
+Hit hitOn(const AnalyticRecord<Surface>& record, const ClosestQuery& query) {
+  const double t = query.exact();
+  const Vec3 p = pointAt(query.ray(), t);
+  return hitAt(query, t, p, record.surface.normal(p));
 }
 
-std::optional<Hit> hitOn(const TriangleRecord& record, const Ray& ray, float seen) {
-  const Vec3 origin(ray.origin), direction(ray.direction);
-  const double t = record.meet(origin, direction, seen);
-  if (!(static_cast<float>(t) >= ray.tNear && static_cast<float>(t) <= ray.tFar)) return std::nullopt;
-  const Vec3 p = origin + t * direction;
-  const double elevation = glm::dot(record.normal, p) - record.offset;
-  Hit hit = hitAt(ray, t, record.primitive, p - elevation * record.normal, record.normal);
+Hit hitOn(const TriangleRecord& record, const ClosestQuery& query) {
+  const double t = query.exact();
+  const Vec3 p = pointAt(query.ray(), t);
+  const double elevation = glm::dot(record.normal, p) - record.offset;  // not 0 on grazing rays
+  Hit hit = hitAt(query, t, p - elevation * record.normal, record.normal);
   hit.triangle = record.triangle;
   return hit;
 }
 
 }  // namespace
 
-std::optional<Hit> EmbreeGroup::hit(const Ray& ray, const RTCRayHit& found) const {
-  const Layer& layer = layers_[found.hit.geomID % 2];
-  const unsigned i = found.hit.primID;
-  const float t = found.ray.tfar;
-  switch (found.hit.geomID / 2) {
+Hit EmbreeGroup::hit(const ClosestQuery& query, const RTCHit& found) const {
+  const Layer& layer = layers_[found.geomID % 2];
+  const unsigned i = found.primID;
+  switch (found.geomID / 2) {
     case kTriangles:
-      return hitOn(layer.triangles[i], ray, t);
+      return hitOn(layer.triangles[i], query);
     case kSpheres:
-      return hitOn(layer.spheres[i], ray, t);
+      return hitOn(layer.spheres[i], query);
     case kCylinders:
-      return hitOn(layer.cylinders[i], ray, t);
+      return hitOn(layer.cylinders[i], query);
     case kCones:
-      return hitOn(layer.cones[i], ray, t);
+      return hitOn(layer.cones[i], query);
     case kRings:
-      return hitOn(layer.rings[i], ray, t);
+      return hitOn(layer.rings[i], query);
     default:
-      return hitOn(layer.thinTriangles[i], ray, t);
+      return hitOn(layer.thinTriangles[i], query);
   }
 }
 

@@ -9,7 +9,6 @@
 //
 // Cost: building is O(n log n); memory about 200 bytes per triangle.
 #include <deltalux/scene.hpp>
-#include <optional>
 #include <vector>
 
 #include "tracing/analytic_surface.hpp"
@@ -40,6 +39,36 @@ struct AnalyticRecord {
   Surface surface;
   PrimitiveId primitive;
   Vec3f lower, upper;
+};
+
+/// What a closest-hit query knows besides its ray: the nearest hit so far. Where surfaces coincide (in single
+/// precision) the primitive of the lowest id is hit, in whatever order Embree meets them. Triangles count by their
+/// exact t, which is worked out only where it could matter: near another hit or an end of the segment.
+class ClosestQuery : public RTCIntersectContext {
+ public:
+  explicit ClosestQuery(const Ray&);
+
+  /// Whether the hit lies on the segment and becomes the nearest. `id` is in a table ordered by triangle.
+  bool take(double t, const PrimitiveId* id);
+  bool take(const TriangleRecord&, float seen);
+  /// How far Embree should look on: past the nearest hit by what its t may be off.
+  float reach() const;
+
+  const Ray& ray() const { return *ray_; }
+  /// The nearest hit, once Embree is done.
+  double exact() const { return unsettled_ ? settled() : nearest_; }
+  PrimitiveId primitive() const { return *holder_; }
+
+ private:
+  double settled() const;
+  float doubt(float t) const { return kDoubt * (originSize_ + t); }
+
+  static constexpr float kDoubt = 2e-4f;  // of the coordinates: single precision's, along rather grazing rays
+  const Ray* ray_;
+  float originSize_;
+  double nearest_ = std::numeric_limits<double>::infinity();
+  const PrimitiveId* holder_ = nullptr;
+  const TriangleRecord* unsettled_ = nullptr;  // whose t is as Embree saw it
 };
 
 /// What an occlusion query knows besides its ray: panes on the way multiply `passed` instead of ending the query.
@@ -77,11 +106,11 @@ class EmbreeGroup {
   const std::vector<PrimitiveId>& primitives() const { return primitives_; }
   bool empty() const { return empty_; }
 
-  /// The hit that Embree found for `ray` in this group's scene; nullopt when the exact point is off the segment.
-  std::optional<Hit> hit(const Ray&, const RTCRayHit& found) const;
+  /// The hit that Embree found in this group's scene.
+  Hit hit(const ClosestQuery&, const RTCHit& found) const;
   /// Starts to load what hit() will need.
-  void prefetch(const RTCRayHit& found) const {
-    if (found.hit.geomID < 2) __builtin_prefetch(&layers_[found.hit.geomID].triangles[found.hit.primID]);
+  void prefetch(const RTCHit& found) const {
+    if (found.geomID < 2) __builtin_prefetch(&layers_[found.geomID].triangles[found.primID]);
   }
 
  private:

@@ -1,5 +1,7 @@
 // Embree behind the interface: one Embree scene per group, joined as instances once there is more than one.
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <utility>
 
 #include "base/check.hpp"
@@ -14,6 +16,7 @@ namespace {
 constexpr unsigned kOpaqueMask = static_cast<unsigned>(Passage::Opaque);
 constexpr unsigned kAnyMask = ~0u;
 constexpr std::size_t kBatchBlock = 1024;  // rays per task
+constexpr std::size_t kInFlight = 8;       // rays traced before the first is finished
 
 RTCRay embreeRay(const Ray& ray, unsigned mask) {
   RTCRay r;
@@ -23,11 +26,19 @@ RTCRay embreeRay(const Ray& ray, unsigned mask) {
   return r;
 }
 
-/// Past `t` by more than Embree's rounding of it, so that the same triangle is not found again.
-float beyond(const Ray& ray, float t) {
-  const Vec3f o = glm::abs(ray.origin);
-  return t + 1e-6f * (std::max({o.x, o.y, o.z}) + std::abs(t)) + 1e-12f;
-}
+/// A closest-hit query on its way.
+struct Pending {
+  explicit Pending(const Ray& ray) : query(ray) {
+    found.ray = embreeRay(ray, kAnyMask);
+    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  }
+  bool hit() const { return found.hit.geomID != RTC_INVALID_GEOMETRY_ID; }
+  unsigned group() const { return found.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? 0 : found.hit.instID[0]; }
+
+  ClosestQuery query;
+  RTCRayHit found;
+};
 
 class EmbreeTracer final : public RayTracer {
  public:
@@ -38,26 +49,16 @@ class EmbreeTracer final : public RayTracer {
   }
 
   Hit closestHit(const Ray& ray) const override {
-    RTCRayHit found;
-    found.ray = embreeRay(ray, kAnyMask);
-    intersect(found);
-    return finish(ray, found);
+    Pending pending(ray);
+    rtcIntersect1(top_, &pending.query, &pending.found);
+    return finish(pending);
   }
 
   void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
     DELTALUX_CHECK(rays.size() == hits.size(), "one hit per ray");
     parallelBlocks(rays.size(), kBatchBlock, [&](std::size_t begin, std::size_t end) {
-      // A few rays at a time: what their hits need from the tables is under way while the next are traced.
-      std::array<RTCRayHit, 8> found;
-      for (std::size_t first = begin; first < end; first += found.size()) {
-        const std::size_t few = std::min(found.size(), end - first);
-        for (std::size_t i = 0; i < few; ++i) {
-          found[i].ray = embreeRay(rays[first + i], kAnyMask);
-          intersect(found[i]);
-          if (found[i].hit.geomID != RTC_INVALID_GEOMETRY_ID) groupOf(found[i]).prefetch(found[i]);
-        }
-        for (std::size_t i = 0; i < few; ++i) hits[first + i] = finish(rays[first + i], found[i]);
-      }
+      for (std::size_t first = begin; first < end; first += kInFlight)
+        traceFew(rays.subspan(first, std::min(kInFlight, end - first)), &hits[first]);
     });
   }
 
@@ -100,27 +101,19 @@ class EmbreeTracer final : public RayTracer {
   }
 
  private:
-  void intersect(RTCRayHit& found) const {
-    found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(top_, &context, &found);
-  }
-
-  const EmbreeGroup& groupOf(const RTCRayHit& found) const {
-    return *groups_[found.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? 0 : found.hit.instID[0]];
-  }
-
-  Hit finish(const Ray& ray, RTCRayHit& found) const {
-    while (found.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
-      if (const auto hit = groupOf(found).hit(ray, found)) return *hit;
-      // Rarely: not on the segment after all, such as the plane that the ray starts from. On from there.
-      found.ray.tnear = beyond(ray, found.ray.tfar);
-      found.ray.tfar = ray.tFar;
-      intersect(found);
+  /// What hits need from the tables is under way while the next rays are traced.
+  void traceFew(std::span<const Ray> rays, Hit* hits) const {
+    std::array<std::optional<Pending>, kInFlight> few;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      Pending& pending = few[i].emplace(rays[i]);
+      rtcIntersect1(top_, &pending.query, &pending.found);
+      if (pending.hit()) groups_[pending.group()]->prefetch(pending.found.hit);
     }
-    return {};
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = finish(*few[i]);
+  }
+
+  Hit finish(const Pending& pending) const {
+    return pending.hit() ? groups_[pending.group()]->hit(pending.query, pending.found.hit) : Hit{};
   }
 
   Rgb transmittance(const Ray& ray, RTCScene scene) const {

@@ -19,7 +19,8 @@ class RayTracer {
  public:
   virtual ~RayTracer() = default;
 
-  /// First surface with tNear <= t <= tFar; an invalid primitive when there is none. Thin glass counts as a surface.
+  /// First surface with tNear <= t <= tFar; an invalid primitive when there is none. Thin glass counts as a surface. Of
+  /// surfaces that coincide, the one of the lowest id.
   virtual Hit closestHit(const Ray&) const = 0;
   /// Whether an opaque surface (anything but thin glass) lies on the segment.
   virtual bool occluded(const Ray&) const = 0;
@@ -31,9 +32,11 @@ class RayTracer {
   virtual void closestHits(std::span<const Ray>, std::span<Hit>) const;
   virtual void transmittances(std::span<const Ray>, std::span<Rgb>) const;
 
-  /// Puts `primitives` into a group of their own (out of the group they are in).
+  /// Puts `primitives` into a group of their own (out of the group they are in, which is rebuilt). Like rebuild(), not
+  /// while other threads trace.
   virtual GroupId separate(std::span<const PrimitiveId> primitives) = 0;
-  /// Takes the present shapes of the scene's primitives of `group` in; the rest is untouched.
+  /// Takes the present shapes of the scene's primitives of `group` in, and whether they are panes; the rest is
+  /// untouched. Primitives added to the scene since belong to group 0.
   virtual void rebuild(GroupId group) = 0;
   /// transmittance() against the primitives of one group only.
   virtual Rgb transmittance(const Ray&, GroupId group) const = 0;

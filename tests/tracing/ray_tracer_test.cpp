@@ -248,6 +248,21 @@ TEST_F(Groups, SeparatedAndMovedIsAFreshTracerBitForBit) {
   }
 }
 
+TEST(NastyGroups, CoincidentSurfacesAreHitAlikeHoweverTheyAreGrouped) {
+  for (const auto& named : test::nastyScenes()) {
+    const auto fresh = makeEmbreeTracer(named.scene), grouped = makeEmbreeTracer(named.scene);
+    std::vector<PrimitiveId> movable;
+    for (std::size_t i = 0; i < named.scene.primitives.size(); i += 3) movable.emplace_back(i);
+    grouped->separate(movable);
+    for (const Ray& ray : randomRays(named.scene, 10000)) {
+      const Hit hit = fresh->closestHit(ray);
+      // Along a plane single precision does not tell what lies in it.
+      if (hit && std::abs(glm::dot(hit.normal, ray.direction)) < 5e-3f) continue;
+      ASSERT_TRUE(same(hit, grouped->closestHit(ray))) << named.name;
+    }
+  }
+}
+
 TEST_F(Groups, GroupsOfGroups) {
   const auto tracer = makeEmbreeTracer(scene_);
   const GroupId all = tracer->separate(movable_);
