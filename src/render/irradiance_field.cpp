@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "base/parallel.hpp"
+#include "base/sobol.hpp"
+#include "hierarchy/patch.hpp"
 #include "render/linear_fit.hpp"
 
 namespace deltalux {
@@ -15,6 +17,7 @@ constexpr float kSmoothMesh = 0.766f;  // cosine between triangles that a mesh m
 constexpr float kOffPlane = 1e-3f;     // of the smaller leaf's size: still one plane
 constexpr float kDisagree = 0.3f;      // relative difference that asks whether something stands between
 constexpr float kLift = 0.1f;          // of the smaller leaf's size: height at which that is looked for
+constexpr int kExposureRays = 16;      // that tell how much of a torn leaf is in sight of its centre
 constexpr float kLeeway = 2.0f;        // predictions stay within so many times what the neighbours differ
 
 bool disagree(const Rgb& a, const Rgb& b) {
@@ -26,7 +29,7 @@ bool disagree(const Rgb& a, const Rgb& b) {
 
 IrradianceField::IrradianceField(const Elements& elements, const Scene& scene, const RayTracer& tracer,
                                  const std::vector<LeafIrradiance>& values)
-    : elements_(elements), scene_(scene), siteOf_(elements.size(), Id<void>::kNone) {
+    : elements_(elements), scene_(scene), tracer_(tracer), siteOf_(elements.size(), Id<void>::kNone) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (!isReceivingLeaf(elements, ElementId(i))) continue;
     siteOf_[i] = static_cast<std::uint32_t>(sites_.size());
@@ -39,12 +42,13 @@ IrradianceField::IrradianceField(const Elements& elements, const Scene& scene, c
     site.fineness = 1.0f / std::max(g.area, 1e-30f);
     site.support = PatchSupport(elements, scene, site.leaf);
   });
-  findNeighbours(tracer, values);
-  fit(direct_, &LeafIrradiance::direct, values);
-  fit(indirect_, &LeafIrradiance::indirect, values);
+  findNeighbours(values);
+  const std::vector<LeafIrradiance> whole = mended(values);
+  fit(direct_, &LeafIrradiance::direct, whole);
+  fit(indirect_, &LeafIrradiance::indirect, whole);
 }
 
-void IrradianceField::findNeighbours(const RayTracer& tracer, const std::vector<LeafIrradiance>& values) {
+void IrradianceField::findNeighbours(const std::vector<LeafIrradiance>& values) {
   std::vector<BoxF> boxes(sites_.size());
   parallelFor(sites_.size(), kBlock,
               [&](std::size_t i) { boxes[i] = sites_[i].support.bounds(elements_, sites_[i].leaf); });
@@ -52,20 +56,30 @@ void IrradianceField::findNeighbours(const RayTracer& tracer, const std::vector<
 
   std::vector<std::vector<std::uint32_t>> lists((sites_.size() + kBlock - 1) / kBlock);
   begin_.assign(sites_.size() + 1, 0);
+  torn_.assign(sites_.size(), 0);
   parallelBlocks(sites_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
     auto& list = lists[begin / kBlock];
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t before = list.size();
-      list.push_back(static_cast<std::uint32_t>(i));
+      std::vector<std::uint32_t> joined, torn;
       const ElementGeometry& g = elements_.shape(sites_[i].leaf);
       tree.overlapping({g.lower, g.upper}, [&](std::uint32_t j) {
-        if (j != i && joined(sites_[i], sites_[j], tracer, values)) list.push_back(j);
+        if (j == i) return;
+        const Relation relation = relate(sites_[i], sites_[j], values);
+        if (relation != Relation::None) (relation == Relation::Joined ? joined : torn).push_back(j);
       });
-      std::sort(list.begin() + static_cast<std::ptrdiff_t>(before) + 1, list.end());
-      begin_[i + 1] = static_cast<std::uint32_t>(list.size() - before);
+      std::sort(joined.begin(), joined.end());
+      std::sort(torn.begin(), torn.end());
+      list.push_back(static_cast<std::uint32_t>(i));
+      list.insert(list.end(), joined.begin(), joined.end());
+      list.insert(list.end(), torn.begin(), torn.end());
+      torn_[i] = static_cast<std::uint32_t>(1 + joined.size());
+      begin_[i + 1] = static_cast<std::uint32_t>(1 + joined.size() + torn.size());
     }
   });
-  for (std::size_t i = 0; i < sites_.size(); ++i) begin_[i + 1] += begin_[i];
+  for (std::size_t i = 0; i < sites_.size(); ++i) {
+    begin_[i + 1] += begin_[i];
+    torn_[i] += begin_[i];
+  }
   neighbours_.reserve(begin_.back());
   for (const auto& list : lists) neighbours_.insert(neighbours_.end(), list.begin(), list.end());
 }
@@ -82,19 +96,53 @@ bool IrradianceField::sameSurface(ElementId a, ElementId b) const {
   return cosine > kSamePlane && std::abs(glm::dot(gb.center - ga.center, ga.normal)) < kOffPlane * size;
 }
 
-bool IrradianceField::joined(const Site& home, const Site& other, const RayTracer& tracer,
-                             const std::vector<LeafIrradiance>& values) const {
-  if (!sameSurface(home.leaf, other.leaf) || !other.support.reaches(elements_, scene_, home.leaf)) return false;
+IrradianceField::Relation IrradianceField::relate(const Site& home, const Site& other,
+                                                  const std::vector<LeafIrradiance>& values) const {
+  if (!sameSurface(home.leaf, other.leaf) || !other.support.reaches(elements_, scene_, home.leaf))
+    return Relation::None;
   const LeafIrradiance &a = values[home.leaf.index()], &b = values[other.leaf.index()];
-  if (!home.support.flat() || (!disagree(a.indirect, b.indirect) && !disagree(a.direct, b.direct))) return true;
-  const ElementGeometry &ga = elements_.shape(home.leaf), &gb = elements_.shape(other.leaf);
-  const float lift = kLift * std::sqrt(std::min(ga.area, gb.area));
-  const Vec3f from = ga.center + lift * ga.normal, to = gb.center + lift * gb.normal;
+  if (!home.support.flat() || (!disagree(a.indirect, b.indirect) && !disagree(a.direct, b.direct)))
+    return Relation::Joined;
+  return inSight(home.center, home.leaf, other.leaf) ? Relation::Joined : Relation::Torn;
+}
+
+bool IrradianceField::inSight(const Vec3f& p, ElementId home, ElementId other) const {
+  const ElementGeometry &a = elements_.shape(home), &b = elements_.shape(other);
+  const float lift = kLift * std::sqrt(std::min(a.area, b.area));
+  const Vec3f from = p + lift * a.normal, to = b.center + lift * b.normal;
   Ray ray;
   ray.origin = from;
   ray.tFar = glm::length(to - from);
   ray.direction = (to - from) / std::max(ray.tFar, 1e-30f);
-  return !tracer.occluded(ray);
+  return !tracer_.occluded(ray);
+}
+
+float IrradianceField::exposed(ElementId leaf) const {
+  int seen = 0;
+  for (std::uint32_t k = 0; k < kExposureRays; ++k) {
+    const UnitPair u = scrambledSobol(k, elements_.key[leaf.index()]);
+    seen += inSight(samplePatch(elements_, scene_, leaf, u.x, u.y).position, leaf, leaf);
+  }
+  return static_cast<float>(std::max(seen, 1)) / float(kExposureRays);
+}
+
+std::vector<LeafIrradiance> IrradianceField::mended(const std::vector<LeafIrradiance>& values) const {
+  std::vector<LeafIrradiance> result = values;
+  parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
+    if (torn_[i] == begin_[i + 1]) return;
+    const ElementId leaf = sites_[i].leaf;
+    LeafIrradiance most;
+    for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
+      const LeafIrradiance& other = values[sites_[neighbours_[k]].leaf.index()];
+      most.direct = glm::max(most.direct, other.direct), most.indirect = glm::max(most.indirect, other.indirect);
+    }
+    const float share = exposed(leaf);
+    // What is hidden is taken to be dark, as far as the neighbours in sight bear that out.
+    const auto mend = [&](const Rgb& E, const Rgb& limit) { return glm::max(E, glm::min(E / share, limit)); };
+    LeafIrradiance& own = result[leaf.index()];
+    own = {mend(own.direct, most.direct), mend(own.indirect, most.indirect)};
+  });
+  return result;
 }
 
 void IrradianceField::fit(std::vector<Linear>& result, Rgb LeafIrradiance::*quantity,
@@ -108,7 +156,7 @@ void IrradianceField::fit(std::vector<Linear>& result, Rgb LeafIrradiance::*quan
     const Vec3f normal = elements_.shape(site.leaf).normal;
     LinearFit fit(normal);
     Rgb largest(0.0f);
-    for (std::uint32_t k = begin_[i] + 1; k < begin_[i + 1]; ++k) {
+    for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
       const Site& other = sites_[neighbours_[k]];
       const Rgb difference = values[other.leaf.index()].*quantity - own;
       fit.add(other.center - site.center, difference);
@@ -140,13 +188,14 @@ Rgb IrradianceField::blend(const std::vector<Linear>& linears, const LeafPoint& 
     point.uv = glm::vec2(at.uv);
     point.radius = relativeRadius(scene_[elements_.domain[at.leaf.index()].primitive].shape, at.uv.y);
   }
+  const bool torn = torn_[home] < begin_[home + 1];
   Rgb sum(0.0f);
   float weights = 0;
   for (std::uint32_t k = begin_[home]; k < begin_[home + 1]; ++k) {
     const std::uint32_t i = neighbours_[k];
     const Site& site = sites_[i];
     const float w = site.fineness * site.support.weight(point);
-    if (w <= 0.0f) continue;
+    if (w <= 0.0f || (torn && !inSight(p, at.leaf, site.leaf))) continue;
     const Linear& l = linears[i];
     const Vec3f d = p - site.center;
     sum += w * glm::clamp(l.value + d.x * l.slope[0] + d.y * l.slope[1] + d.z * l.slope[2], l.low, l.high);

@@ -13,7 +13,8 @@
 //
 // Rejected: vertex interpolation (needs a conforming mesh), one moving least-squares fit per query (a solve each, and
 // fits that jump as leaves enter them).
-// Cost: about 15 neighbours a leaf to build (a ray for pairs that disagree), 0.2-0.5 microseconds a query, no memory.
+// Cost: about 15 neighbours a leaf to build (a ray for pairs that disagree), 0.2-0.5 microseconds a query (a ray per
+// neighbour where leaves are torn), no memory.
 #include "render/leaf_irradiance.hpp"
 #include "render/patch_support.hpp"
 #include "render/side_locator.hpp"
@@ -23,7 +24,7 @@ namespace deltalux {
 
 class IrradianceField {
  public:
-  /// `values` by element; those of receiving leaves are used. Elements and scene must outlive this.
+  /// `values` by element; those of receiving leaves are used. The others must outlive this.
   IrradianceField(const Elements&, const Scene&, const RayTracer&, const std::vector<LeafIrradiance>& values);
 
   /// At the surface point `p`, which `at` locates [W/m2].
@@ -43,17 +44,27 @@ class IrradianceField {
     PatchSupport support;
   };
 
-  void findNeighbours(const RayTracer&, const std::vector<LeafIrradiance>&);
-  bool joined(const Site& home, const Site& other, const RayTracer&, const std::vector<LeafIrradiance>&) const;
+  enum class Relation { None, Joined, Torn };
+
+  void findNeighbours(const std::vector<LeafIrradiance>&);
+  Relation relate(const Site& home, const Site& other, const std::vector<LeafIrradiance>&) const;
   bool sameSurface(ElementId a, ElementId b) const;
+  /// Whether `center` of a leaf can be seen from `p` of the same surface, a little above it.
+  bool inSight(const Vec3f& p, ElementId home, ElementId other) const;
+  /// Mended values of leaves that are cut in two.
+  std::vector<LeafIrradiance> mended(const std::vector<LeafIrradiance>&) const;
+  float exposed(ElementId leaf) const;
   void fit(std::vector<Linear>&, Rgb LeafIrradiance::*quantity, const std::vector<LeafIrradiance>&) const;
   Rgb blend(const std::vector<Linear>&, const LeafPoint&, const Vec3f& p) const;
 
   const Elements& elements_;
   const Scene& scene_;
+  const RayTracer& tracer_;
   std::vector<std::uint32_t> siteOf_;  // per element
   std::vector<Site> sites_;
-  std::vector<std::uint32_t> begin_, neighbours_;  // per site: those that may take part at its points, itself first
+  // Per site, those that may take part at its points: itself, the joined ones, then from torn_ on those with something
+  // in between.
+  std::vector<std::uint32_t> begin_, torn_, neighbours_;
   std::vector<Linear> direct_, indirect_;
 };
 

@@ -184,5 +184,22 @@ TEST(IrradianceField, DoesNotLeakUnderAWallThatStandsOnAFloor) {
   EXPECT_GT(blurred, 0.3f);  // where nothing stands, the same leaves blend
 }
 
+TEST(IrradianceField, MendsLeavesThatAWallCutsInTwo) {
+  // The floor is lit up to a wall at x = 0.47, dark behind it; leaves across it have the mean of both.
+  const double wall = 0.47;
+  MeshScene mesh({square(0, 0), polygon({{wall, -1, 0}, {wall, 2, 0}, {wall, 2, 1}, {wall, -1, 1}})});
+  mesh.splitIrregularly(3, 4, 16);
+  mesh.light([&](const Vec3f&, ElementId e) {
+    const PatchDomain& d = mesh.elements.domain[e.index()];
+    return Rgb(static_cast<float>(std::clamp((wall - d.u0) / (d.u1 - d.u0), 0.0, 1.0)));
+  });
+  const FieldReader reader{mesh};
+  Rng rng(17);
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 p(wall - 1e-3 - 0.1 * rng.uniform(), 0.02 + 0.96 * rng.uniform(), 0);
+    EXPECT_NEAR(reader.at(PrimitiveId(0), p).r, 1.0f, 0.15f) << p.x << " " << p.y;
+  }
+}
+
 }  // namespace
 }  // namespace deltalux
