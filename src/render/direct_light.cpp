@@ -13,13 +13,9 @@ namespace {
 
 constexpr int kBatch = 64,
               kFirstBatches = 4;  // shadow rays of one independent estimate; estimates before any judgement
-
-SenderChoice summed(std::vector<ExpectedSender> senders) {
-  SenderChoice choice{std::move(senders), {}};
-  float sum = 0;
-  for (const ExpectedSender& s : choice.senders) choice.cumulative.push_back(sum += s.share);
-  return choice;
-}
+constexpr float kTestRays = 256;  // of a place, shared by potential within these bounds for one sender:
+constexpr int kFewestTests = 4, kMostTests = 16;            // from a leaf patch
+constexpr int kFewestFreeTests = 64, kMostFreeTests = 512;  // from a free point, which sees skies as a whole
 
 }  // namespace
 
@@ -30,30 +26,104 @@ DirectLight::DirectLight(const Solution& s)
       lights_(s.scene),
       senders_(s.elements, s.links, s.scene) {}
 
+/// A sender and what test rays say of it.
+struct DirectLight::Trial {
+  PossibleSender sender;
+  int tests = 0, hits = 0;
+  bool promising = false;  // seen, or next to a part of the sky that is seen
+
+  float chance() const { return (static_cast<float>(hits) + 0.5f) / static_cast<float>(tests + 1); }
+};
+
+template <class ReceiverAt>
+void DirectLight::test(Trial& trial, int tests, std::uint64_t key, const ReceiverAt& receiver) const {
+  const std::uint64_t own = combineKeys(key, elements_.key[trial.sender.sender.index()]);
+  for (; trial.tests < tests; ++trial.tests) {
+    const auto i = static_cast<std::uint32_t>(trial.tests);
+    const UnitPair u = scrambledSobol(i, own);
+    const auto a = arrival(trial.sender.sender, receiver(i, own), {u.x, u.y});
+    if (a && !isBlack(a->E)) ++trial.hits;
+  }
+}
+
+/// Cells of the sky that touch one that was seen: a window shows some of each.
+void DirectLight::promoteNeighbours(std::vector<Trial>& trials) const {
+  for (Trial& t : trials) {
+    t.promising = t.hits > 0;
+    if (t.promising || !elements_.isDistant(t.sender.sender)) continue;
+    const ElementGeometry& g = elements_.shape(t.sender.sender);
+    for (const Trial& other : trials) {
+      if (other.hits == 0 || !elements_.isDistant(other.sender.sender)) continue;
+      const ElementGeometry& o = elements_.shape(other.sender.sender);
+      if (glm::dot(g.center, o.center) > std::cos(std::min(1.1f * (g.radius + o.radius), float(kPi))))
+        t.promising = true;
+    }
+  }
+}
+
+template <class ReceiverAt>
+SenderChoice DirectLight::tested(const std::vector<PossibleSender>& senders, int fewest, int most, std::uint64_t key,
+                                 const ReceiverAt& receiver) const {
+  float total = 0;
+  for (const PossibleSender& s : senders) total += s.potential;
+  std::vector<Trial> trials;
+  for (const PossibleSender& s : senders) {
+    trials.push_back({s});
+    test(trials.back(), std::clamp(static_cast<int>(kTestRays * s.potential / total), fewest, most), key, receiver);
+  }
+  promoteNeighbours(trials);
+  SenderChoice choice;
+  for (Trial& t : trials) {
+    if (!t.promising) continue;
+    test(t, most, key, receiver);
+    // Rays in proportion to the standard deviation of one, which is that of its visibility.
+    choice.seen.add(t.sender.sender, t.sender.potential * std::sqrt(t.chance()));
+  }
+  // The sun could outshine all else, but was looked for longest: it must not take every ray meant for the unseen.
+  const float limit = choice.seen.total() > 0 ? choice.seen.total() : std::numeric_limits<float>::infinity();
+  for (const Trial& t : trials)
+    if (!t.promising) choice.unseen.add(t.sender.sender, std::min(t.sender.potential * t.chance(), limit));
+  return choice;
+}
+
 SenderChoice DirectLight::choiceAt(ElementId leaf) const {
-  std::vector<ExpectedSender> senders;
-  senders_.collect(leaf, senders);
-  return summed(std::move(senders));
+  return tested(senders_.at(leaf), kFewestTests, kMostTests, elements_.key[leaf.index()],
+                [&](std::uint32_t i, std::uint64_t key) {
+                  const UnitPair u = scrambledSobol(i, combineKeys(key, 1));
+                  const PatchPoint p = samplePatch(elements_, scene_, leaf, u.x, u.y);
+                  return Receiver{Vec3(p.position), Vec3(p.normal)};
+                });
 }
 
 SenderChoice DirectLight::choiceAt(const Receiver& x) const {
-  std::vector<ExpectedSender> senders;
-  senders_.collectAll(Vec3f(x.position), Vec3f(x.normal), senders);
-  return summed(std::move(senders));
+  return tested(senders_.at(Vec3f(x.position), Vec3f(x.normal)), kFewestFreeTests, kMostFreeTests, 0,
+                [&](std::uint32_t, std::uint64_t) { return x; });
 }
 
-std::optional<LightArrival> DirectLight::shadowRay(const SenderChoice& choice, const Receiver& x, int k, int rays,
+int DirectLight::raysToUnseen(const SenderChoice& choice, int rays) {
+  if (!(choice.unseen.total() > 0)) return 0;
+  return choice.seen.total() > 0 ? std::max(1, rays / 4) : rays;
+}
+
+std::optional<LightArrival> DirectLight::shadowRay(const SenderList& choice, const Receiver& x, int k, int rays,
                                                    std::uint32_t index, std::uint64_t key) const {
   const float total = choice.total();
+  if (!(total > 0)) return std::nullopt;
   const double shift = scrambledSobol(index, combineKeys(key, 1)).x;
   const float target = static_cast<float>((k + shift) / rays) * total;
   const auto it = std::upper_bound(choice.cumulative.begin(), choice.cumulative.end() - 1, target);
-  const ExpectedSender& s = choice.senders[static_cast<std::size_t>(it - choice.cumulative.begin())];
+  const auto chosen = static_cast<std::size_t>(it - choice.cumulative.begin());
+  const float share = *it - (chosen > 0 ? choice.cumulative[chosen - 1] : 0.0f);
   const UnitPair u =
       scrambledSobol(index * static_cast<std::uint32_t>(rays) + static_cast<std::uint32_t>(k), combineKeys(key, 2));
-  const auto sample = sampleSender(s.sender, x, {u.x, u.y});
-  if (!sample || !(glm::dot(sample->direction, x.normal) > 0)) return std::nullopt;
+  auto result = arrival(choice.senders[chosen], x, {u.x, u.y});
+  if (result) result->E *= total / (share * static_cast<float>(rays));
+  return result;
+}
 
+std::optional<LightArrival> DirectLight::arrival(ElementId sender, const Receiver& x, const Vec2& u) const {
+  const auto sample = sampleSender(sender, x, u);
+  if (!sample || !(glm::dot(sample->direction, x.normal) > 0)) return std::nullopt;
   const Vec3f from(x.position), n(x.normal), w(sample->direction);
   Ray ray;
   if (std::isinf(sample->distance)) {
@@ -64,8 +134,7 @@ std::optional<LightArrival> DirectLight::shadowRay(const SenderChoice& choice, c
   }
   const Rgb V = tracer_.transmittance(ray);
   if (isBlack(V)) return std::nullopt;
-  return LightArrival{sample->direction, elements_.light[sample->sender.index()],
-                      (total / (s.share * static_cast<float>(rays))) * V * sample->E};
+  return LightArrival{sample->direction, elements_.light[sample->sender.index()], V * sample->E};
 }
 
 std::optional<DirectLight::SenderSample> DirectLight::sampleSender(ElementId e, const Receiver& x, Vec2 u) const {
@@ -172,7 +241,7 @@ Rgb DirectLight::irradiance(const SenderChoice& choice, const Receiver& x, int r
 ProbeResult DirectLight::measure(const SenderChoice& choice, const Receiver& x, const Rgb& ambient, double error,
                                  int maxSamples, std::uint64_t key) const {
   ProbeResult result;
-  if (!(choice.total() > 0)) return result;
+  if (choice.dark()) return result;
   RgbSum sum(0.0), squares(0.0);
   int batches = 0;
   while (batches < kFirstBatches || result.samples + kBatch <= static_cast<std::uint64_t>(maxSamples)) {

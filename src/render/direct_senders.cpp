@@ -7,9 +7,9 @@
 namespace deltalux {
 
 namespace {
-constexpr float kDoubt = 0.05f;        // visibility that is credited to links whose sample rays were all blocked
-constexpr float kLeastCosine = 0.1f;   // credited to senders only part of which rises above the horizon
-constexpr float kLeastKernel = 0.02f;  // of the sender's solid angle: its few nodes may all face away, or lie below
+constexpr std::uint32_t kFewLights = 64;  // clusters of no more than these are told apart
+constexpr float kLeastCosine = 0.1f;      // credited to senders only part of which rises above the horizon
+constexpr float kLeastKernel = 0.02f;     // of the sender's solid angle: its few nodes may all face away, or lie below
 
 bool mayCarry(const Elements& elements, const Link& l) {
   return elements.at(l.sender).emitter && l.state == LinkState::Active && l.visibility != Visibility::Blocked;
@@ -34,10 +34,28 @@ DirectSenders::DirectSenders(const Elements& elements, const Links& links, const
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
   for (const Link& l : links.all) {
     if (!mayCarry(elements, l)) continue;
-    const float V = l.visibility == Visibility::Clear ? 1.0f : std::max(gray(l.V), kDoubt);
     const float K = std::max(l.K, leastKernel(elements, elements.shape(l.receiver).center, l.sender));
-    arriving_[next[l.receiver.index()]++] = {l.sender, K * V * strength(l.receiver, l.sender)};
+    arriving_[next[l.receiver.index()]++] = {l.sender, K * strength(l.receiver, l.sender)};
   }
+  lightCount_.assign(elements.size(), 0);
+  for (std::size_t i = elements.size(); i-- > 0;) {
+    const ElementTopology& t = elements.topology[i];
+    if (!t.emitter || t.kind == ElementKind::Distant || t.depth > 0) continue;
+    if (t.kind != ElementKind::Cluster) lightCount_[i] = 1;
+    if (t.parent.valid()) lightCount_[t.parent.index()] += lightCount_[i];
+  }
+}
+
+void DirectSenders::addLights(ElementId e, ElementId leaf, std::vector<PossibleSender>& out) const {
+  if (elements_.isCluster(e) && lightCount_[e.index()] <= kFewLights) {
+    for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) addLights(elements_.child(e, i), leaf, out);
+    return;
+  }
+  const ElementGeometry& g = elements_.shape(leaf);
+  const Vec3f normal = g.normalCone > 0 ? g.normal : Vec3f(0.0f);
+  const double K = kernelAtPoint(elements_, scene_, g.center, normal, e);
+  const float potential = std::max(static_cast<float>(K), leastKernel(elements_, g.center, e)) * strength(leaf, e);
+  if (potential > 0) out.push_back({e, potential});
 }
 
 float DirectSenders::strength(ElementId receiver, ElementId sender) const {
@@ -48,13 +66,18 @@ float DirectSenders::strength(ElementId receiver, ElementId sender) const {
   return gray(intensity.at(distance > 0 ? between / distance : Vec3f(0, 0, 1)));
 }
 
-void DirectSenders::collect(ElementId leaf, std::vector<ExpectedSender>& out) const {
+std::vector<PossibleSender> DirectSenders::at(ElementId leaf) const {
+  std::vector<PossibleSender> out;
   const ElementGeometry& g = elements_.shape(leaf);
   for (ElementId e = leaf; e.valid(); e = elements_.at(e).parent) {
     const bool cluster = elements_.isCluster(e);
     for (std::uint32_t i = begin_[e.index()]; i < begin_[e.index() + 1]; ++i) {
       const Arriving& a = arriving_[i];
-      float share = a.share;
+      if (elements_.isCluster(a.sender) && lightCount_[a.sender.index()] <= kFewLights) {
+        addLights(a.sender, leaf, out);
+        continue;
+      }
+      float potential = a.potential;
       if (cluster) {
         const ElementGeometry& s = elements_.shape(a.sender);
         const bool distant = elements_.isDistant(a.sender);
@@ -65,20 +88,23 @@ void DirectSenders::collect(ElementId leaf, std::vector<ExpectedSender>& out) co
         const float bend = g.normalCone > 0 ? std::sqrt(1 - g.normalCone * g.normalCone) : 1.0f;
         const float cosine = glm::dot(g.normal, between) / distance;
         if (cosine + extent + bend <= 0) continue;
-        share *= std::max(cosine, kLeastCosine);
+        potential *= std::max(cosine, kLeastCosine);
       }
-      if (share > 0) out.push_back({a.sender, share});
+      if (potential > 0) out.push_back({a.sender, potential});
     }
   }
+  return out;
 }
 
-void DirectSenders::collectAll(const Vec3f& x, const Vec3f& normal, std::vector<ExpectedSender>& out) const {
+std::vector<PossibleSender> DirectSenders::at(const Vec3f& x, const Vec3f& normal) const {
+  std::vector<PossibleSender> out;
   if (elements_.lightRoot.valid()) collectAll(elements_.lightRoot, x, normal, out);
   for (const ElementId e : elements_.distant) collectAll(e, x, normal, out);
+  return out;
 }
 
 void DirectSenders::collectAll(ElementId e, const Vec3f& x, const Vec3f& normal,
-                               std::vector<ExpectedSender>& out) const {
+                               std::vector<PossibleSender>& out) const {
   if (elements_.isCluster(e)) {
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) collectAll(elements_.child(e, i), x, normal, out);
     return;
@@ -87,8 +113,8 @@ void DirectSenders::collectAll(ElementId e, const Vec3f& x, const Vec3f& normal,
   const ElementGeometry& g = elements_.shape(e);
   const bool above = elements_.isDistant(e) || glm::dot(g.center - x, normal) + g.radius > 0;
   if (above) K = std::max(K, double(leastKernel(elements_, x, e)));
-  const float share = static_cast<float>(K) * gray(elements_.radiometry[e.index()].B);
-  if (share > 0) out.push_back({e, share});
+  const float potential = static_cast<float>(K) * gray(elements_.radiometry[e.index()].B);
+  if (potential > 0) out.push_back({e, potential});
 }
 
 }  // namespace deltalux

@@ -34,7 +34,7 @@ EyePaths::EyePaths(const Solution& s, const Reconstruction& reconstruction, EyeS
   }
 }
 
-Rgb EyePaths::radiance(const EyeRay& eye, ChoiceCache& cache) const {
+Rgb EyePaths::radiance(const EyeRay& eye) const {
   Rgb L(0.0f), beta(1.0f);
   Ray ray = eye.ray;
   bool emitters = eye.emitters;
@@ -53,7 +53,7 @@ Rgb EyePaths::radiance(const EyeRay& eye, ChoiceCache& cache) const {
       continue;
     }
     bool lightsMet = false;
-    L += beta * scattered(v, eye, depth, cache, lightsMet);
+    L += beta * scattered(v, eye, depth, lightsMet);
     if (!specular_[scene_[hit.primitive].material.index()]) return L;
 
     if (const auto* body = std::get_if<Dielectric>(&scene_.materialOf(hit.primitive).surface); body && !hit.front)
@@ -103,7 +103,7 @@ Rgb EyePaths::emitted(const Vertex& v, const Lobe* lobe) const {
   return lights.emittedRadiance(id, -v.direction, double(v.hit.t), v.hit.front);
 }
 
-Rgb EyePaths::scattered(const Vertex& v, const EyeRay& eye, int depth, ChoiceCache& cache, bool& lightsMet) const {
+Rgb EyePaths::scattered(const Vertex& v, const EyeRay& eye, int depth, bool& lightsMet) const {
   const Bsdf& b = bsdf(v.hit.primitive, v.hit.front);
   if (!b.hasFinitePart()) return Rgb(0.0f);
   const Bsdf lobes = specularPart(b);
@@ -111,9 +111,7 @@ Rgb EyePaths::scattered(const Vertex& v, const EyeRay& eye, int depth, ChoiceCac
   const Rgb tint = textureTint(scene_, v.hit.primitive, v.hit.triangle, v.position);
   lightsMet = glossy && settings_.shadowRays > 0;
   Rgb diffuse(0.0f), highlights(0.0f);
-  const auto from = [&](bool front) {
-    return irradiance(v, front, glossy ? &lobes : nullptr, eye, depth, cache, highlights);
-  };
+  const auto from = [&](bool front) { return irradiance(v, front, glossy ? &lobes : nullptr, eye, depth, highlights); };
   if (!isBlack(b.diffuseReflection) || glossy) diffuse += b.diffuseReflection * from(v.hit.front);
   if (!isBlack(b.diffuseTransmission) || !isBlack(lobes.transmission.reflectance))
     diffuse += b.diffuseTransmission * from(!v.hit.front);
@@ -121,7 +119,7 @@ Rgb EyePaths::scattered(const Vertex& v, const EyeRay& eye, int depth, ChoiceCac
 }
 
 Rgb EyePaths::irradiance(const Vertex& v, bool front, const Bsdf* lobes, const EyeRay& eye, int depth,
-                         ChoiceCache& cache, Rgb& glossy) const {
+                         Rgb& glossy) const {
   const ElementId side = reconstruction_.locator.side(v.hit.primitive, v.hit.triangle, front);
   if (!side.valid()) return Rgb(0.0f);
   const LeafPoint at = reconstruction_.locator.locate(side, v.position);
@@ -132,7 +130,7 @@ Rgb EyePaths::irradiance(const Vertex& v, bool front, const Bsdf* lobes, const E
   const std::uint64_t key = combineKeys(eye.key, (front == v.hit.front ? kShadowKey : kOtherSideKey) + depth);
   const Frame frame(v.normal);
   const Vec3 wo = frame.toLocal(-v.direction);
-  reconstruction_.direct.sample(cache.at(at.leaf), receiver, settings_.shadowRays, eye.index, key,
+  reconstruction_.direct.sample(reconstruction_.choices.at(at.leaf), receiver, settings_.shadowRays, eye.index, key,
                                 [&](const LightArrival& a) {
                                   E += static_cast<float>(glm::dot(a.direction, receiver.normal)) * a.E;
                                   if (!lobes) return;

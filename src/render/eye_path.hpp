@@ -28,7 +28,7 @@ class EyePaths {
   EyePaths(const Solution&, const Reconstruction&, EyeSettings);
 
   /// [W/(sr m2)]
-  Rgb radiance(const EyeRay&, ChoiceCache&) const;
+  Rgb radiance(const EyeRay&) const;
 
  private:
   struct Vertex;
@@ -40,9 +40,8 @@ class EyePaths {
 
   Rgb background(const Vec3& towards, const Lobe* lobe) const;
   Rgb emitted(const Vertex&, const Lobe* lobe) const;
-  Rgb scattered(const Vertex&, const EyeRay&, int depth, ChoiceCache&, bool& sampledLights) const;
-  Rgb irradiance(const Vertex&, bool front, const Bsdf* lobes, const EyeRay&, int depth, ChoiceCache&,
-                 Rgb& glossy) const;
+  Rgb scattered(const Vertex&, const EyeRay&, int depth, bool& lightsMet) const;
+  Rgb irradiance(const Vertex&, bool front, const Bsdf* lobes, const EyeRay&, int depth, Rgb& glossy) const;
   bool metByShadowRays(LightId, const Lobe&) const;
   const Bsdf& bsdf(PrimitiveId p, bool front) const { return bsdfs_[2 * scene_[p].material.index() + (front ? 1 : 0)]; }
 

@@ -88,7 +88,7 @@ class LightMeter {
       return result;
     }
     const Rgb indirect = reconstruction_.field.indirect(at, Vec3f(spot.position));
-    ProbeResult result = reconstruction_.direct.measure(reconstruction_.direct.choiceAt(at.leaf), receiver, indirect,
+    ProbeResult result = reconstruction_.direct.measure(reconstruction_.choices.at(at.leaf), receiver, indirect,
                                                         settings_.error, settings_.maxSamples, key);
     result.irradiance += RgbSum(indirect);
     return result;
@@ -110,7 +110,6 @@ class LightMeter {
   /// Light from surfaces: cosine-distributed rays read what they see.
   ProbeResult gather(const Receiver& x, std::uint64_t key) const {
     ProbeResult result;
-    ChoiceCache cache(reconstruction_.direct);
     const Frame frame(x.normal);
     RgbSum sum(0.0), squares(0.0);
     int batches = 0;
@@ -126,7 +125,7 @@ class LightMeter {
         eye.ray.direction = Vec3f(frame.toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u.x)}));
         eye.emitters = false;  // lights in plain view are measured apart
         eye.key = own, eye.index = i;
-        batch += RgbSum(paths_.radiance(eye, cache));
+        batch += RgbSum(paths_.radiance(eye));
       }
       batch *= kPi / kGatherBatch;
       sum += batch, squares += batch * batch;

@@ -1,7 +1,9 @@
 #pragma once
 // A solution made ready for looking at: where a ray meets a surface side, the irradiance there. Built once a picture or
 // a set of probes, then read by all threads.
-#include <unordered_map>
+#include <atomic>
+#include <memory>
+#include <vector>
 
 #include "render/direct_light.hpp"
 #include "render/irradiance_field.hpp"
@@ -11,6 +13,31 @@ namespace deltalux {
 
 struct Solution;
 
+/// Sender choices of the leaves that were met, each made once, whichever thread comes first.
+class ChoiceCache {
+ public:
+  ChoiceCache(const DirectLight& direct, std::size_t elements) : direct_(direct), choices_(elements) {}
+  ~ChoiceCache() {
+    for (auto& c : choices_) delete c.load();
+  }
+  ChoiceCache(const ChoiceCache&) = delete;
+  ChoiceCache& operator=(const ChoiceCache&) = delete;
+
+  const SenderChoice& at(ElementId leaf) const {
+    auto& place = choices_[leaf.index()];
+    if (const SenderChoice* known = place.load(std::memory_order_acquire)) return *known;
+    auto made = std::make_unique<SenderChoice>(direct_.choiceAt(leaf));
+    const SenderChoice* expected = nullptr;
+    // Choices depend on the leaf alone: when two threads make one, either serves.
+    if (place.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *made.release();
+    return *expected;
+  }
+
+ private:
+  const DirectLight& direct_;
+  mutable std::vector<std::atomic<const SenderChoice*>> choices_;
+};
+
 struct Reconstruction {
   /// The solution must outlive this.
   explicit Reconstruction(const Solution&);
@@ -18,21 +45,7 @@ struct Reconstruction {
   SideLocator locator;
   IrradianceField field;
   DirectLight direct;
-};
-
-/// Sender choices of the leaves that one thread meets; leaves recur, so most choices are made once.
-class ChoiceCache {
- public:
-  explicit ChoiceCache(const DirectLight& direct) : direct_(direct) {}
-  const SenderChoice& at(ElementId leaf) {
-    const auto [it, isNew] = choices_.try_emplace(leaf);
-    if (isNew) it->second = direct_.choiceAt(leaf);
-    return it->second;
-  }
-
- private:
-  const DirectLight& direct_;
-  std::unordered_map<ElementId, SenderChoice> choices_;
+  ChoiceCache choices;
 };
 
 }  // namespace deltalux

@@ -23,13 +23,12 @@ class Painter {
         paths_(s, reconstruction_, {settings.meshDirect ? 0 : settings.shadowRays, settings.maxSpecularDepth}) {}
 
   void paint(Image& image, int x0, int y0) const {
-    ChoiceCache cache(reconstruction_.direct);
     for (int y = y0; y < std::min(y0 + kTile, image.height); ++y)
-      for (int x = x0; x < std::min(x0 + kTile, image.width); ++x) image.at(x, y) = pixel(image, x, y, cache);
+      for (int x = x0; x < std::min(x0 + kTile, image.width); ++x) image.at(x, y) = pixel(image, x, y);
   }
 
  private:
-  Rgb pixel(const Image& image, int x, int y, ChoiceCache& cache) const {
+  Rgb pixel(const Image& image, int x, int y) const {
     const std::uint64_t key =
         combineKeys(settings_.seed, static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(image.width) + x);
     RgbSum sum(0.0);
@@ -41,7 +40,7 @@ class Painter {
       eye.ray.direction = Vec3f(from.direction);
       eye.key = key;
       eye.index = static_cast<std::uint32_t>(s);
-      sum += RgbSum(paths_.radiance(eye, cache));
+      sum += RgbSum(paths_.radiance(eye));
     }
     return Rgb(sum / double(settings_.samplesPerPixel));
   }
@@ -56,7 +55,7 @@ class Painter {
 
 Image render(const SolutionView& solution, const View& view, const RenderSettings& settings, Progress* progress) {
   DELTALUX_CHECK(settings.width > 0 && settings.height > 0, "a picture has pixels");
-  DELTALUX_CHECK(settings.samplesPerPixel > 0 && settings.shadowRays > 0, "samples are counted from 1");
+  DELTALUX_CHECK(settings.samplesPerPixel > 0 && settings.shadowRays > 1, "at least one camera ray, two shadow rays");
   Image image;
   image.width = settings.width, image.height = settings.height;
   image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
