@@ -80,7 +80,7 @@ TEST_P(ReferenceValues, AgreeWithinThreeStandardErrors) {
 INSTANTIATE_TEST_SUITE_P(Shared, ReferenceValues,
                          testing::Values(Comparison{"cornell", "reference/cornell.rad", "cornell.csv", false, 8192},
                                          Comparison{"mirror_caustic", "reference/cornell-mirror-caustic.rad",
-                                                    "cornell-mirror-caustic.csv", false, 16384},
+                                                    "cornell-mirror-caustic.csv", false, 65536},
                                          Comparison{"cabin", "scenes/cabin/cabin.rad", "cabin.csv", false, 4096},
                                          Comparison{"cabin_diffuse", "scenes/cabin/cabin.rad", "cabin-diffuse.csv",
                                                     true, 4096}),
