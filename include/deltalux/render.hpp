@@ -20,8 +20,9 @@ struct ProbeSettings {
 };
 
 /// Irradiance at every point, in their order [W/m2]. A point within 1e-3 of the scene's size from a surface whose side
-/// faces the normal reads the solution there; any other point gathers what it sees. Standard errors are those of the
-/// sampling, not of the solution. Does not depend on the number of threads. Throws Interrupted.
+/// faces the normal reads the solution there (indirect light by the links at that very point); any other point gathers
+/// what it sees. Standard errors are those of the sampling, not of the solution. Does not depend on the number of
+/// threads. Throws Interrupted.
 std::vector<ProbeResult> probe(const SolutionView&, std::span<const ProbePoint>, const ProbeSettings& = {},
                                Progress* progress = nullptr);
 

@@ -2,11 +2,10 @@
 // Direct light at a point, measured with shadow rays. For each leaf patch, a few test rays to every sender that the
 // links name (direct_senders.hpp) tell which of them are seen from there. Rays then go to those in proportion to the
 // spread of what one of them gives, by systematic sampling, so that each gets its share to within one; a quarter of the
-// rays go to senders that no test ray saw: a patch that the sun touches at one corner finds it, and one that it does not
-// touch loses few rays to it.
-// A point of the sender is sampled: small and whole lights as light_sampling.hpp does, parts of large ones by area, cells
-// of the sky by solid angle. Panes attenuate. Unbiased wherever the links do not prove that no light comes.
-// Cost: one shadow ray a sample; 4 to 16 test rays a sender for each leaf that is looked at.
+// rays go to senders that no test ray saw: a patch that the sun touches at one corner finds it, and one that it does
+// not touch loses few rays to it. A point of the sender is sampled: small and whole lights as light_sampling.hpp does,
+// parts of large ones by area, cells of the sky by solid angle. Panes attenuate. Unbiased wherever the links do not
+// prove that no light comes. Cost: one shadow ray a sample; 4 to 16 test rays a sender for each leaf that is looked at.
 #include <deltalux/probe.hpp>
 
 #include "base/random.hpp"

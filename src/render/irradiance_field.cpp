@@ -188,14 +188,14 @@ Rgb IrradianceField::blend(const std::vector<Linear>& linears, const LeafPoint& 
     point.uv = glm::vec2(at.uv);
     point.radius = relativeRadius(scene_[elements_.domain[at.leaf.index()].primitive].shape, at.uv.y);
   }
-  const bool torn = torn_[home] < begin_[home + 1];
+  const bool cut = torn(at.leaf);
   Rgb sum(0.0f);
   float weights = 0;
   for (std::uint32_t k = begin_[home]; k < begin_[home + 1]; ++k) {
     const std::uint32_t i = neighbours_[k];
     const Site& site = sites_[i];
     const float w = site.fineness * site.support.weight(point);
-    if (w <= 0.0f || (torn && !inSight(p, at.leaf, site.leaf))) continue;
+    if (w <= 0.0f || (cut && !inSight(p, at.leaf, site.leaf))) continue;
     const Linear& l = linears[i];
     const Vec3f d = p - site.center;
     sum += w * glm::clamp(l.value + d.x * l.slope[0] + d.y * l.slope[1] + d.z * l.slope[2], l.low, l.high);

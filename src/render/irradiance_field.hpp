@@ -30,6 +30,11 @@ class IrradianceField {
   /// At the surface point `p`, which `at` locates [W/m2].
   Rgb direct(const LeafPoint& at, const Vec3f& p) const { return blend(direct_, at, p); }
   Rgb indirect(const LeafPoint& at, const Vec3f& p) const { return blend(indirect_, at, p); }
+  /// Whether something stands on or cuts through the leaf, or between it and its neighbours.
+  bool torn(ElementId leaf) const {
+    const std::uint32_t i = siteOf_[leaf.index()];
+    return torn_[i] < begin_[i + 1];
+  }
 
  private:
   /// A leaf's linear function, kept within `low` and `high`.

@@ -5,6 +5,7 @@
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
 #include "render/eye_path.hpp"
+#include "render/leaf_gather.hpp"
 #include "render/work_progress.hpp"
 #include "solution/solution.hpp"
 
@@ -37,6 +38,7 @@ class LightMeter {
         settings_(settings),
         reconstruction_(s),
         paths_(s, reconstruction_, {0, 24}),
+        gather_(s),
         size_(bounds(s.scene).diagonal()) {}
 
   ProbeResult measure(const ProbePoint& point, std::uint64_t key) const {
@@ -87,11 +89,19 @@ class LightMeter {
       result.irradiance = RgbSum(l.direct + l.indirect + l.particle);
       return result;
     }
-    const Rgb indirect = reconstruction_.field.indirect(at, Vec3f(spot.position));
+    const Rgb indirect = indirectAt(at, spot);
     ProbeResult result = reconstruction_.direct.measure(reconstruction_.choices.at(at.leaf), receiver, indirect,
                                                         settings_.error, settings_.maxSamples, key);
     result.irradiance += RgbSum(indirect);
     return result;
+  }
+
+  /// By the leaf's links at the point itself; where a wall cuts the leaf in two, they speak for both sides, and the
+  /// reconstruction knows better.
+  Rgb indirectAt(const LeafPoint& at, const SurfaceSpot& spot) const {
+    const Vec3f p(spot.position);
+    if (reconstruction_.field.torn(at.leaf)) return reconstruction_.field.indirect(at, p);
+    return gather_.indirectAt(at.leaf, p, Vec3f(spot.normal)) + elements_.radiometry[at.leaf.index()].particle;
   }
 
   ProbeResult inFreeSpace(const ProbePoint& point, std::uint64_t key) const {
@@ -148,6 +158,7 @@ class LightMeter {
   const ProbeSettings& settings_;
   Reconstruction reconstruction_;
   EyePaths paths_;
+  LeafGather gather_;
   double size_;
 };
 
