@@ -10,7 +10,7 @@ namespace deltalux {
 namespace {
 
 constexpr int kLooks = 8;  // test samples per cell and connection
-constexpr double kMaxCells = 16 * 1024;
+constexpr double kMaxCells = 32 * 1024;
 constexpr double kShadowedShare = 0.02;  // of what a connection would bring without shadows: there may be a gap
 constexpr double kUniformShare = 0.04;   // of the chances
 constexpr double kAskew = 0.15;          // added to a facing's cosine: its surfaces need not face exactly there

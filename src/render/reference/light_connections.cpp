@@ -14,7 +14,8 @@ namespace deltalux {
 namespace {
 
 // More connections would dilute the choice; the rest is found by scattering.
-constexpr std::size_t kMaxSingle = 64, kMaxDouble = 48;
+constexpr std::size_t kMaxSingle = 2048, kMaxDouble = 48;
+constexpr double kKeptShare = 0.9995;  // of the flux that was found: more connections would only dilute the choice
 constexpr std::size_t kMaxSecond = 24;  // single connections that are tried by way of a further bend
 constexpr int kFluxSamplesPlane = 256;  // a lit patch of a wide mirror must not be overlooked
 constexpr int kFluxSamplesCurved = 32, kFluxSamplesDouble = 24;
@@ -53,7 +54,11 @@ LightConnections::LightConnections(const ReferenceScene& scene) : scene_(scene) 
   }
   const std::vector<Bend> bends = findBends();
   const auto keep = [&](std::vector<Connection> found, std::size_t count) {
-    if (found.size() > count) found.resize(count);
+    double all = 0, kept = 0;
+    for (const Connection& c : found) all += c.flux;
+    std::size_t keeping = 0;
+    while (keeping < std::min(found.size(), count) && kept < kKeptShare * all) kept += found[keeping++].flux;
+    found.resize(keeping);
     for (const Connection& c : found) add(c);
     return found;
   };

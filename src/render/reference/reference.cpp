@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <optional>
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
@@ -30,11 +31,14 @@ std::uint32_t batchSize(std::uint64_t samples) {
   return size;
 }
 
-/// Test samples for the connection table: worth a small part of the paths of an ordinary job, or of the time limit.
-double tableBudget(const ReferenceSettings& settings) {
-  const double fromSamples = settings.samples > 0 ? 500.0 * static_cast<double>(settings.samples) : 4e6;
-  const double fromSeconds = settings.seconds > 0 ? 5e4 * settings.seconds : 4e6;
-  return std::clamp(std::min(fromSamples, fromSeconds), 5e4, 4e6);
+/// Test samples for the connection table: worth a small part of the job's paths, or of the time limit. `estimates` is
+/// the number of points or pixels; a picture's many paths are worth a finer table than a few meters' are.
+double tableBudget(const ReferenceSettings& settings, std::size_t estimates) {
+  constexpr double kMost = 4e7;
+  const double perSample = std::max(500.0, 1.5 * static_cast<double>(estimates));
+  const double fromSamples = settings.samples > 0 ? perSample * static_cast<double>(settings.samples) : kMost;
+  const double fromSeconds = settings.seconds > 0 ? 1.5e5 * settings.seconds : kMost;
+  return std::clamp(std::min(fromSamples, fromSeconds), 5e4, kMost);
 }
 
 /// Mean and spread of batch means per channel. [Welford 1962]
@@ -92,12 +96,13 @@ struct ReferenceIntegrator::Impl {
   Impl(const Scene& s, const ReferenceSettings& wanted)
       : settings(wanted),
         scene(s, wanted.diffuseOnly),
-        connections(scene),
-        table(scene, connections, tableBudget(wanted)),
-        tracer(scene, connections, table, wanted.maxDepth) {
+        connections(scene) {
     DELTALUX_CHECK(settings.samples > 0 || settings.seconds > 0 || settings.targetError > 0,
                    "samples, seconds or a target error");
   }
+
+  /// Learns the connections for a job of so many points or pixels, unless the last job's table is the one.
+  void prepare(std::size_t estimates);
 
   /// How many batches the next pass makes; 0 ends.
   struct Schedule {
@@ -115,11 +120,21 @@ struct ReferenceIntegrator::Impl {
   ReferenceSettings settings;
   ReferenceScene scene;
   LightConnections connections;
-  ConnectionTable table;
-  PathTracer tracer;
+  double budget = 0;  // what the table was learnt with
+  std::optional<ConnectionTable> table;
+  std::optional<PathTracer> tracer;
   std::atomic<std::uint64_t> rays{0}, paths{0};
   double seconds = 0;
 };
+
+void ReferenceIntegrator::Impl::prepare(std::size_t estimates) {
+  const double wanted = tableBudget(settings, estimates);
+  if (table && budget == wanted) return;
+  budget = wanted;
+  tracer.reset();
+  table.emplace(scene, connections, budget);
+  tracer.emplace(scene, connections, *table, settings.maxDepth);
+}
 
 std::uint64_t ReferenceIntegrator::Impl::nextPass(const Schedule& s, double elapsed) const {
   // With a time limit the first pass is as small as can be: it tells how long a batch takes.
@@ -170,6 +185,7 @@ ReferenceIntegrator::~ReferenceIntegrator() = default;
 
 std::vector<ProbeResult> ReferenceIntegrator::probe(std::span<const ProbePoint> points, Progress* progress) {
   Impl& impl = *impl_;
+  impl.prepare(points.size());
   const auto start = Clock::now();
   const std::uint32_t size = batchSize(impl.settings.samples);
   Impl::Schedule schedule{(impl.settings.samples + size - 1) / size};
@@ -191,7 +207,7 @@ std::vector<ProbeResult> ReferenceIntegrator::probe(std::span<const ProbePoint> 
       const std::uint64_t batch = schedule.done + task % batches;
       const std::uint64_t key = combineKeys(combineKeys(impl.settings.seed, point), batch);
       means[task] = impl.batchMean(key, size, [&](PathSampler& sampler, std::uint64_t& rays) {
-        return impl.tracer.irradiance(points[point].position, glm::normalize(points[point].normal), sampler, rays);
+        return impl.tracer->irradiance(points[point].position, glm::normalize(points[point].normal), sampler, rays);
       });
       reporter.taskDone();
     });
@@ -208,6 +224,7 @@ std::vector<ProbeResult> ReferenceIntegrator::probe(std::span<const ProbePoint> 
 
 Image ReferenceIntegrator::render(const View& view, int width, int height, Progress* progress) {
   Impl& impl = *impl_;
+  impl.prepare(static_cast<std::size_t>(width) * height);
   const auto start = Clock::now();
   const std::uint32_t size =
       std::min<std::uint32_t>(impl.settings.seconds > 0 ? 4 : 16, batchSize(impl.settings.samples));
@@ -232,7 +249,7 @@ Image ReferenceIntegrator::render(const View& view, int width, int height, Progr
           moments[pixel].add(impl.batchMean(key, size, [&](PathSampler& sampler, std::uint64_t& rays) {
             const Vec2 in = sampler.next2();
             const ViewRay ray = viewRay(view, (x + in.x) / width, (y + in.y) / height);
-            return impl.tracer.radiance(ray.origin, ray.direction, sampler, rays);
+            return impl.tracer->radiance(ray.origin, ray.direction, sampler, rays);
           }));
         }
       }
