@@ -1,6 +1,7 @@
 #include "hierarchy/build.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <memory>
 
@@ -13,6 +14,7 @@ namespace deltalux {
 namespace {
 
 constexpr std::size_t kLeafGroups = 4;  // surfaces that a cluster may hold directly without looking at their sizes
+constexpr float kSlot = 0.5f;           // least mean free path, relative to that of the surroundings
 constexpr double kLarge = 0.5;          // a surface this large against its cluster stays in it
 
 /// The sides of one surface (front, back) travel together.
@@ -115,6 +117,7 @@ class Builder {
     elements_.key[first.index()] = emitter ? 2 : 1;
     emit(*root, first, sides, emitter, points);
     pull(first);
+    widenPaths(first);
     return first;
   }
 
@@ -176,7 +179,9 @@ class Builder {
       elements_.outlines.insert(elements_.outlines.end(), outline.begin(), outline.end());
     }
     shapePatch(elements_, scene_, e);
-    elements_.geometry[e.index()].meanFreePath = side.meanFreePath;
+    // In a slot (a lamp just below the ceiling) the surface's own size is the scale that matters.
+    ElementGeometry& g = elements_.geometry[e.index()];
+    g.meanFreePath = std::max(side.meanFreePath, std::sqrt(g.area));
     const Material& material = scene_.materialOf(side.primitive);
     ElementLight& r = elements_.radiometry[e.index()];
     if (emitter) {
@@ -189,7 +194,7 @@ class Builder {
     r.tau = diffuseTransmittance(material);
     r.indirect = side.irradiance;
     r.B = r.rho * side.irradiance;
-    r.tolerance = gray(side.irradiance);
+    r.tolerance = r.typical = side.typicalIrradiance;
   }
 
   void shapePoint(ElementId e, LightId light) {
@@ -278,6 +283,16 @@ class Builder {
     }
   }
 
+  /// In a slot (between a frame and its wall) light varies over little, but what surrounds the slot sets the scale on
+  /// which that matters: no mean free path is much shorter than in the cluster two levels up.
+  void widenPaths(ElementId e, float above = 0, float twiceAbove = 0) {
+    ElementGeometry& g = elements_.geometry[e.index()];
+    const float own = g.meanFreePath;
+    g.meanFreePath = std::max(own, kSlot * twiceAbove);
+    for (std::size_t i = 0; i < elements_.at(e).childCount; ++i)
+      widenPaths(elements_.child(e, i), own, std::max(above, own));
+  }
+
   const Scene& scene_;
   Elements& elements_;
   std::vector<LightId> lightOfPrimitive_;
@@ -295,8 +310,8 @@ std::vector<SurfaceSide> surfaceSides(const Scene& scene) {
     const std::size_t triangles = mesh ? mesh->triangles.size() : 1;
     if (!(area(scene[id].shape) > 0)) continue;
     for (std::size_t t = 0; t < triangles; ++t) {
-      sides.push_back({id, static_cast<std::uint32_t>(t), true, 0, Rgb(0.0f)});
-      if (!glass) sides.push_back({id, static_cast<std::uint32_t>(t), false, 0, Rgb(0.0f)});
+      sides.push_back({id, static_cast<std::uint32_t>(t), true, 0, Rgb(0.0f), 0});
+      if (!glass) sides.push_back({id, static_cast<std::uint32_t>(t), false, 0, Rgb(0.0f), 0});
     }
   }
   return sides;
@@ -316,8 +331,8 @@ Elements buildElements(const Scene& scene, const std::vector<SurfaceSide>& reach
       const auto* mesh = std::get_if<Mesh>(&scene[area->primitive].shape);
       const bool bothSides = scene.materialOf(area->primitive).emission->bothSides;
       for (std::uint32_t t = 0; t < (mesh ? mesh->triangles.size() : 1); ++t) {
-        emitting.push_back({area->primitive, t, true, 0, Rgb(0.0f)});
-        if (bothSides) emitting.push_back({area->primitive, t, false, 0, Rgb(0.0f)});
+        emitting.push_back({area->primitive, t, true, 0, Rgb(0.0f), 0});
+        if (bothSides) emitting.push_back({area->primitive, t, false, 0, Rgb(0.0f), 0});
       }
     } else if (!std::holds_alternative<SunLight>(emitter) && !std::holds_alternative<DomeLight>(emitter)) {
       points.push_back(LightId(i));

@@ -12,8 +12,9 @@ struct SurfaceSide {
   PrimitiveId primitive;
   std::uint32_t triangle = 0;  // of a mesh
   bool front = true;
-  float meanFreePath = 0.0f;  // mean distance to what it sees [scene units]
-  Rgb irradiance{0.0f};       // first estimate, for tolerances
+  float meanFreePath = 0.0f;       // mean distance to what it sees [scene units]
+  Rgb irradiance{0.0f};            // first estimate [W/m2]
+  float typicalIrradiance = 0.0f;  // gray; a mean over the surface that favours its dark parts
 };
 
 /// Both sides of every surface, one of each pane and body of glass (which has no diffuse side, but blocks). Meshes give

@@ -93,6 +93,9 @@ std::size_t corners(const Elements& elements, ElementId e, std::array<Vec3, 12>&
   return 8;
 }
 
+/// Ends whose own corners are tighter than their box.
+bool flatEnd(const Elements& elements, ElementId e) { return elements.isPatch(e) && elements.at(e).flat; }
+
 bool segmentMeetsRectangle(const Vec2& a, const Vec2& b, const Vec2& lower, const Vec2& upper) {
   // Clip the segment against the rectangle [Liang & Barsky 1984].
   double t0 = 0, t1 = 1;
@@ -121,11 +124,22 @@ void shrinkBlockers(const Elements& elements, const Scene&, ElementId receiver, 
 
 bool provablyBlocked(const Elements& elements, const Scene& scene, ElementId receiver, ElementId sender,
                      const ElementId* candidates, std::size_t count) {
+  const float narrower =
+      0.7f * std::min(elements.shape(receiver).radius,
+                      elements.isDistant(sender) ? elements.shape(receiver).radius : elements.shape(sender).radius);
   std::array<Vec3, 12> r, s;
   std::size_t rCount = 0, sCount = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const ElementId c = candidates[i];
     if (!elements.isPatch(c) || !elements.at(c).flat || elements.at(c).blocker) continue;
+    // Somewhere between the ends the shaft is as wide as the narrower of them: smaller polygons cannot close it.
+    if (elements.shape(c).radius < narrower) continue;
+    const ElementGeometry &polygon = elements.shape(c), &re = elements.shape(receiver), &se = elements.shape(sender);
+    const bool apart = (reach(re.lower, re.upper, polygon.center, polygon.normal) < 0 &&
+                        reach(se.lower, se.upper, polygon.center, -polygon.normal) < 0) ||
+                       (reach(re.lower, re.upper, polygon.center, -polygon.normal) < 0 &&
+                        reach(se.lower, se.upper, polygon.center, polygon.normal) < 0);
+    if (!apart && !(flatEnd(elements, receiver) || flatEnd(elements, sender))) continue;
     const PatchDomain& d = elements.domain[c.index()];
     if (isThinGlass(scene.materialOf(d.primitive))) continue;
     const PlaneFrame& f = elements.frames[d.frame];

@@ -1,6 +1,7 @@
 #include "radiosity/coarse_solution.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "base/parallel.hpp"
@@ -11,9 +12,10 @@ namespace deltalux {
 
 namespace {
 
-constexpr std::uint64_t kRayBudget = 1u << 20;
-constexpr int kIterations = 12;
-constexpr int kPanes = 8;  // panes that a ray passes before it is given up
+constexpr std::uint64_t kPathBudget = 1u << 17;
+constexpr int kBounces = 3;
+constexpr std::size_t kPicked = 3;  // lights a vertex looks at
+constexpr int kPanes = 8;           // panes that a ray passes before it is given up
 
 struct Origin {
   Vec3 position, normal;
@@ -54,78 +56,84 @@ class Estimator {
     for (const SurfaceSide& s : sides_)
       if (!s.front) twoSided_[s.primitive.index()] = true;  // has back sides too
     diagonal_ = bounds(scene).diagonal();
-    rays_ = std::clamp<std::size_t>(kRayBudget / std::max<std::size_t>(sides_.size(), 1), 8, 64);
+    rays_ = std::clamp<std::size_t>(kPathBudget / std::max<std::size_t>(sides_.size(), 1), 8, 64);
   }
 
   std::vector<SurfaceSide> run(CoarseReport* report) {
     const std::size_t n = sides_.size();
-    direct_.assign(n, Rgb(0.0f));
-    seen_.assign(n * rays_, kNothing);
-    through_.assign(n * rays_, 1.0f);
-    open_.assign(n, 0);
-    parallelFor(n, 64, [&](std::size_t i) { look(i); });
-    std::vector<Rgb> E = radiosity();
-
-    // Seen by a side that has light, or open to the outside: light can get there, though this side's rays missed it.
-    std::vector<char> reachable(n, 0);
-    for (std::size_t i = 0; i < n; ++i) reachable[i] = !isBlack(E[i]) || open_[i];
-    for (std::size_t i = 0; i < n; ++i) {
-      if (isBlack(E[i]) && !open_[i]) continue;
-      for (std::size_t k = 0; k < rays_; ++k)
-        if (const std::uint32_t j = seen_[i * rays_ + k]; j != kNothing) reachable[j] = 1;
-    }
+    estimates_.assign(n, {});
+    lit_ = std::vector<std::atomic<char>>(n);
+    parallelFor(n, 32, [&](std::size_t i) { estimate(i); });
     std::vector<SurfaceSide> result;
+    std::uint64_t rays = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const bool glass = first_[sides_[i].primitive.index()] == i && !twoSided_[sides_[i].primitive.index()];
-      if (!reachable[i] && !glass) continue;
+      rays += estimates_[i].rays;
+      if (isBlack(estimates_[i].E) && !lit_[i] && !isGlass(i)) continue;
       result.push_back(sides_[i]);
-      result.back().irradiance = E[i];
+      result.back().irradiance = estimates_[i].E;
+      result.back().typicalIrradiance = estimates_[i].typical;
     }
-    if (report) {
-      report->sides = n;
-      report->reachable = result.size();
-      report->rays = n * static_cast<std::uint64_t>(rays_) * 2;
-    }
+    if (report) *report = {rays, n, result.size()};
     return result;
   }
 
  private:
-  static constexpr std::uint32_t kNothing = 0xffffffffu;
-
   std::uint32_t sideOf(const Hit& hit) const {
     const std::uint32_t base = first_[hit.primitive.index()];
     return twoSided_[hit.primitive.index()] ? base + 2 * hit.triangle + (hit.front ? 0u : 1u) : base + hit.triangle;
   }
 
-  void look(std::size_t i) {
+  bool isGlass(std::size_t i) const { return !twoSided_[sides_[i].primitive.index()]; }
+
+  /// Paths from the side's surface: light found at every vertex counts, so that a lit part of a floor does not light
+  /// what sees only its dark part.
+  void estimate(std::size_t i) {
     SurfaceSide& side = sides_[i];
+    Estimate& e = estimates_[i];
     Rng rng(combineKeys(combineKeys(side.primitive.value, side.triangle), side.front));
     double path = 0;
-    int found = 0;
-    RgbSum direct(0.0);
+    std::size_t found = 0;
+    RgbSum total(0.0);
+    double own = 0;
+    double root = 0;  // mean root of direct light: a bright patch does not speak for the whole surface
     for (std::size_t k = 0; k < rays_; ++k) {
+      RgbSum sum(0.0);
       const double u = (double(k) + rng.uniform()) / double(rays_), v = rng.uniform();
-      const Origin o = pointOnSide(scene_, side, {u, v});
-      const double r = std::sqrt(rng.uniform()), phi = 2 * kPi * rng.uniform();
-      const Vec3f w(
-          Frame(o.normal).toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0, 1 - r * r))}));
-      direct += RgbSum(directAt(o, rng));
-      float t = 0;
-      Rgb through(1.0f);
-      const Hit hit = look(o, w, through, t);
-      if (hit) {
-        path += t, ++found;
-        seen_[i * rays_ + k] = sideOf(hit);
-        through_[i * rays_ + k] = gray(through);
-      } else {
-        open_[i] = 1;
-        for (const Light& light : scene_.lights)
-          if (const auto* dome = std::get_if<DomeLight>(&light.emitter))
-            direct += kPi * RgbSum(through * light.scale * skyRadiance(*dome, Vec3(w)));
+      Origin o = pointOnSide(scene_, side, {u, v});
+      Rgb throughput(1.0f);
+      for (int bounce = 0; bounce <= kBounces; ++bounce) {
+        const Rgb direct = directAt(o, rng);
+        if (bounce == 0) {
+          root += std::sqrt(gray(direct)) / double(rays_);
+          own += gray(direct) / double(rays_);
+        }
+        sum += RgbSum(throughput * direct);
+        const double r = std::sqrt(rng.uniform()), phi = 2 * kPi * rng.uniform();
+        const Vec3f w(
+            Frame(o.normal).toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0, 1 - r * r))}));
+        float t = 0;
+        Rgb through(1.0f);
+        const Hit hit = look(o, w, through, t);
+        e.rays += 1 + std::min(scene_.lights.size(), kPicked);
+        if (!hit) {
+          for (const Light& light : scene_.lights)
+            if (const auto* dome = std::get_if<DomeLight>(&light.emitter))
+              sum += kPi * RgbSum(throughput * through * light.scale * skyRadiance(*dome, Vec3(w)));
+          break;
+        }
+        if (bounce == 0) path += t, ++found;
+        const std::uint32_t j = sideOf(hit);
+        if (!isBlack(direct * through)) lit_[j].store(1, std::memory_order_relaxed);
+        throughput *= through * wholeReflectance(scene_, sides_[j]);
+        if (isBlack(throughput)) break;
+        o.position = Vec3(o.position) + double(t) * Vec3(w);
+        o.normal = Vec3(hit.front ? hit.normal : -hit.normal);
       }
+      total += sum / double(rays_);
     }
-    direct_[i] = Rgb(direct / double(rays_));
-    side.meanFreePath = static_cast<float>(found > 0 ? path / found : diagonal_);
+    e.E = Rgb(total);
+    e.typical = static_cast<float>(std::max(0.0, gray(total) - own) + root * root);
+    side.meanFreePath = static_cast<float>(found > 0 ? path / double(found) : diagonal_);
   }
 
   /// First surface that is not a pane.
@@ -147,7 +155,6 @@ class Estimator {
 
   Rgb directAt(const Origin& o, Rng& rng) const {
     // A few lights picked at random stand for all of them.
-    constexpr std::size_t kPicked = 6;
     const std::size_t lights = scene_.lights.size();
     Rgb sum(0.0f);
     for (std::size_t k = 0; k < std::min(lights, kPicked); ++k) {
@@ -212,25 +219,11 @@ class Estimator {
            tracer_.transmittance(segment(x, n, Vec3f(y.position), Vec3f(y.normal)));
   }
 
-  /// Jacobi iteration over what the rays saw.
-  std::vector<Rgb> radiosity() const {
-    const std::size_t n = sides_.size();
-    std::vector<Rgb> E = direct_, B(n);
-    std::vector<Rgb> rho(n);
-    parallelFor(n, 1024, [&](std::size_t i) { rho[i] = wholeReflectance(scene_, sides_[i]); });
-    for (int iteration = 0; iteration < kIterations; ++iteration) {
-      parallelFor(n, 1024, [&](std::size_t i) { B[i] = rho[i] * E[i]; });
-      parallelFor(n, 256, [&](std::size_t i) {
-        Rgb sum(0.0f);
-        for (std::size_t k = 0; k < rays_; ++k) {
-          const std::size_t ray = i * rays_ + k;
-          if (seen_[ray] != kNothing) sum += through_[ray] * B[seen_[ray]];
-        }
-        E[i] = direct_[i] + sum / float(rays_);
-      });
-    }
-    return E;
-  }
+  struct Estimate {
+    Rgb E{0.0f};
+    float typical = 0;
+    std::uint64_t rays = 0;
+  };
 
   const Scene& scene_;
   const RayTracer& tracer_;
@@ -239,10 +232,8 @@ class Estimator {
   std::vector<char> twoSided_;
   std::size_t rays_ = 64;
   double diagonal_ = 0;
-  std::vector<Rgb> direct_;
-  std::vector<std::uint32_t> seen_;
-  std::vector<float> through_;
-  std::vector<char> open_;
+  std::vector<Estimate> estimates_;
+  std::vector<std::atomic<char>> lit_;  // hit by a ray from a lit point
 };
 
 }  // namespace

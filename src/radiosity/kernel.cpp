@@ -71,6 +71,22 @@ Vec3f nearestPoint(const ElementGeometry& g, const Vec3f& p, bool flat) {
   return q;
 }
 
+/// Greatest cosine between `n` and the directions of a distant sender.
+float highestDirection(const Elements& elements, ElementId sender, const Vec3f& n) {
+  float top = -1;
+  for (const Vec3f& w : elements.nodes[sender.index()].position) top = std::max(top, glm::dot(w, n));
+  return top + elements.shape(sender).radius;
+}
+
+/// What two flat ends could exchange at most if both faced each other as far as they rise above each other's planes.
+double crossingBound(const ElementGeometry& r, const ElementGeometry& s, float senderReach, float receiverReach) {
+  const float d = glm::length(r.center - s.center);
+  const double squared = std::max(double(d) * d, double(s.area) / kPi);
+  const double cosines = std::min(1.0, double(senderReach) / std::sqrt(squared)) *
+                         std::min(1.0, double(receiverReach) / std::sqrt(squared));
+  return 0.5 * cosines * s.area / (kPi * squared);
+}
+
 /// Whether the side of a curved shape looks at itself.
 bool hollow(const Shape& shape, bool front) {
   return std::visit(
@@ -171,19 +187,18 @@ Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, 
   const float size = std::max({std::abs(r.lower.x), std::abs(r.lower.y), std::abs(r.lower.z), std::abs(r.upper.x),
                                std::abs(r.upper.y), std::abs(r.upper.z)});
   const float touch = 4e-6f * size;
-  if (rt.flat && !clusterReceiver) {
-    const float reach = st.kind == ElementKind::Distant
-                            ? [&] { float top = -1; for (int j = 0; j < 4; ++j) top = std::max(top, glm::dot(elements.nodes[sender.index()].position[j], r.normal)); return top + s.radius; }()
-                            : reachAbove(s, r.center, r.normal);
-    if (reach <= (st.kind == ElementKind::Distant ? 0.0f : touch)) {
-      result.averted = true;
-      return result;
-    }
+  const bool distant = st.kind == ElementKind::Distant;
+  const bool flatReceiver = rt.flat && !clusterReceiver, flatSender = st.flat && st.kind == ElementKind::Patch;
+  float senderReach = s.radius, receiverReach = r.radius;  // how far each end rises above the other's plane
+  if (flatReceiver) {
+    senderReach = distant ? highestDirection(elements, sender, r.normal) : reachAbove(s, r.center, r.normal);
+    result.averted = senderReach <= (distant ? 0.0f : touch);
   }
-  if (st.flat && st.kind == ElementKind::Patch && reachAbove(r, s.center, s.normal) <= touch) {
-    result.averted = true;
-    return result;
+  if (flatSender && !result.averted) {
+    receiverReach = reachAbove(r, s.center, s.normal);
+    result.averted = receiverReach <= touch;
   }
+  if (result.averted) return result;
   if ((clusterReceiver || clusterSender) && st.kind != ElementKind::Distant) {
     result.overlapping = elements.box(receiver).overlaps(elements.box(sender));
     if (result.overlapping) return result;
@@ -199,13 +214,17 @@ Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, 
     mean += nodes.weight[i] * at[i];
   }
   double spread = 0;
-  for (int i = 0; i < 4; ++i)
-    if (nodes.weight[i] > 0) spread = std::max(spread, std::abs(at[i] - mean));
-  if (st.kind != ElementKind::Distant) {
+  for (int i = 0; i < 4; ++i) spread += nodes.weight[i] * std::abs(at[i] - mean);
+  if (!distant && s.radius < 0.5f * r.radius) {
     // A small sender close to a large receiver peaks between the nodes: look where it is nearest.
     const Vec3f x = nearestPoint(r, s.center, rt.flat && !clusterReceiver);
     const double peak = kernelAtPoint(elements, scene, x, rt.flat && !clusterReceiver ? r.normal : normalAt(0), sender);
     spread = std::max(spread, std::abs(peak - mean));
+  }
+  if (flatReceiver && flatSender && spread <= 0.5 * mean + 1e-12) {
+    // The ends cross each other's planes: the nodes may all lie where little or nothing is seen.
+    const bool crossing = reachAbove(s, r.center, -r.normal) > touch || reachAbove(r, s.center, -s.normal) > touch;
+    if (crossing) spread = std::max(spread, std::min(1.0, crossingBound(r, s, senderReach, receiverReach)) - mean);
   }
   result.K = static_cast<float>(mean);
   result.receiverSpread = static_cast<float>(spread);
@@ -221,8 +240,13 @@ Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, 
     low = std::min(low, k), high = std::max(high, k);
   }
   if (high > 0) result.senderSpread = static_cast<float>(0.5 * std::min(high - low, 2 * mean));
-  if (clusterSender) result.senderSpread += kHarmonicSpread * result.K;
-  if (clusterReceiver) result.receiverSpread += kHarmonicSpread * result.K;
+  // The inverse square counts from centres, and the harmonics from one direction.
+  const float d = distant ? 1e30f : glm::length(r.center - s.center);
+  if (clusterSender) {
+    result.senderSpread += (kClusterSpread + std::min(1.0f, s.radius / d)) * result.K;
+    result.receiverSpread += std::min(1.0f, 0.5f * r.radius / d) * result.K;
+  }
+  if (clusterReceiver) result.receiverSpread += (kClusterSpread + std::min(1.0f, r.radius / d)) * result.K;
   return result;
 }
 

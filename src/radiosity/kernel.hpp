@@ -32,7 +32,8 @@ double kernelAtPoint(const Elements&, const Scene&, const Vec3f& x, const Vec3f&
 double pointKernel(const Elements&, const Scene&, const Vec3f& x, const Vec3f& n, ElementId sender, const Vec3f& y,
                    const Vec3f& m);
 
-/// Spread of order-2 harmonics around a clamped cosine, relative to its peak.
-inline constexpr float kHarmonicSpread = 0.06f;
+/// What a link to or from a cluster leaves unknown in any case, relative to K: order-2 harmonics for clamped cosines,
+/// one visibility for surfaces of unlike brightness.
+inline constexpr float kClusterSpread = 0.3f;
 
 }  // namespace deltalux

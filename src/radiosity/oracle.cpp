@@ -7,12 +7,19 @@ namespace deltalux {
 
 namespace {
 
-/// The sender's strength in the unit that K multiplies, gray, as seen from `from`.
-double senderStrength(const Elements& elements, ElementId sender, const Vec3f& from) {
+/// The sender's strength in the unit that K multiplies, gray: for a cluster the most that it sends towards any part of
+/// the receiver, and never less than a share of its mean, since harmonics blur what faces away.
+double senderStrength(const Elements& elements, ElementId sender, ElementId receiver) {
   if (!elements.isCluster(sender)) return gray(elements.radiometry[sender.index()].B);
-  const Vec3f w = from - elements.shape(sender).center;
-  const float length = glm::length(w);
-  return length > 0 ? gray(elements.cluster(sender).intensity.at(w / length)) : 0.0f;
+  constexpr float kBlur = 0.25f, kMeanOfConstant = 0.28209479f;
+  const DirectionalRgb& intensity = elements.cluster(sender).intensity;
+  float most = kBlur * kMeanOfConstant * std::max(0.0f, gray(intensity.c[0]));
+  for (const Vec3f& x : elements.nodes[receiver.index()].position) {
+    const Vec3f w = x - elements.shape(sender).center;
+    const float length = glm::length(w);
+    if (length > 0) most = std::max(most, gray(intensity.at(w / length)));
+  }
+  return most;
 }
 
 /// How far the radiosity of the sender's children departs from the sender's own.
@@ -28,7 +35,11 @@ double senderVariation(const Elements& elements, ElementId sender) {
 }  // namespace
 
 Oracle::Oracle(const Elements& elements, const OracleSettings& settings) : elements_(elements), settings_(settings) {
-  if (elements.sceneRoot.valid()) floor_ = settings.floor * elements.radiometry[elements.sceneRoot.index()].tolerance;
+  // Where nothing lit is seen, a thousandth of the scene's mean is dark enough.
+  if (elements.sceneRoot.valid()) {
+    const ElementLight& root = elements.radiometry[elements.sceneRoot.index()];
+    floor_ = 1e-3 * gray(root.direct + root.indirect);
+  }
 }
 
 double Oracle::referenceArea(ElementId e) const {
@@ -37,22 +48,30 @@ double Oracle::referenceArea(ElementId e) const {
 }
 
 double Oracle::budget(ElementId receiver) const {
-  const double tolerance = std::max<double>(elements_.radiometry[receiver.index()].tolerance, floor_);
+  const ElementLight& light = elements_.radiometry[receiver.index()];
+  const double tolerance = std::max(double(light.tolerance), floor_);
   const double area = std::max<double>(elements_.shape(receiver).area, referenceArea(receiver));
   return settings_.share * settings_.error * tolerance * area;
 }
 
+bool Oracle::divisible(ElementId e) const {
+  if (!elements_.isPatch(e)) return !elements_.isPoint(e);
+  return elements_.shape(e).area > settings_.finest * settings_.error * referenceArea(e);
+}
+
 LinkError Oracle::judge(const Link& link) const {
   LinkError e;
-  e.budget = budget(link.receiver);
-  const double strength = senderStrength(elements_, link.sender, elements_.shape(link.receiver).center);
+  e.budget = budget(link.receiver) *
+             (elements_.at(link.sender).emitter && elements_.isPatch(link.receiver) ? settings_.direct : 1.0);
+  const double strength = senderStrength(elements_, link.sender, link.receiver);
   // A cluster's surfaces see a direction at all angles: a quarter of their area faces it [Cauchy].
   const double area = elements_.shape(link.receiver).area * (elements_.isCluster(link.receiver) ? 0.25 : 1.0);
-  const double V = link.visibility == Visibility::Unknown ? 1.0 : double(maxChannel(link.V));
+  const double V =
+      link.visibility == Visibility::Unknown ? 1.0 : std::min(1.0, double(link.guess) + double(link.visibilitySpread));
   e.power = strength * link.K * area;
   e.receiver = strength * area * V * link.receiverSpread;
   e.sender = area * V * (strength * link.senderSpread + link.K * senderVariation(elements_, link.sender));
-  if (link.visibility == Visibility::Sampled) e.visibility = e.power * link.visibilitySpread;
+  if (link.visibility == Visibility::Sampled) e.visibility = settings_.doubt * e.power * link.visibilitySpread;
   return e;
 }
 

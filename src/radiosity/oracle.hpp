@@ -14,9 +14,12 @@ namespace deltalux {
 /// Calibrated against reference values (docs/calibration.md); not meant to be set by users.
 struct OracleSettings {
   double error = 0.05;  // target relative error of irradiance
-  double share = 0.3;   // of the target that one link may take
-  double scale = 0.08;  // of the mean free path, gives the side of A_0
-  double floor = 0.05;  // least tolerance, relative to the scene's mean tolerance
+  double share = 0.6;   // of the target that one link may take
+  double scale = 0.15;  // of the mean free path, gives the side of A_0
+  double doubt = 4.0;   // weight of what sample rays leave unknown, against kernel variation (which is a bound)
+  double finest = 1.2;  // least area of a patch that is still split: finest * error * A_0
+  double direct = 20;   // budget of direct light against indirect: it is sampled anew where it is shown, so that only
+                        // what it sends on matters, spread over all that its receiver sees
 };
 
 /// What the oracle finds about one link, all in watts (gray).
@@ -40,6 +43,8 @@ class Oracle {
   double budget(ElementId receiver) const;
   /// Side of the area that matters around an element, squared: A_0.
   double referenceArea(ElementId) const;
+  /// Whether an element is large enough to be split: finer detail does not matter to the light around it.
+  bool divisible(ElementId) const;
 
  private:
   const Elements& elements_;

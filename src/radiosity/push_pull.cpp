@@ -1,10 +1,14 @@
 #include "radiosity/push_pull.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace deltalux {
 
 namespace {
+
+constexpr float kDarkest = 0.1f, kBrightest = 2.0f;  // tolerance of a leaf relative to its surface's first estimate
+constexpr float kLeast = 1e-12f;
 
 /// The same place on the other side of a surface, at no finer level; invalid when that side has no element.
 ElementId otherSide(const Elements& elements, ElementId leaf) {
@@ -74,23 +78,26 @@ void pullIrradiance(Elements& elements) {
     if (t.emitter) continue;
     ElementLight& light = elements.radiometry[i];
     if (t.childCount == 0) {
-      light.tolerance = gray(light.direct + light.indirect + light.particle);
+      // The first estimate is free of the leaks that a coarse solution has, so it bounds what may be tolerated.
+      light.tolerance = std::clamp(gray(light.direct + light.indirect + light.particle), kDarkest * light.typical,
+                                   kBrightest * light.typical);
       continue;
     }
     RgbSum direct(0.0), indirect(0.0), particle(0.0);
-    double area = 0, root = 0;
+    double area = 0, inverse = 0;
     for (std::size_t c = 0; c < t.childCount; ++c) {
       const std::size_t child = t.firstChild.index() + c;
       if (elements.topology[child].blocker) continue;
       const double a = elements.geometry[child].area;
       const ElementLight& l = elements.radiometry[child];
       direct += a * RgbSum(l.direct), indirect += a * RgbSum(l.indirect), particle += a * RgbSum(l.particle);
-      root += a * std::sqrt(l.tolerance);
+      inverse += a / std::max(l.tolerance, kLeast);
       area += a;
     }
     if (area <= 0) continue;
     light.direct = Rgb(direct / area), light.indirect = Rgb(indirect / area), light.particle = Rgb(particle / area);
-    light.tolerance = static_cast<float>(root / area * root / area);
+    // The harmonic mean: a cluster with dark surfaces must not let bright ones speak for them.
+    light.tolerance = static_cast<float>(area / inverse);
   }
 }
 

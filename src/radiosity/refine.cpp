@@ -13,8 +13,9 @@ namespace deltalux {
 
 namespace {
 
-constexpr int kFewSamples = 4, kSomeSamples = 8, kManySamples = 16;
-constexpr float kFineCell = 0.2f;  // radians: sky cells larger than this are split before the surface they light
+constexpr int kFewSamples = 4, kSomeSamples = 12, kManySamples = 32;
+constexpr float kFineCell = 0.2f;     // radians: sky cells larger than this are split before the surface they light
+constexpr float kFinestCell = 0.06f;  // radians: smaller ones are not split
 
 enum class Split : std::uint8_t { None, Receiver, Sender, Both };
 
@@ -76,16 +77,18 @@ class Judge {
       if (v.blockers.count == 0 && solidEnds) {
         link.visibility = Visibility::Clear;
         link.V = Rgb(1.0f);
-        link.visibilitySpread = 0;
+        link.guess = 1.0f, link.visibilitySpread = 0;
       } else if (link.visibility == Visibility::Unknown &&
                  provablyBlocked(elements_, scene_, link.receiver, link.sender, own, v.blockers.count)) {
         link.visibility = Visibility::Blocked;
         link.V = Rgb(0.0f);
-        link.visibilitySpread = 0;
+        link.guess = 0.0f, link.visibilitySpread = 0;
       }
     }
-    if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) sample(link, v);
+    const int before = link.samples;
+    if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) look(link, v);
     v.split = choose(link);
+    if (v.split == Split::None && link.visibility == Visibility::Sampled && link.samples != before) measure(link, v);
     v.link = link;
     return v;
   }
@@ -111,19 +114,28 @@ class Judge {
     return weight < 0.5 ? kFewSamples : weight < 2 ? kSomeSamples : kManySamples;
   }
 
-  void sample(Link& link, Verdict& v) const {
+  /// Decides by a first set of rays: few, and more when the kernel alone does not already demand a split.
+  void look(Link& link, Verdict& v) const {
     const auto take = [&](int samples) {
       if (samples <= link.samples) return;
-      const VisibilityEstimate e = sampleVisibility(elements_, scene_, tracer_, link.receiver, link.sender, samples);
+      const VisibilityEstimate e =
+          sampleVisibility(elements_, scene_, tracer_, link.receiver, link.sender, samples, SampleSet::Decide);
       v.rays = static_cast<std::uint16_t>(v.rays + samples);
-      link.V = e.V, link.visibilitySpread = e.spread, link.sampleMask = e.mask, link.samples = e.samples;
+      link.guess = maxChannel(e.V), link.visibilitySpread = e.spread, link.samples = e.samples;
       link.visibility = Visibility::Sampled;
     };
     const int wanted = wantedSamples(link, oracle_.judge(link));
     take(std::min(wanted, kFewSamples));
-    // When the kernel alone demands a split and light does pass, better visibility would be thrown away.
     const LinkError e = oracle_.judge(link);
     if (wanted > kFewSamples && !(e.receiver + e.sender > e.budget)) take(wanted);
+  }
+
+  /// Measures an accepted link by a second, independent set.
+  void measure(Link& link, Verdict& v) const {
+    const VisibilityEstimate e =
+        sampleVisibility(elements_, scene_, tracer_, link.receiver, link.sender, link.samples, SampleSet::Measure);
+    v.rays = static_cast<std::uint16_t>(v.rays + link.samples);
+    link.V = e.V, link.sampleMask = e.mask;
   }
 
   Split splitOverlapping(const Link& link) const {
@@ -134,15 +146,35 @@ class Judge {
     return clusterReceiver ? Split::Receiver : Split::Sender;
   }
 
+  /// The end to split, or none; an end that is too small to matter leaves the other one.
   Split choose(const Link& link) const {
+    const Split split = prefer(link);
+    if (split == Split::None) return split;
+    const bool receiver = oracle_.divisible(link.receiver), sender = senderDivisible(link.sender);
+    if (split == Split::Both) return receiver ? split : Split::None;
+    if (split == Split::Receiver) return receiver ? split : worthSplitting(link, sender) ? Split::Sender : Split::None;
+    return sender ? split : receiver ? Split::Receiver : Split::None;
+  }
+
+  bool senderDivisible(ElementId sender) const {
+    if (elements_.isDistant(sender)) return !isSun(sender) && elements_.shape(sender).radius > kFinestCell;
+    return oracle_.divisible(sender);
+  }
+
+  /// When the receiver is as small as it gets, splitting the sender helps only where the sender's own error counts.
+  bool worthSplitting(const Link& link, bool divisible) const {
+    const LinkError e = oracle_.judge(link);
+    return divisible && e.sender + e.visibility > e.budget;
+  }
+
+  Split prefer(const Link& link) const {
     if (link.visibility == Visibility::Blocked) return Split::None;
     LinkError e = oracle_.judge(link);
     const ElementGeometry &r = elements_.shape(link.receiver), &s = elements_.shape(link.sender);
     const bool clusterReceiver = elements_.isCluster(link.receiver), clusterSender = elements_.isCluster(link.sender);
-    if (link.visibility == Visibility::Sampled && isBlack(link.V)) {
-      // What the rays may have missed shrinks with the gaps between them.
-      const double gap = std::sqrt(std::min(1.0, r.area / std::max(oracle_.referenceArea(link.receiver), 1e-30)));
-      e.visibility *= elements_.isDistant(link.sender) && !isSun(link.sender) ? gap * std::min(1.0f, s.radius) : gap;
+    if (link.visibility == Visibility::Sampled && link.guess <= 0) {
+      // What rays may have missed between them matters on surfaces larger than A_0.
+      if (r.area < oracle_.referenceArea(link.receiver)) e.visibility = 0;
     }
     if (!(e.total() > e.budget)) return Split::None;
     if (link.receiver == link.sender) return Split::Both;
@@ -159,6 +191,9 @@ class Judge {
     if (clusterReceiver) return r.radius >= s.radius ? Split::Receiver : Split::Sender;
     // Partial visibility is told apart best by the end that is larger.
     (r.area >= s.area ? e.receiver : e.sender) += e.visibility;
+    // A large sender close by: only its near part makes the receiver's light vary.
+    const bool near = glm::length(r.center - s.center) < r.radius + 2 * s.radius;
+    if (near && s.radius > 1.5f * r.radius) return Split::Sender;
     return e.receiver >= e.sender ? Split::Receiver : Split::Sender;
   }
 

@@ -49,9 +49,10 @@ PatchPoint pointOf(const Elements& elements, const Scene& scene, ElementId e, do
 }  // namespace
 
 VisibilityEstimate sampleVisibility(const Elements& elements, const Scene& scene, const RayTracer& tracer,
-                                    ElementId receiver, ElementId sender, int samples) {
+                                    ElementId receiver, ElementId sender, int samples, SampleSet set) {
   VisibilityEstimate result;
-  const std::uint64_t key = combineKeys(elements.key[receiver.index()], elements.key[sender.index()]);
+  const std::uint64_t key = combineKeys(combineKeys(elements.key[receiver.index()], elements.key[sender.index()]),
+                                        static_cast<std::uint64_t>(set));
   RgbSum passed(0.0);
   double weights = 0, squares = 0, clearWeight = 0;
   std::array<double, 4> quadrantClear{}, quadrantWeight{};
@@ -93,6 +94,8 @@ VisibilityEstimate sampleVisibility(const Elements& elements, const Scene& scene
   }
   result.samples = static_cast<std::uint8_t>(samples);
   if (weights <= 0) {
+    // No sampled pair faced each other: nothing is known.
+    result.V = Rgb(1.0f);
     result.spread = 1.0f;
     return result;
   }
@@ -100,7 +103,8 @@ VisibilityEstimate sampleVisibility(const Elements& elements, const Scene& scene
   const double clear = clearWeight / weights;
   const double effective = weights * weights / squares;
   if (clear > 0 && clear < 1) {
-    double spread = std::sqrt(clear * (1 - clear) / effective);
+    // The surfaces of a cluster are lit or not one by one: the mean over them speaks for none.
+    double spread = std::sqrt(clear * (1 - clear) / (elements.isCluster(receiver) ? 1.0 : effective));
     for (std::size_t q = 0; q < 4; ++q)
       if (quadrantWeight[q] > 0) spread = std::max(spread, std::abs(quadrantClear[q] / quadrantWeight[q] - clear));
     result.spread = static_cast<float>(spread);

@@ -1,0 +1,124 @@
+// Properties that every diffuse solution must have, whatever the scene.
+#include <gtest/gtest.h>
+#include <deltalux/engine.hpp>
+
+#include "base/parallel.hpp"
+#include "solution/solution.hpp"
+#include "support/boxes.hpp"
+
+namespace deltalux {
+namespace {
+
+template <class Check>
+void forEachLeaf(const Solution& s, const Check& check) {
+  for (std::size_t i = 0; i < s.elements.size(); ++i) {
+    const ElementTopology& t = s.elements.topology[i];
+    if (t.kind == ElementKind::Patch && !t.emitter && !t.blocker && t.childCount == 0) check(ElementId(i));
+  }
+}
+
+Scene furnace(float rho) {
+  Scene scene;
+  const MaterialId wall = test::addMaterial(scene, "wall", Rgb(rho), Rgb(1.0f));
+  test::addBox(scene, "room", wall, {0, 0, 0}, {1, 1.5, 0.8}, true);
+  return scene;
+}
+
+class Furnace : public testing::TestWithParam<float> {};
+
+TEST_P(Furnace, IrradianceIsExitanceOverAbsorptance) {
+  // Closed, every wall M = pi and rho: E = pi / (1 - rho) everywhere. [conventions.md]
+  SolveSettings settings;
+  settings.error = 0.02;
+  Engine engine(furnace(GetParam()), settings);
+  EXPECT_TRUE(engine.solve().converged);
+  const Solution& s = engine.solution().get();
+  const double exact = kPi / (1 - GetParam());
+  double sum = 0, area = 0;
+  forEachLeaf(s, [&](ElementId e) {
+    if (!s.elements.at(e).front) return;
+    const ElementLight& l = s.elements.radiometry[e.index()];
+    EXPECT_NEAR((l.direct + l.indirect).g, exact, 0.02 * exact);
+    sum += s.elements.shape(e).area * (l.direct + l.indirect).g;
+    area += s.elements.shape(e).area;
+  });
+  EXPECT_NEAR(sum / area, exact, 0.005 * exact);
+  EXPECT_NO_THROW(validate(s.elements));
+  EXPECT_NO_THROW(validate(s.links, s.elements));
+}
+INSTANTIATE_TEST_SUITE_P(Reflectances, Furnace, testing::Values(0.1f, 0.5f, 0.9f));
+
+/// A room with a lamp below its ceiling and a block that casts shadows.
+Scene room(float lamp = 10.0f, float second = 0.0f) {
+  Scene scene;
+  const MaterialId white = test::addMaterial(scene, "white", Rgb(0.7f, 0.6f, 0.5f));
+  test::addBox(scene, "room", white, {0, 0, 0}, {4, 3, 2.5}, true);
+  test::addBox(scene, "block", white, {1.5, 1, 0}, {2.2, 1.8, 1.1}, false);
+  const MaterialId light = test::addMaterial(scene, "light", Rgb(0.0f), Rgb(std::max(lamp, 1e-6f)));
+  test::addPolygon(scene, "lamp", light, {{1, 1, 2.4}, {1, 1.6, 2.4}, {1.6, 1.6, 2.4}, {1.6, 1, 2.4}});
+  if (second > 0) {
+    const MaterialId other = test::addMaterial(scene, "other", Rgb(0.0f), Rgb(second));
+    test::addPolygon(scene, "lamp2", other, {{3, 2, 2.4}, {3, 2.4, 2.4}, {3.4, 2.4, 2.4}, {3.4, 2, 2.4}});
+  }
+  return scene;
+}
+
+std::vector<float> leafIrradiances(const Engine& engine) {
+  std::vector<float> values;
+  const Solution& s = engine.solution().get();
+  forEachLeaf(s, [&](ElementId e) {
+    const ElementLight& l = s.elements.radiometry[e.index()];
+    values.push_back(l.direct.r + l.indirect.r);
+  });
+  return values;
+}
+
+TEST(Solve, DoesNotDependOnTheThreadCount) {
+  const auto solve = [](std::size_t threads) {
+    const ThreadLimit limit(threads);
+    Engine engine(room());
+    engine.solve();
+    return leafIrradiances(engine);
+  };
+  const auto one = solve(1);
+  EXPECT_GT(one.size(), 100u);
+  EXPECT_EQ(one, solve(2));
+  EXPECT_EQ(one, solve(4));
+}
+
+TEST(Solve, IsLinearInTheLights) {
+  Engine once(room(10.0f)), thrice(room(30.0f));
+  once.solve(), thrice.solve();
+  const auto a = leafIrradiances(once), b = leafIrradiances(thrice);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(3 * a[i], b[i], 1e-3f * b[i] + 1e-5f);
+}
+
+TEST(Solve, EnergyIsAccountedFor) {
+  Engine engine(room());
+  const SolveReport report = engine.solve();
+  EXPECT_TRUE(report.converged);
+  const EnergyLedger& energy = report.energy;
+  // A closed room: what is emitted is absorbed, up to the error of form factors.
+  EXPECT_NEAR(*energy.absorbedW, *energy.emittedW, 0.03 * *energy.emittedW);
+  EXPECT_LT(*energy.unsettledW, 1e-3 * *energy.emittedW);
+  // The lamp: M A = pi * 10 * 0.36 W; a little of it meets no surface within single precision.
+  EXPECT_NEAR(*energy.emittedW, kPi * 10 * 0.36, 0.02 * kPi * 10 * 0.36);
+}
+
+TEST(Solve, WhatNoLightReachesHasNoElement) {
+  Engine engine(room());
+  engine.solve();
+  const Solution& s = engine.solution().get();
+  for (std::size_t i = 0; i < s.elements.size(); ++i) {
+    const ElementId e(i);
+    if (!s.elements.isInputLevel(e) || s.elements.at(e).emitter) continue;
+    const std::string& name = s.scene[s.scene[s.elements.domain[i].primitive].object].name;
+    if (name.starts_with("block") || name.starts_with("room")) {
+      EXPECT_TRUE(s.elements.at(e).front) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace deltalux
