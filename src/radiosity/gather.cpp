@@ -42,6 +42,9 @@ void GatherPlan::gatherDirect(Elements& elements) const { gather(elements, true)
 void GatherPlan::gatherIndirect(Elements& elements) const { gather(elements, false); }
 
 void GatherPlan::gather(Elements& elements, bool direct) const {
+  // An element whose links were all refined away since the last plan must not keep what they brought.
+  for (ElementLight& l : elements.radiometry) (direct ? l.directGathered : l.indirectGathered) = Rgb(0.0f);
+  for (ClusterLight& c : elements.clusters) (direct ? c.directGathered : c.indirectGathered) = {};
   parallelFor(receivers_.size(), 64, [&](std::size_t i) {
     const ElementId r = receivers_[i];
     const std::uint32_t first = direct ? begin_[i] : split_[i], last = direct ? split_[i] : begin_[i + 1];

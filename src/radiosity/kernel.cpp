@@ -11,6 +11,9 @@ namespace deltalux {
 
 namespace {
 
+constexpr double kQuadrature =
+    0.1;                       // error of the mean over a sender's nodes, relative to their spread: a uniform sender is
+                               // integrated, not sampled, and splitting it would only hide the receiver's error
 constexpr float kNear = 5.0f;  // in radii of the sender: nearer than this, Lambert's formula replaces the nodes
 
 bool isZero(const Vec3f& v) { return v.x == 0.0f && v.y == 0.0f && v.z == 0.0f; }
@@ -215,6 +218,13 @@ Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, 
   }
   double spread = 0;
   for (int i = 0; i < 4; ++i) spread += nodes.weight[i] * std::abs(at[i] - mean);
+  if (flatReceiver) {
+    // Nodes that lie alike see alike: the centre tells how K curves between them, and mends the mean of the nodes,
+    // which samples half of the patch's extent, to second order where it is smooth.
+    const double center = kernelAtPoint(elements, scene, r.center, r.normal, sender);
+    spread = std::max(spread, std::abs(center - mean));
+    if (std::abs(mean - center) < 0.3 * mean) mean += (mean - center) / 3.0;
+  }
   if (!distant && s.radius < 0.5f * r.radius) {
     // A small sender close to a large receiver peaks between the nodes: look where it is nearest.
     const Vec3f x = nearestPoint(r, s.center, rt.flat && !clusterReceiver);
@@ -239,7 +249,7 @@ Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, 
     if (st.kind == ElementKind::Patch || st.kind == ElementKind::Distant) k *= s.area;
     low = std::min(low, k), high = std::max(high, k);
   }
-  if (high > 0) result.senderSpread = static_cast<float>(0.5 * std::min(high - low, 2 * mean));
+  if (high > 0) result.senderSpread = static_cast<float>(kQuadrature * std::min(high - low, 2 * mean));
   // The inverse square counts from centres, and the harmonics from one direction.
   const float d = distant ? 1e30f : glm::length(r.center - s.center);
   if (clusterSender) {

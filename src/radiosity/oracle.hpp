@@ -14,10 +14,10 @@ namespace deltalux {
 /// Calibrated against reference values (docs/calibration.md); not meant to be set by users.
 struct OracleSettings {
   double error = 0.05;  // target relative error of irradiance
-  double share = 0.6;   // of the target that one link may take
+  double share = 0.1;   // of the target that one link may take
   double scale = 0.15;  // of the mean free path, gives the side of A_0
   double doubt = 4.0;   // weight of what sample rays leave unknown, against kernel variation (which is a bound)
-  double finest = 1.2;  // least area of a patch that is still split: finest * error * A_0
+  double finest = 0.6;  // least area of a patch that is still split: finest * error * A_0
   double direct = 20;   // budget of direct light against indirect: it is sampled anew where it is shown, so that only
                         // what it sends on matters, spread over all that its receiver sees
 };

@@ -191,9 +191,6 @@ class Judge {
     if (clusterReceiver) return r.radius >= s.radius ? Split::Receiver : Split::Sender;
     // Partial visibility is told apart best by the end that is larger.
     (r.area >= s.area ? e.receiver : e.sender) += e.visibility;
-    // A large sender close by: only its near part makes the receiver's light vary.
-    const bool near = glm::length(r.center - s.center) < r.radius + 2 * s.radius;
-    if (near && s.radius > 1.5f * r.radius) return Split::Sender;
     return e.receiver >= e.sender ? Split::Receiver : Split::Sender;
   }
 

@@ -35,8 +35,8 @@ TEST(Directional, OneLobeStaysNearTheClampedCosine) {
   }
 }
 
-TEST(Directional, ABoxOfLobesSendsItsProjectedArea) {
-  // Six unit faces of radiosity pi: intensity towards w is the projected area |wx| + |wy| + |wz|.
+TEST(Directional, ABoxOfLobesSendsItsMeanProjectedArea) {
+  // Six unit faces of radiosity pi. Order 2 cannot tell a cube from a ball: a quarter of the surface everywhere [Cauchy].
   DirectionalRgb f;
   for (int axis = 0; axis < 3; ++axis)
     for (const float sign : {-1.0f, 1.0f}) {
@@ -45,10 +45,7 @@ TEST(Directional, ABoxOfLobesSendsItsProjectedArea) {
       f.addLobe(n, Rgb(1.0f));
     }
   Rng rng(6);
-  for (int k = 0; k < 500; ++k) {
-    const Vec3f w = randomDirection(rng);
-    EXPECT_NEAR(f.at(w).g, std::abs(w.x) + std::abs(w.y) + std::abs(w.z), 0.26);
-  }
+  for (int k = 0; k < 500; ++k) EXPECT_NEAR(f.at(randomDirection(rng)).g, 1.5, 1e-4);
 }
 
 }  // namespace
