@@ -41,7 +41,7 @@ TEST(ProbeCommand, MeasuresTheFurnaceOnWallsAndInTheAir) {
     const PointTable table = readPoints(folder / "o.csv");
     EXPECT_EQ(table.columns, (Names{"name", "x", "y", "z", "nx", "ny", "nz", "E_r", "E_g", "E_b", "lux"}));
     for (std::size_t row = 0; row < 2; ++row) {
-      EXPECT_NEAR(column(table, row, "E_g"), 2 * kPi, 0.08 * 2 * kPi) << row;
+      EXPECT_NEAR(column(table, row, "E_g"), 2 * kPi, 0.03 * 2 * kPi) << row;
       EXPECT_NEAR(column(table, row, "E_g") * 179, column(table, row, "lux"), 0.01);
     }
   }

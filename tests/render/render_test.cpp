@@ -56,7 +56,7 @@ std::vector<ProbePoint> points() {
 class SolvedRoom : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    engine_ = std::make_unique<Engine>(room(), SolveSettings{.error = 0.1});
+    engine_ = std::make_unique<Engine>(room(), SolveSettings{.error = 0.03});
     engine_->solve();
   }
   static void TearDownTestSuite() { engine_.reset(); }
@@ -81,6 +81,22 @@ TEST(Probe, MeasuresDirectLightAsTheReferenceDoes) {
     EXPECT_NEAR(gray(measured[i].irradiance), gray(truth[i].irradiance), 5 * se + 1e-6) << i;
     EXPECT_LE(gray(measured[i].standardError), 0.03 * gray(measured[i].irradiance)) << i;
   }
+}
+
+TEST_F(SolvedRoom, ProbesAgreeWithTheReference) {
+  const auto where = points();
+  const auto measured = probe(engine_->solution(), where);
+  ReferenceSettings settings;
+  settings.diffuseOnly = true;  // of panes, the reflection
+  settings.samples = 20000;
+  const auto truth = ReferenceIntegrator(room(), settings).probe(where);
+  double sum = 0;
+  for (std::size_t i = 0; i < where.size(); ++i) {
+    const double E = gray(measured[i].irradiance), T = gray(truth[i].irradiance);
+    EXPECT_NEAR(E, T, 0.25 * T + 5 * gray(truth[i].standardError)) << i;
+    sum += std::abs(E - T) / T;
+  }
+  EXPECT_LT(sum / static_cast<double>(where.size()), 0.08);
 }
 
 TEST_F(SolvedRoom, GatheringAtLeavesKeepsTheMeshsLightOnAverage) {
