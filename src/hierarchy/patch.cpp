@@ -277,8 +277,6 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
     const Vec2 size = worldSize(elements, scene, e);
     splitU = size.x * kLongAndThin > size.y;
     splitV = size.y * kLongAndThin > size.x;
-  } else if (parent.depth == 0) {
-    splitU = true, splitV = true;
   }
   const float um = 0.5f * (whole.u0 + whole.u1), vm = 0.5f * (whole.v0 + whole.v1);
   std::vector<PatchDomain> parts;
@@ -303,7 +301,7 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
   }
   if (parts.empty()) return false;
 
-  const ElementId first = elements.addChildren(e, parent.kind, parts.size());
+  elements.addChildren(e, parent.kind, parts.size());
   const ElementLight inherited = elements.radiometry[e.index()];
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const ElementId c = elements.child(e, i);
@@ -326,7 +324,6 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
     else
       shapePatch(elements, scene, c);
   }
-  (void)first;
   return true;
 }
 
