@@ -15,9 +15,9 @@
 // fits that jump as leaves enter them).
 // Cost: about 15 neighbours a leaf to build (a ray for pairs that disagree), 0.2-0.5 microseconds a query (a ray per
 // neighbour where leaves are torn), no memory.
+#include "hierarchy/side_locator.hpp"
 #include "render/leaf_irradiance.hpp"
 #include "render/patch_support.hpp"
-#include "render/side_locator.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {

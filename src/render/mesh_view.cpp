@@ -4,7 +4,7 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
-#include "render/side_locator.hpp"
+#include "hierarchy/side_locator.hpp"
 #include "scene/light_sampling.hpp"
 #include "solution/solution.hpp"
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "hierarchy/side_locator.hpp"
 #include "render/direct_light.hpp"
 #include "render/irradiance_field.hpp"
-#include "render/side_locator.hpp"
 
 namespace deltalux {
 

@@ -1,4 +1,4 @@
-#include "render/side_locator.hpp"
+#include "hierarchy/side_locator.hpp"
 
 #include <algorithm>
 
