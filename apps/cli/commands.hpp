@@ -7,6 +7,7 @@
 namespace deltalux::cli {
 
 void addInfoCommand(CLI::App&);
+void addSolveCommand(CLI::App&);
 void addProbeCommand(CLI::App&);
 void addRenderCommand(CLI::App&);
 void addReferenceCommand(CLI::App&);
@@ -14,6 +15,7 @@ void addReferenceCommand(CLI::App&);
 /// All of them, in the order of --help.
 inline void addCommands(CLI::App& app) {
   addInfoCommand(app);
+  addSolveCommand(app);
   addProbeCommand(app);
   addRenderCommand(app);
   addReferenceCommand(app);

@@ -27,8 +27,8 @@ void runProbe(const ProbeOptions& options) {
   settings.seed = options.run.seed;
   {
     ProgressPrinter progress(options.run.progressStyle());
-    const Engine engine = options.source.solve(run, options.run, progress);
-    const std::vector<ProbeResult> results = probe(engine.solution(), table.points, settings, &progress);
+    const SolutionView solution = options.source.load(run, options.run, progress);
+    const std::vector<ProbeResult> results = probe(solution, table.points, settings, &progress);
     writeProbeResults(options.output, table, results, ProbeColumns::Values);
   }
   run.say(fmt::format("{}: {} points", options.output, table.points.size()));
@@ -37,7 +37,7 @@ void runProbe(const ProbeOptions& options) {
 }  // namespace
 
 void addProbeCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("probe", "Irradiance at points, from the solution of a scene");
+  CLI::App* command = app.add_subcommand("probe", "Irradiance at points, from a solution");
   const auto options = std::make_shared<ProbeOptions>();
   options->source.add(*command);
   command->add_option("--points", options->points, "Points to measure: columns x,y,z,nx,ny,nz")

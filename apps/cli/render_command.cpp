@@ -87,14 +87,14 @@ void runRender(const RenderOptions& options) {
   checkWritable(options.output);
   ProgressPrinter progress(options.run.progressStyle());
   std::optional<View> view;
-  const Engine engine = options.source.solve(run, options.run, progress,
-                                             [&](const Scene& scene) { view = chooseView(scene, options.view); });
+  const SolutionView solution = options.source.load(
+      run, options.run, progress, [&](const Scene& scene) { view = chooseView(scene, options.view); });
   const glm::ivec2 size = options.picture.resolution(*view);
   if (options.picture.falseColor()) {
-    const Image image = irradianceSeen(engine.solution(), *view, size, options.run.seed, progress);
+    const Image image = irradianceSeen(solution, *view, size, options.run.seed, progress);
     options.picture.saveFalseColor(options.output, image);
   } else {
-    Image image = picture(options, engine.solution(), *view, size, progress);
+    Image image = picture(options, solution, *view, size, progress);
     image.view = viewOptions(*view);
     options.picture.save(options.output, image, run);
   }
@@ -104,7 +104,7 @@ void runRender(const RenderOptions& options) {
 }  // namespace
 
 void addRenderCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("render", "A view of the solution of a scene");
+  CLI::App* command = app.add_subcommand("render", "A view of a solution");
   const auto options = std::make_shared<RenderOptions>();
   options->source.add(*command);
   CLI::Option* view = command->add_option("--view", options->view, "A .vf file, or a view or camera of the scene");

@@ -68,17 +68,17 @@ bool isGltf(const std::string& file) {
   return extension == ".gltf" || extension == ".glb";
 }
 
-SceneStats statsOf(const ImportedScene& imported) {
+}  // namespace
+
+SceneStats sceneStats(const Scene& scene) {
   SceneStats stats;
-  stats.objects = imported.scene.objects.size();
-  stats.primitives = imported.scene.primitives.size();
-  stats.lights = imported.scene.lights.size();
-  stats.ignored = imported.report.ignored;
-  for (const Primitive& primitive : imported.scene.primitives)
+  stats.objects = scene.objects.size();
+  stats.primitives = scene.primitives.size();
+  stats.lights = scene.lights.size();
+  for (const Primitive& primitive : scene.primitives)
     stats.polygonsIfTessellated += tessellatedPolygonCount(primitive.shape);
   return stats;
 }
-}  // namespace
 
 void SceneOptions::add(CLI::App& app) {
   app.add_option("SCENE", files, ".gltf, .glb or .obj, or .rad files in order")->required()->type_name("FILE");
@@ -109,7 +109,8 @@ ImportedScene SceneOptions::load(Run& run) const {
   for (const std::string& luminaire : luminaires) addLuminaire(imported.scene, *parsePlacement(luminaire));
   for (const std::string& warning : imported.report.warnings) run.say("warning: " + warning);
   run.report.times.import = run.elapsed() - begin;
-  run.report.sceneStats = statsOf(imported);
+  run.report.sceneStats = sceneStats(imported.scene);
+  run.report.sceneStats.ignored = imported.report.ignored;
   throwIfInterrupted();
   return imported;
 }

@@ -28,4 +28,7 @@ struct SceneOptions {
   CLI::Option* efficacyOption_ = nullptr;
 };
 
+/// What a scene holds; what its import ignored is not known to it.
+SceneStats sceneStats(const Scene&);
+
 }  // namespace deltalux::cli

@@ -1,26 +1,63 @@
 #include "solution_source.hpp"
 
+#include <deltalux/engine.hpp>
+#include <deltalux/solution_file.hpp>
+
+#include "interrupt.hpp"
+
 namespace deltalux::cli {
 
-void SolutionSource::add(CLI::App& app) {
-  scene_.add(app);
-  app.add_option("--error", settings_.error, "Target relative error of irradiance, solving the scene")
+void SolveOptions::add(CLI::App& app) {
+  app.add_option("--error", settings.error, "Target relative error of irradiance, solving the scene")
       ->type_name("E")
       ->check(CLI::Range(1e-4, 0.999))
       ->capture_default_str();
-  app.add_flag("--diffuse-only", settings_.diffuseOnly,
+  app.add_flag("--diffuse-only", settings.diffuseOnly,
                "Drop specular lobes and mirrors; thin glass still passes light");
 }
 
-Engine SolutionSource::solve(Run& run, const RunOptions& options, Progress& progress,
-                             const std::function<void(const Scene&)>& check) const {
+SolutionView SolveOptions::solve(Scene scene, Run& run, const RunOptions& options, Progress& progress) const {
+  SolveSettings withSeed = settings;
+  withSeed.seed = options.seed;
+  Engine engine(std::move(scene), withSeed);
+  noteSolve(engine.solve(&progress), run.report);
+  return engine.solution();
+}
+
+void SolutionSource::add(CLI::App& app) {
+  scene_.add(app);
+  solve_.add(app);
+  app.get_option("SCENE")->description(
+      "A solution (.dlx); or a scene, which is solved first: .gltf, .glb, .obj, or .rad files in order");
+  for (const char* name : {"--ies", "--metres-per-unit", "--efficacy", "--error", "--diffuse-only"})
+    sceneOnly_.push_back(app.get_option(name));
+}
+
+SolutionView SolutionSource::load(Run& run, const RunOptions& options, Progress& progress,
+                                  const std::function<void(const Scene&)>& check) const {
+  if (scene_.files.size() == 1 && isSolutionFile(scene_.files.front())) {
+    const SolutionView solution = loadFile(run);
+    if (check) check(solution.scene());
+    return solution;
+  }
   ImportedScene imported = scene_.load(run);
   if (check) check(imported.scene);
-  SolveSettings settings = settings_;
-  settings.seed = options.seed;
-  Engine engine(std::move(imported.scene), settings);
-  noteSolve(engine.solve(&progress), run.report);
-  return engine;
+  return solve_.solve(std::move(imported.scene), run, options, progress);
+}
+
+SolutionView SolutionSource::loadFile(Run& run) const {
+  for (const CLI::Option* option : sceneOnly_)
+    if (option->count() > 0)
+      throw CLI::ValidationError(option->get_name() + ": a solution is solved already; name the scene instead");
+  const double begin = run.elapsed();
+  run.report.scene = scene_.files.front();
+  SolutionView solution = loadSolution(scene_.files.front());
+  run.report.sceneStats = sceneStats(solution.scene());
+  noteSolve(solution.report(), run.report);
+  run.report.times = {};  // of this run
+  run.report.times.import = run.elapsed() - begin;
+  throwIfInterrupted();
+  return solution;
 }
 
 void noteSolve(const SolveReport& solved, RunReport& report) {

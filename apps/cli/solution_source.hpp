@@ -1,23 +1,35 @@
 #pragma once
 // Where a command reads a SOLUTION, a SCENE may stand: it is solved first.
-#include <deltalux/engine.hpp>
+#include <deltalux/solution.hpp>
 #include <functional>
 
 #include "scene_options.hpp"
 
 namespace deltalux::cli {
 
+/// What SolveSettings say, as options.
+struct SolveOptions {
+  SolveSettings settings;
+
+  void add(CLI::App&);  // --error, --diffuse-only
+  /// Solves; notes times, counts and energy in the run's report. Throws Interrupted.
+  SolutionView solve(Scene, Run&, const RunOptions&, Progress&) const;
+};
+
 class SolutionSource {
  public:
   void add(CLI::App&);
 
-  /// Reads the scene and solves it; notes times, counts and energy in the run's report. `check` sees the scene before
-  /// it is solved, so that a mistake does not wait for that. Throws InputError, Interrupted.
-  Engine solve(Run&, const RunOptions&, Progress&, const std::function<void(const Scene&)>& check = {}) const;
+  /// Reads the solution, or the scene and solves it; notes times, counts and energy in the run's report. `check` sees
+  /// the scene before it is solved, so that a mistake does not wait for that. Throws InputError, Interrupted.
+  SolutionView load(Run&, const RunOptions&, Progress&, const std::function<void(const Scene&)>& check = {}) const;
 
  private:
+  SolutionView loadFile(Run&) const;
+
   SceneOptions scene_;
-  SolveSettings settings_;
+  SolveOptions solve_;
+  std::vector<CLI::Option*> sceneOnly_;  // options that a solution leaves nothing to do for
 };
 
 /// Adds what solving did to a run's report.

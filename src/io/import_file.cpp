@@ -44,8 +44,12 @@ std::string readInputFile(const fs::path& file) {
   if (!fs::exists(status)) throw InputError(file.string(), 0, "no such file", "check the name");
   if (fs::is_directory(status)) throw InputError(file.string(), 0, "is a folder", "give the file itself");
   std::ifstream stream(file, std::ios::binary);
-  std::string content{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw InputError(file.string(), 0, "cannot be read", "check the permissions");
+  std::string content;
+  if (const auto size = fs::file_size(file, error); !error) content.reserve(size + 1);
+  char chunk[1 << 16];
+  while (stream.read(chunk, sizeof chunk) || stream.gcount() > 0)
+    content.append(chunk, static_cast<std::size_t>(stream.gcount()));
+  if (!stream.eof()) throw InputError(file.string(), 0, "cannot be read", "check the permissions");
   return content;
 }
 

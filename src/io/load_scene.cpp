@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <deltalux/error.hpp>
 #include <deltalux/io.hpp>
+#include <deltalux/solution_file.hpp>
 
 #include "io/gltf.hpp"
 #include "io/obj.hpp"
@@ -31,6 +32,10 @@ ImportedScene loadScene(const std::vector<fs::path>& files, const ImportSettings
   if (!(settings.metresPerUnit > 0) || !(settings.luminousEfficacy > 0)) {
     throw InputError(files[0].string(), 0, "metres per unit and luminous efficacy must be greater than zero");
   }
+  const auto solution = std::find_if(files.begin(), files.end(), isSolutionFile);
+  if (solution != files.end())
+    throw InputError(solution->string(), 0, "is a solution, and a scene is asked for",
+                     "name the scene it was made from");
   const auto other = std::find_if(files.begin(), files.end(), isOtherFormat);
   if (other == files.end()) return loadRadiance(files, settings);
   if (files.size() > 1) {

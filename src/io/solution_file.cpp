@@ -1,0 +1,92 @@
+#include "io/solution_file.hpp"
+
+#include <algorithm>
+#include <deltalux/error.hpp>
+
+#include "io/atomic_file.hpp"
+#include "io/mapped_file.hpp"
+#include "io/solution_file/references.hpp"
+#include "io/solution_file/solution_members.hpp"
+
+namespace deltalux {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What goes into which section, in the order of the file.
+void forEachSection(auto& solution, const auto& visit) {
+  visit("SETT", solution.settings);
+  visit("SCEN", solution.scene);
+  visit("ELEM", solution.elements);
+  visit("LINK", solution.links);
+  visit("REPT", solution.report);
+}
+
+Solution parse(std::string_view bytes, const std::string& file) {
+  const std::vector<Section> sections = openContainer(bytes, file);
+  Solution solution;
+  auto section = sections.begin();
+  forEachSection(solution, [&](std::string_view tag, auto& part) {
+    if (section == sections.end() || section->tag != tag)
+      throw InputError(file, 0, "is damaged: its sections are not those of a solution", "solve the scene again");
+    ArchiveReader reader(section->payload, file);
+    transfer(reader, part);
+    reader.require(reader.left() == 0);
+    ++section;
+  });
+  if (section != sections.end())
+    throw InputError(file, 0, "is damaged: it has a section too many", "solve the scene again");
+  return solution;
+}
+
+}  // namespace
+
+bool isSolutionFile(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension == ".dlx";
+}
+
+void writeSolution(const SolutionView& view, const ByteSink& sink) {
+  std::vector<std::uint64_t> lengths;
+  forEachSection(view.get(), [&](std::string_view, const auto& part) {
+    ByteCounter counter;
+    transfer(counter, part);
+    lengths.push_back(counter.total());
+  });
+  ContainerWriter writer(sink, lengths);
+  auto length = lengths.begin();
+  forEachSection(view.get(), [&](std::string_view tag, const auto& part) {
+    writer.beginSection(tag, *length++);
+    transfer(writer, part);
+    writer.endSection();
+  });
+  writer.flush();
+}
+
+void saveSolution(const fs::path& path, const SolutionView& view) {
+  AtomicFile file(path);
+  writeSolution(view, [&](std::string_view bytes) { file.write(bytes); });
+  file.commit();
+}
+
+SolutionView readSolution(std::string_view bytes, const std::string& file) {
+  auto solution = std::make_shared<Solution>(parse(bytes, file));
+  try {
+    validate(solution->scene);
+    checkReferences(*solution);
+  } catch (const std::logic_error& error) {
+    throw InputError(file, 0, std::string("does not hold together: ") + error.what(), "solve the scene again");
+  }
+  solution->tracer = makeEmbreeTracer(solution->scene);
+  return SolutionView(std::move(solution));
+}
+
+SolutionView loadSolution(const fs::path& path) {
+  const MappedFile file(path);
+  return readSolution(file.bytes(), path.string());
+}
+
+}  // namespace deltalux

@@ -1,0 +1,34 @@
+#pragma once
+// The members of a solution besides its scene, for archives. What the hierarchy's arrays hold are records: their fields
+// may change without a word here.
+#include "io/solution_file/scene_members.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux {
+
+void members(auto& archive, Is<SolveSettings> auto& s) {
+  auto& [error, particles, seconds, diffuseOnly, seed] = s;
+  transferAll(archive, error, particles, seconds, diffuseOnly, seed);
+}
+
+void members(auto& archive, Is<EnergyLedger> auto& e) {
+  auto& [emitted, absorbed, escaped, unsettled] = e;
+  transferAll(archive, emitted, absorbed, escaped, unsettled);
+}
+void members(auto& archive, Is<SolveReport> auto& r) {
+  auto& [times, counts, memory, energy, activeLinks, provenClear, provenBlocked, converged] = r;
+  transferAll(archive, times, counts, memory, energy, activeLinks, provenClear, provenBlocked, converged);
+}
+
+void members(auto& archive, Is<Elements> auto& e) {
+  auto& [topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines, frames,
+         sceneRoot, lightRoot, distant, sceneBox] = e;
+  transferAll(archive, topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines,
+              frames, sceneRoot, lightRoot, distant, sceneBox);
+}
+void members(auto& archive, Is<Links> auto& l) {
+  auto& [all, roots] = l;
+  transferAll(archive, all, roots);
+}
+
+}  // namespace deltalux
