@@ -1,0 +1,20 @@
+#include "caustics/adaptive_kernel.hpp"
+
+#include "caustics/walls.hpp"
+
+namespace deltalux {
+
+std::vector<Rgb> reconstructAdaptive(const CellGrid& grid, const CellLight& light, const BandwidthRule& rule) {
+  std::vector<Rgb> first = light.E;
+  const Walls walls = blurredWalls(grid, light);
+  HeatFlow(grid, walls.bandwidth, walls.openness).apply(first, 1.0);
+
+  const double darkness = rule.error * (medianOfFlux(grid, first) + rule.background);
+  const std::vector<float> openness = sharpWalls(grid, first, darkness);
+  std::vector<Rgb> E = light.E;
+  HeatFlow(grid, chooseBandwidths(grid, light, openness, rule), openness).apply(E, 1.0);
+  for (Rgb& value : E) value = glm::max(value, Rgb(0.0f));  // the series' last digits
+  return E;
+}
+
+}  // namespace deltalux

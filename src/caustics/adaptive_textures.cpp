@@ -1,0 +1,152 @@
+#include "caustics/adaptive_textures.hpp"
+
+#include <algorithm>
+
+#include "caustics/adaptive_kernel.hpp"
+#include "caustics/chart_part.hpp"
+#include "caustics/choice.hpp"
+#include "caustics/resolution.hpp"
+#include "caustics/surface_impacts.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr int kFirstTexels = 16 * 16;        // of the grid that resolution starts from
+constexpr int kCoarseTexels = 128 * 128;     // at most, to find regions with and to show the rest
+constexpr int kFineTexels = 320 * 320;       // at most, of one texture
+constexpr double kCoarsePerTexel = 12;       // particles in a coarse texel where the light falls
+constexpr double kFinePerTexel = 2;          // in a fine one: smaller ones tell noise from light no better
+constexpr std::size_t kLeastParticles = 64;  // of a region of its own
+constexpr int kMargin = 2;                   // coarse texels around a region
+constexpr double kMatters = 0.5;             // of the target error: differences that a region is made for
+
+/// Cuts the part into texels that hold `perTexel` particles where they are dense, at most `most`. [GD01 3.2]
+void resolve(const ChartSurface& surface, ChartPart& part, double perTexel, int most) {
+  const double area = part.region.size().x * part.region.size().y;
+  for (int count = std::min(kFirstTexels, most);;) {
+    surface.recut(part, squareTexels(part.region.size(), area / count, most));
+    if (count >= most) return;
+    const double wanted = area / texelArea(part, perTexel);
+    if (wanted < count + 1) return;
+    // Peaks show themselves as texels shrink: by steps.
+    count = static_cast<int>(std::min({wanted, 4.0 * count, double(most)}));
+  }
+}
+
+class AdaptiveTextures {
+ public:
+  AdaptiveTextures(const Shape& shape, const CausticSettings& settings)
+      : shape_(shape), rule_{settings.error, settings.background} {
+    result_.charts = chartsOf(shape);
+  }
+
+  /// Places the particles and cuts coarse textures. What they show that a mesh would not.
+  Departure place(std::span<const Impact> impacts) {
+    auto placed = placeImpacts(shape_, result_.charts, impacts);
+    parts_.resize(placed.size());
+    Departure total;
+    std::vector<double> flux(placed.size(), 0.0), areas(placed.size(), 0.0);
+    double grain = 0;
+    for (std::uint32_t c = 0; c < placed.size(); ++c) {
+      if (placed[c].empty()) continue;
+      const ChartSurface surface(shape_, result_.charts, c);
+      parts_[c] = surface.whole(glm::ivec2(1), std::move(placed[c]));
+      resolve(surface, parts_[c], kCoarsePerTexel, kCoarseTexels);
+      const CellGrid grid = surface.grid(parts_[c]);
+      const CellLight light = collect(grid, parts_[c].impacts);
+      total += departure(grid, light);
+      flux[c] = gray(light.flux), areas[c] = grid.totalArea();
+      grain = std::max(grain, light.grain());
+    }
+    if (placed.size() < 2) return total;
+    const std::vector<double> dark = darkAreas(areas);
+    for (std::size_t c = 0; c < areas.size(); ++c)
+      if (areas[c] == 0) areas[c] = dark[c], total.area += dark[c];
+    return total += departureBetween(flux, areas, grain);
+  }
+
+  SurfaceCaustics restricted() {
+    for (std::uint32_t c = 0; c < parts_.size(); ++c) {
+      if (parts_[c].impacts.empty()) continue;
+      const ChartSurface surface(shape_, result_.charts, c);
+      takeRegionsOut(surface, parts_[c]);
+      put(surface, parts_[c]);
+    }
+    return std::move(result_);
+  }
+
+  SurfaceCaustics unrestricted(int texels) {
+    for (std::uint32_t c = 0; c < parts_.size(); ++c) {
+      if (parts_[c].impacts.empty()) continue;
+      const ChartSurface surface(shape_, result_.charts, c);
+      const Vec2 size = parts_[c].region.size();
+      surface.recut(parts_[c], squareTexels(size, size.x * size.y / texels, texels));
+      put(surface, parts_[c]);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// Areas of a mesh's charts that no particle met; 0 for the others.
+  std::vector<double> darkAreas(const std::vector<double>& lit) const {
+    const Mesh& mesh = std::get<Mesh>(shape_);
+    std::vector<double> areas(lit.size(), 0.0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const std::uint32_t chart = result_.charts.ofTriangle[t];
+      if (lit[chart] == 0) areas[chart] += mesh.cumulativeArea[t] - (t > 0 ? mesh.cumulativeArea[t - 1] : 0.0);
+    }
+    return areas;
+  }
+
+  void takeRegionsOut(const ChartSurface& surface, ChartPart& whole) {
+    const CellGrid grid = surface.grid(whole);
+    const CellLight light = collect(grid, whole.impacts);
+    const std::vector<Rgb> E = reconstructAdaptive(grid, light, rule_);
+    const double difference = kMatters * rule_.error * (medianOfFlux(grid, E) + rule_.background);
+    for (const TexelBox& box : markedBoxes(grid, cellsOffMedian(grid, E, difference), kMargin)) {
+      if (particlesIn(box, grid, whole) < kLeastParticles) continue;
+      ChartPart region = surface.takeOut(whole, grid, box, glm::ivec2(1));
+      resolve(surface, region, kFinePerTexel, kFineTexels);
+      put(surface, region);
+    }
+  }
+
+  static std::size_t particlesIn(const TexelBox& box, const CellGrid& grid, const ChartPart& part) {
+    return static_cast<std::size_t>(std::count_if(part.impacts.begin(), part.impacts.end(), [&](const auto& impact) {
+      const std::uint32_t texel = grid.texelNear(impact.st);
+      if (texel == CellGrid::kNone) return false;
+      return holds(box, static_cast<int>(texel) % grid.width(), static_cast<int>(texel) / grid.width(), grid.width());
+    }));
+  }
+
+  void put(const ChartSurface& surface, const ChartPart& part) {
+    const CellGrid grid = surface.grid(part);
+    if (grid.size() == 0) return;
+    const CellLight light = collect(grid, part.impacts);
+    result_.textures.push_back(surface.texture(part, grid, light, reconstructAdaptive(grid, light, rule_)));
+  }
+
+  const Shape& shape_;
+  BandwidthRule rule_;
+  SurfaceCaustics result_;
+  std::vector<ChartPart> parts_;  // by chart
+};
+
+}  // namespace
+
+std::optional<SurfaceCaustics> makeCausticTextures(const Shape& shape, std::span<const Impact> impacts,
+                                                   const CausticSettings& settings) {
+  AdaptiveTextures textures(shape, settings);
+  if (!deservesTexture(textures.place(impacts), settings.error, settings.background)) return std::nullopt;
+  return textures.restricted();
+}
+
+SurfaceCaustics makeUnrestrictedTextures(const Shape& shape, std::span<const Impact> impacts,
+                                         const CausticSettings& settings, int texels) {
+  AdaptiveTextures textures(shape, settings);
+  textures.place(impacts);
+  return textures.unrestricted(texels);
+}
+
+}  // namespace deltalux

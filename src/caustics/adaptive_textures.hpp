@@ -1,0 +1,29 @@
+#pragma once
+// Caustic textures of one side of a surface, with nothing to set but the target error [GD01 3]:
+//   1. Does what landed there depart from what a mesh can show?            choice.hpp
+//   2. Which parts of the surface need fine texels?                          restriction.hpp
+//   3. Texels down to what the particles can tell, in each part.           resolution.hpp
+//   4. Kernels as wide as the particles allow, texel by texel.             adaptive_kernel.hpp
+// The rest of the surface keeps a coarse texture, cut out where the fine ones are. Every particle is in exactly one.
+// Cost: about 5 microseconds a texel.
+#include <optional>
+
+#include "caustics/caustic_texture.hpp"
+#include "particles/impact.hpp"
+
+namespace deltalux {
+
+struct CausticSettings {
+  double error = 0.05;  // target relative error of irradiance
+  double background =
+      0;  // gray irradiance of all other light on this side [W/m2]: what errors are measured against too
+};
+
+/// Textures for impacts on one side of a surface; nullopt where the mesh will do.
+std::optional<SurfaceCaustics> makeCausticTextures(const Shape&, std::span<const Impact>, const CausticSettings&);
+
+/// The same with one texture a chart, not restricted to where it is needed: to see what restriction does. `texels`: of
+/// each texture.
+SurfaceCaustics makeUnrestrictedTextures(const Shape&, std::span<const Impact>, const CausticSettings&, int texels);
+
+}  // namespace deltalux

@@ -1,0 +1,61 @@
+#include "caustics/bandwidth.hpp"
+
+#include <algorithm>
+
+namespace deltalux {
+
+namespace {
+
+constexpr double kNarrowest = 0.5;       // standard deviation in cells
+constexpr double kConfidence = 3;        // standard deviations of a difference that noise explains
+constexpr double kLeastParticles = 4.0;  // that a kernel expects when it is asked
+constexpr double kBlend = 1.0;           // cells over which chosen widths blend into each other
+
+/// Where the widths are compared.
+struct Place {
+  std::size_t cell;
+  double area, meanArea;
+
+  /// Of a kernel here: cells cut by an outline are noisier than others.
+  double overlap(const ScaleLevel& l) const {
+    return area < 0.9 * meanArea ? kernelOverlap(l.width, l.width, area) : l.overlap;
+  }
+};
+
+bool contradict(const ScaleLevel& wide, const ScaleLevel& narrow, const Place& at) {
+  const double squares = wide.squares(at.cell), E = wide.E(at.cell), overlap = at.overlap(narrow);
+  if (E * E / squares / overlap < kLeastParticles) return false;
+  const double both = kernelOverlap(wide.width, narrow.width, at.meanArea);
+  const double variance = squares * (overlap + wide.overlap - 2 * both);
+  const double difference = E - narrow.light[at.cell].x;
+  return difference * difference > kConfidence * kConfidence * variance;
+}
+
+/// The width of the widest kernel that all narrower ones bear out.
+double widthAt(const std::vector<ScaleLevel>& levels, const Place& at, const BandwidthRule& rule) {
+  std::size_t k = 1;
+  for (; k < levels.size(); ++k) {
+    const auto narrower = levels.begin() + static_cast<std::ptrdiff_t>(k);
+    if (std::any_of(levels.begin(), narrower, [&](const ScaleLevel& l) { return contradict(levels[k], l, at); })) break;
+    const double allowed = rule.error * (levels[k].E(at.cell) + rule.background);
+    if (levels[k].squares(at.cell) * levels[k].overlap <= allowed * allowed) return levels[k].width;
+  }
+  return levels[k - 1].width;
+}
+
+}  // namespace
+
+std::vector<float> chooseBandwidths(const CellGrid& grid, const CellLight& light, Openness open,
+                                    const BandwidthRule& rule) {
+  const std::vector<ScaleLevel> levels = scaleSpace(grid, light, open);
+  const double area = grid.meanArea(), narrowest = kNarrowest * std::sqrt(area);
+  std::vector<float> logs;
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    logs.push_back(static_cast<float>(std::log(std::max(widthAt(levels, {i, grid.area(i), area}, rule), narrowest))));
+  // Choices are noisy too: their logarithms blend with their neighbours'.
+  HeatFlow(grid, std::vector<float>(grid.size(), 1.0f), open).apply(logs, 0.5 * kBlend * kBlend * area);
+  for (float& l : logs) l = 0.5f * std::exp(2 * l);
+  return logs;
+}
+
+}  // namespace deltalux

@@ -1,0 +1,24 @@
+#pragma once
+// How wide must the kernel be at each cell? As wide as the particles allow: kernels grow by factors of sqrt 2 until the
+// estimate with the next one contradicts one with a narrower kernel by more than noise explains (Lepski's method, as
+// the intersection of confidence intervals [Katkovnik99]), or until its own noise is within the target error. Smooth
+// light is averaged over many particles, the figure of a caustic over few; nothing is set by hand.
+//
+// The noise of a difference is that which the wider kernel's own estimate predicts, as a chi-square test does: where no
+// particle fell, narrow kernels know no noise at all. Narrow kernels that expect fewer particles than kLeastParticles
+// are not asked.
+#include <vector>
+
+#include "caustics/scale_space.hpp"
+
+namespace deltalux {
+
+struct BandwidthRule {
+  double error = 0.05;    // relative noise that is small enough
+  double background = 0;  // gray irradiance of other light, which the noise may be compared with too [W/m2]
+};
+
+/// Half the variance of the kernel of every cell [unit^2]: the conductivity that HeatFlow takes for a time of 1.
+std::vector<float> chooseBandwidths(const CellGrid&, const CellLight&, Openness, const BandwidthRule&);
+
+}  // namespace deltalux

@@ -1,0 +1,179 @@
+#include "caustics/cell_grid.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "base/check.hpp"
+
+namespace deltalux {
+
+namespace {
+constexpr float kSliver = 0.4f;      // of a texel: less surface joins a neighbour
+constexpr double kThin = 0.5;        // width over height from which texels stand alone
+constexpr double kWholeTurn = 1e-9;  // of the chart's width
+}  // namespace
+
+CellGrid::CellGrid(const Chart& chart, const Region& region, int width, int height, std::span<const float> areas)
+    : region_(region), width_(width), height_(height) {
+  DELTALUX_CHECK(areas.size() == static_cast<std::size_t>(width) * height, "one area per texel");
+  closed_ = chart.closed() && region.size().x >= chart.size.x * (1 - kWholeTurn);
+  const double edge = kWholeTurn * chart.size.y;
+  poleAtStart_ = closed_ && chart.poleAtStart() && region.lower.y <= edge;
+  poleAtEnd_ = closed_ && chart.poleAtEnd() && region.upper.y >= chart.size.y - edge;
+  cellOf_.resize(areas.size());
+  for (std::size_t i = 0; i < areas.size(); ++i) cellOf_[i] = areas[i] > 0 ? static_cast<std::uint32_t>(i) : kNone;
+  if (chart.closed())
+    joinTowardsPoles(chart, areas);
+  else
+    joinSlivers(areas);
+  numberCells(areas);
+  findBorders(chart, areas);
+}
+
+/// Texels of a row that make one cell.
+int CellGrid::groupAt(const Chart& chart, int row) const {
+  if (!chart.closed()) return 1;
+  const Vec2 texel = region_.size() / Vec2(width_, height_);
+  const double across = texel.x * chart.stretch(region_.lower.y + (row + 0.5) * texel.y);
+  int group = 1;
+  while (group < width_ && group * across < kThin * texel.y) group *= 2;
+  return group;
+}
+
+void CellGrid::joinTowardsPoles(const Chart& chart, std::span<const float> areas) {
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0, group = groupAt(chart, y); x < width_; ++x) {
+      const std::size_t first = texelAt(x - x % group, y);
+      if (areas[texelAt(x, y)] > 0 && areas[first] > 0) cellOf_[texelAt(x, y)] = static_cast<std::uint32_t>(first);
+    }
+}
+
+void CellGrid::joinSlivers(std::span<const float> areas) {
+  const float whole = areas.empty() ? 0.0f : *std::max_element(areas.begin(), areas.end());
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      const std::size_t i = texelAt(x, y);
+      if (!(areas[i] > 0) || areas[i] >= kSliver * whole) continue;
+      std::size_t best = i;
+      const auto consider = [&](int nx, int ny) {
+        if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) return;
+        if (areas[texelAt(nx, ny)] > areas[best]) best = texelAt(nx, ny);
+      };
+      consider(x - 1, y), consider(x + 1, y), consider(x, y - 1), consider(x, y + 1);
+      // Only ever towards larger areas, so that no chain comes back to itself.
+      cellOf_[i] = static_cast<std::uint32_t>(best);
+    }
+}
+
+void CellGrid::numberCells(std::span<const float> areas) {
+  const auto rootOf = [&](std::uint32_t i) {
+    while (cellOf_[i] != i) i = cellOf_[i];
+    return i;
+  };
+  std::vector<std::uint32_t> root(cellOf_.size(), kNone), number(cellOf_.size(), kNone);
+  for (std::size_t i = 0; i < cellOf_.size(); ++i)
+    if (cellOf_[i] != kNone) root[i] = rootOf(static_cast<std::uint32_t>(i));
+  for (std::size_t i = 0; i < root.size(); ++i) {
+    if (root[i] == kNone) continue;
+    std::uint32_t& n = number[root[i]];
+    if (n == kNone) {
+      n = static_cast<std::uint32_t>(area_.size());
+      area_.push_back(0.0f);
+    }
+    cellOf_[i] = n;
+    area_[n] += areas[i];
+  }
+  for (const float a : area_) totalArea_ += a;
+}
+
+std::vector<CellGrid::Shared> CellGrid::sharedSides(const Chart& chart, std::span<const float> areas) const {
+  std::vector<Shared> found;
+  found.reserve(12 * areas.size());
+  const Vec2 texel = region_.size() / Vec2(width_, height_);
+  const float whole = areas.empty() ? 0.0f : *std::max_element(areas.begin(), areas.end());
+  const auto add = [&](std::size_t i, std::size_t j, double share) {
+    const std::uint32_t a = cellOf_[i], b = cellOf_[j];
+    if (a == kNone || b == kNone || a == b || !(share > 0)) return;
+    // Where an outline cuts texels, it cuts their border too.
+    if (!chart.closed()) share *= std::min(1.0, double(std::min(areas[i], areas[j])) / whole);
+    found.push_back({a, b, static_cast<float>(share), false}),
+        found.push_back({b, a, static_cast<float>(share), false});
+  };
+  for (int y = 0; y < height_; ++y) {
+    const double t = region_.lower.y + y * texel.y;
+    const double across = texel.x * chart.stretch(t + 0.5 * texel.y) * groupAt(chart, y);
+    const double above = texel.x * chart.stretch(t + texel.y);
+    for (int x = 0; x < width_; ++x) {
+      const int right = x + 1 < width_ ? x + 1 : (closed_ && width_ > 1 ? 0 : -1);
+      if (right >= 0) add(texelAt(x, y), texelAt(right, y), texel.y / across);
+      if (y + 1 < height_) add(texelAt(x, y), texelAt(x, y + 1), above / texel.y);
+    }
+  }
+  return found;
+}
+
+/// The nine-point form of the flow in squares of four whole cells: each diagonal takes over as much as the four sides
+/// give, which leaves the flow of smooth light as it is and lets it run along slanting edges.
+void CellGrid::shareDiagonals(const Chart& chart, std::span<const float> areas, std::vector<Shared>& found) const {
+  if (width_ < 3) return;
+  const Vec2 texel = region_.size() / Vec2(width_, height_);
+  const float whole = areas.empty() ? 0.0f : *std::max_element(areas.begin(), areas.end());
+  const auto isWhole = [&](std::size_t i) {
+    const std::uint32_t cell = cellOf_[i];
+    return cell != kNone && area_[cell] < 1.01f * areas[i] && (chart.closed() || areas[i] > 0.99f * whole);
+  };
+  for (int y = 0; y + 1 < height_; ++y) {
+    const double across = texel.x * chart.stretch(region_.lower.y + (y + 1) * texel.y);
+    const auto share = static_cast<float>(std::min(across / texel.y, texel.y / across) / 6);
+    for (int x = 0; x + (closed_ ? 0 : 1) < width_; ++x) {
+      const int right = x + 1 < width_ ? x + 1 : 0;
+      const std::size_t a = texelAt(x, y), b = texelAt(right, y), c = texelAt(x, y + 1), d = texelAt(right, y + 1);
+      if (!isWhole(a) || !isWhole(b) || !isWhole(c) || !isWhole(d)) continue;
+      const auto both = [&](std::size_t i, std::size_t j, float s, bool diagonal) {
+        found.push_back({cellOf_[i], cellOf_[j], s, diagonal}), found.push_back({cellOf_[j], cellOf_[i], s, diagonal});
+      };
+      both(a, d, share, true), both(b, c, share, true);
+      both(a, b, -share, false), both(c, d, -share, false), both(a, c, -share, false), both(b, d, -share, false);
+    }
+  }
+}
+
+void CellGrid::findBorders(const Chart& chart, std::span<const float> areas) {
+  std::vector<Shared> found = sharedSides(chart, areas);
+  shareDiagonals(chart, areas, found);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Shared& a, const Shared& b) { return std::tie(a.a, a.b) < std::tie(b.a, b.b); });
+  firstBorder_.assign(area_.size() + 1, 0);
+  for (std::size_t k = 0; k < found.size();) {
+    const Shared& first = found[k];
+    float share = 0;
+    std::size_t end = k;
+    for (; end < found.size() && found[end].a == first.a && found[end].b == first.b; ++end) share += found[end].share;
+    borders_.push_back({first.b, share, first.diagonal});
+    ++firstBorder_[first.a + 1];
+    k = end;
+  }
+  for (std::size_t c = 0; c < area_.size(); ++c) firstBorder_[c + 1] += firstBorder_[c];
+}
+
+std::uint32_t CellGrid::texelNear(const Vec2& st) const {
+  const Vec2 at = (st - region_.lower) / region_.size() * Vec2(width_, height_);
+  const int x = std::clamp(static_cast<int>(std::floor(at.x)), 0, width_ - 1);
+  const int y = std::clamp(static_cast<int>(std::floor(at.y)), 0, height_ - 1);
+  if (cellOf_[texelAt(x, y)] != kNone) return static_cast<std::uint32_t>(texelAt(x, y));
+  for (int ring = 1; ring < std::max(width_, height_); ++ring) {
+    std::uint32_t best = kNone;
+    double least = kInfinity;
+    for (int dy = -ring; dy <= ring; ++dy)
+      for (int dx = -ring; dx <= ring; dx += std::abs(dy) == ring ? 1 : 2 * ring) {
+        const int nx = x + dx, ny = y + dy;
+        if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_ || cellOf_[texelAt(nx, ny)] == kNone) continue;
+        const Vec2 d = Vec2(nx + 0.5, ny + 0.5) - at;
+        if (glm::dot(d, d) < least) least = glm::dot(d, d), best = static_cast<std::uint32_t>(texelAt(nx, ny));
+      }
+    if (best != kNone) return best;
+  }
+  return kNone;
+}
+
+}  // namespace deltalux

@@ -1,0 +1,49 @@
+#include "caustics/chart_part.hpp"
+
+#include "caustics/coverage.hpp"
+
+namespace deltalux {
+
+ChartPart ChartSurface::whole(glm::ivec2 texels, std::vector<ChartImpact> impacts) const {
+  ChartPart part;
+  part.region = {Vec2(0), chart().size};
+  part.impacts = std::move(impacts);
+  recut(part, texels);
+  return part;
+}
+
+void ChartSurface::recut(ChartPart& part, glm::ivec2 texels) const {
+  part.texels = texels;
+  part.areas = coveredAreas(shape_, charts_, chart_, part.region, texels.x, texels.y);
+}
+
+ChartPart ChartSurface::takeOut(ChartPart& from, const CellGrid& grid, const TexelBox& box, glm::ivec2 texels) const {
+  const int width = from.texels.x;
+  const auto inside = [&](std::size_t texel) {
+    return holds(box, static_cast<int>(texel) % width, static_cast<int>(texel) / width, width);
+  };
+  ChartPart part;
+  part.region = regionOf(grid, box);
+  std::erase_if(from.impacts, [&](const ChartImpact& impact) {
+    const std::uint32_t texel = grid.texelNear(impact.st);
+    if (texel == CellGrid::kNone || !inside(texel)) return false;
+    part.impacts.push_back(impact);
+    // On a closed chart a box may run on over the seam.
+    if (chart().closed() && impact.st.x < part.region.lower.x) part.impacts.back().st.x += chart().size.x;
+    return true;
+  });
+  for (std::size_t i = 0; i < from.areas.size(); ++i)
+    if (inside(i)) from.areas[i] = 0;
+  recut(part, texels);
+  return part;
+}
+
+CausticTexture ChartSurface::texture(const ChartPart& part, const CellGrid& grid, const CellLight& light,
+                                     const std::vector<Rgb>& E) const {
+  CausticTexture result = makeTexture(chart_, grid, part.areas, E);
+  result.flux = light.flux;
+  result.particles = light.particles;
+  return result;
+}
+
+}  // namespace deltalux

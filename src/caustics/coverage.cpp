@@ -1,0 +1,143 @@
+#include "caustics/coverage.hpp"
+
+#include <algorithm>
+
+namespace deltalux {
+
+namespace {
+
+constexpr int kSamples = 8;  // a side of a texel
+
+/// Texels of a region, and where they lie.
+struct Raster {
+  Region region;
+  int width, height;
+  Vec2 texel{region.size() / Vec2(width, height)};
+
+  Vec2 at(double x, double y) const { return region.lower + Vec2(x, y) * texel; }
+  Vec2 toTexels(const Vec2& st) const { return (st - region.lower) / texel; }
+};
+
+/// Marks the texels that a segment of the chart runs through, and their neighbours.
+void markAlong(const Raster& r, const Vec2& from, const Vec2& to, std::vector<char>& marked) {
+  const Vec2 a = r.toTexels(from), b = r.toTexels(to);
+  const int steps = 1 + static_cast<int>(2 * std::max(std::abs(b.x - a.x), std::abs(b.y - a.y)));
+  for (int i = 0; i <= steps; ++i) {
+    const Vec2 p = glm::floor(a + double(i) / steps * (b - a));
+    for (int y = static_cast<int>(p.y) - 1; y <= static_cast<int>(p.y) + 1; ++y)
+      for (int x = static_cast<int>(p.x) - 1; x <= static_cast<int>(p.x) + 1; ++x)
+        if (x >= 0 && y >= 0 && x < r.width && y < r.height) marked[static_cast<std::size_t>(y) * r.width + x] = 1;
+  }
+}
+
+template <class Covers>
+std::vector<float> sampledAreas(const Raster& r, const std::vector<char>& marked, const Covers& covers) {
+  std::vector<float> areas(marked.size(), 0.0f);
+  const double whole = r.texel.x * r.texel.y;
+  for (int y = 0; y < r.height; ++y)
+    for (int x = 0; x < r.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * r.width + x;
+      if (!marked[i]) {
+        areas[i] = covers(r.at(x + 0.5, y + 0.5)) ? static_cast<float>(whole) : 0.0f;
+        continue;
+      }
+      int inside = 0;
+      for (int k = 0; k < kSamples * kSamples; ++k)
+        inside += covers(r.at(x + (k % kSamples + 0.5) / kSamples, y + (k / kSamples + 0.5) / kSamples));
+      areas[i] = static_cast<float>(whole * inside / (kSamples * kSamples));
+    }
+  return areas;
+}
+
+std::vector<float> areasOf(const Polygon& p, const Chart& chart, std::size_t, const Charts&, const Raster& r) {
+  const PlaneChart& plane = std::get<PlaneChart>(chart.map);
+  std::vector<char> marked(static_cast<std::size_t>(r.width) * r.height, 0);
+  for (std::size_t i = 0, n = p.vertices.size(); i < n; ++i) {
+    SurfacePoint from, to;
+    from.position = p.vertices[i], to.position = p.vertices[(i + 1) % n];
+    markAlong(r, chart.place(from), chart.place(to), marked);
+  }
+  const Shape shape = p;
+  return sampledAreas(r, marked, [&](const Vec2& st) {
+    const Vec3 d = plane.origin + st.x * plane.alongS + st.y * plane.alongT - p.origin;
+    return covers(shape, {glm::dot(d, p.dualU), glm::dot(d, p.dualV)});
+  });
+}
+
+std::vector<float> areasOf(const Ring& ring, const Chart&, std::size_t, const Charts&, const Raster& r) {
+  std::vector<char> marked(static_cast<std::size_t>(r.width) * r.height, 0);
+  const Vec2 center(ring.outerRadius);
+  for (const double radius : {ring.innerRadius, ring.outerRadius}) {
+    constexpr int sides = 64;
+    const auto at = [&](int k) {
+      const double phi = 2 * kPi * k / sides;
+      return center + radius * Vec2(std::cos(phi), std::sin(phi));
+    };
+    for (int k = 0; k < sides; ++k) markAlong(r, at(k), at(k + 1), marked);
+  }
+  return sampledAreas(r, marked, [&](const Vec2& st) {
+    const double radius = glm::length(st - center);
+    return radius >= ring.innerRadius && radius <= ring.outerRadius;
+  });
+}
+
+std::vector<float> areasOf(const Mesh& m, const Chart& chart, std::size_t index, const Charts& charts,
+                           const Raster& r) {
+  std::vector<double> areas(static_cast<std::size_t>(r.width) * r.height, 0.0);
+  double projected = 0, sampled = 0;
+  for (std::uint32_t t = 0; t < m.triangles.size(); ++t) {
+    if (charts.ofTriangle[t] != index) continue;
+    Vec2 corner[3];
+    for (int k = 0; k < 3; ++k) {
+      SurfacePoint p;
+      p.position = m.positions[m.triangles[t][k]];
+      corner[k] = double(kSamples) * r.toTexels(chart.place(p));
+    }
+    const auto turn = [](const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; };
+    const double flat = std::abs(turn(corner[1] - corner[0], corner[2] - corner[0]));
+    const double below = t == 0 ? 0.0 : m.cumulativeArea[t - 1];
+    const double area = m.cumulativeArea[t] - below, perSample = flat > 0 ? 2 * area / flat : 0.0;
+    const Vec2 low = glm::min(corner[0], glm::min(corner[1], corner[2]));
+    const Vec2 high = glm::max(corner[0], glm::max(corner[1], corner[2]));
+    const int x0 = std::max(0, static_cast<int>(low.x - 0.5)), y0 = std::max(0, static_cast<int>(low.y - 0.5));
+    const int x1 = std::min(r.width * kSamples - 1, static_cast<int>(high.x));
+    const int y1 = std::min(r.height * kSamples - 1, static_cast<int>(high.y));
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) {
+        const Vec2 p(x + 0.5, y + 0.5);
+        const double a = turn(corner[1] - corner[0], p - corner[0]), b = turn(corner[2] - corner[1], p - corner[1]),
+                     c = turn(corner[0] - corner[2], p - corner[2]);
+        if (std::min({a, b, c}) < 0 && std::max({a, b, c}) > 0) continue;
+        areas[static_cast<std::size_t>(y / kSamples) * r.width + x / kSamples] += perSample;
+        sampled += perSample;
+      }
+    projected += area;
+  }
+  // Triangles smaller than the samples are hit or missed by chance: on the whole they count for what they are. A region
+  // that leaves triangles out has no such sum to meet.
+  const bool all = r.region.contains({0, 0}) && r.region.contains(chart.size);
+  const double mend = all && sampled > 0 ? projected / sampled : 1.0;
+  std::vector<float> result;
+  for (const double a : areas) result.push_back(static_cast<float>(mend * a));
+  return result;
+}
+
+template <class TurnShape>
+std::vector<float> areasOf(const TurnShape&, const Chart& chart, std::size_t, const Charts&, const Raster& r) {
+  std::vector<float> areas;
+  for (int y = 0; y < r.height; ++y) {
+    const double band = chart.bandArea(r.at(0, y).y, r.at(0, y + 1).y);
+    areas.insert(areas.end(), r.width, static_cast<float>(r.texel.x * std::max(band, 0.0)));
+  }
+  return areas;
+}
+
+}  // namespace
+
+std::vector<float> coveredAreas(const Shape& shape, const Charts& charts, std::size_t chart, const Region& region,
+                                int width, int height) {
+  const Raster raster{region, width, height};
+  return std::visit([&](const auto& s) { return areasOf(s, charts.all[chart], chart, charts, raster); }, shape);
+}
+
+}  // namespace deltalux

@@ -1,0 +1,46 @@
+#pragma once
+// Smoothing by the flow of heat over the cells of a surface: dE/dt = div(D grad E), without flow through outlines. As a
+// density estimate this is the kernel method at its best on bounded, curved domains [Botev10]: the kernel is Gaussian,
+// of variance 2 D t, where D is constant; it keeps the flux to the last bit of rounding, reproduces a uniform density
+// exactly whatever D is, and so neither darkens at borders nor shows seams. Where D varies the kernel does, and a small
+// D is a wall to what lies on either side of it.
+//
+// exp(-t L) is summed as a Chebyshev series: as many steps as the widest kernel's radius in cells times 7, each a pass
+// over all borders. Rejected: implicit steps (their kernel is a spike with long tails), Runge-Kutta-Chebyshev (it
+// hardly damps what it keeps stable, and noise is what we are here to damp).
+#include <cstdint>
+#include <deltalux/units.hpp>
+#include <span>
+#include <vector>
+
+#include "caustics/cell_grid.hpp"
+
+namespace deltalux {
+
+/// A factor in [0, 1] for each border, in the grid's order (both ways the same); empty: all are open.
+using Openness = std::span<const float>;
+
+class HeatFlow {
+ public:
+  /// `conductivity`: D of every cell [unit^2 per unit of time]; across a border its harmonic mean holds, times the
+  /// border's openness. The grid must outlive this.
+  HeatFlow(const CellGrid&, std::span<const float> conductivity, Openness open = {});
+
+  /// E after `time`. E is a density over the cells' areas.
+  void apply(std::vector<float>& E, double time) const;
+  void apply(std::vector<glm::vec2>& E, double time) const;
+  void apply(std::vector<Rgb>& E, double time) const;
+
+ private:
+  template <class Value>
+  void run(std::vector<Value>& E, double time) const;
+  template <class Value, class Out>
+  void step(const std::vector<Value>& from, const Out& out) const;
+
+  const CellGrid& grid_;
+  std::vector<float> weights_;  // of each border, relative to the largest eigenvalue
+  std::vector<float> own_;      // what a cell keeps
+  double largest_ = 0;          // bound of L's eigenvalues
+};
+
+}  // namespace deltalux

@@ -1,0 +1,30 @@
+#pragma once
+// The same light through kernels of growing width: what reconstruction chooses from. Widths are standard deviations of
+// Gaussians, by factors of sqrt 2, each level made from the one before it.
+// Cost: the widest kernel's radius in cells times about 15 passes over the borders.
+#include <vector>
+
+#include "caustics/cell_light.hpp"
+#include "caustics/heat_flow.hpp"
+
+namespace deltalux {
+
+/// One width: the light of all cells with it.
+struct ScaleLevel {
+  double width = 0;              // 0: the cells as they are [unit]
+  double overlap = 0;            // integral of the kernel's square [1/unit^2]
+  std::vector<glm::vec2> light;  // gray E; density of squares (CellLight::squares)
+
+  double E(std::size_t cell) const { return std::max(double(light[cell].x), 0.0); }
+  /// Times `overlap`, the variance of E.
+  double squares(std::size_t cell) const { return std::max(double(light[cell].y), 1e-300); }
+  /// Particles that the kernel holds here, in equals.
+  double count(std::size_t cell) const { return E(cell) * E(cell) / squares(cell) / overlap; }
+};
+
+/// Integral of the product of two Gaussian kernels at one place, over cells of `area`.
+double kernelOverlap(double widthA, double widthB, double area);
+
+std::vector<ScaleLevel> scaleSpace(const CellGrid&, const CellLight&, Openness);
+
+}  // namespace deltalux

@@ -1,0 +1,27 @@
+#pragma once
+// Edges of light, as borders that smoothing does not cross. Round kernels must shrink at the edge of a caustic, and
+// leave it noisy; with the edge known, light is averaged along it over many particles and not at all across.
+//
+// Every border gets an openness in (0, 1]: exp(-(d / kContrast)^2), d the jump of 2 sqrt E over it in units of its
+// noise (a variance-stabilising scale [Anscombe48]), as in anisotropic diffusion [PM90]. What is compared:
+//   blurredWalls  estimates from kernels of kParticles each, before anything is known: walls as thick as the kernels.
+//   sharpWalls    a first reconstruction between those walls, cleaned of lone cells by a median: walls one border
+//   thick.
+// Cost: one scale space; for the second a pass over the borders.
+#include <vector>
+
+#include "caustics/scale_space.hpp"
+
+namespace deltalux {
+
+struct Walls {
+  std::vector<float> openness;   // of each border, in the grid's order
+  std::vector<float> bandwidth;  // of each cell: half the variance of a kernel that holds kParticles [unit^2]
+};
+
+Walls blurredWalls(const CellGrid&, const CellLight&);
+
+/// `darkness`: differences below it do not matter [W/m2].
+std::vector<float> sharpWalls(const CellGrid&, const std::vector<Rgb>& E, double darkness);
+
+}  // namespace deltalux

@@ -1,0 +1,72 @@
+#include "caustics/choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include "caustics/surface_impacts.hpp"
+#include "caustics/synthetic.hpp"
+
+namespace deltalux {
+namespace {
+
+struct Histogram {
+  Shape shape = test::unitSquare();
+  Charts charts = chartsOf(shape);
+  CellGrid grid = test::gridOver(shape, charts, 16, 16);
+  CellLight light;
+
+  explicit Histogram(const std::vector<Impact>& impacts) {
+    light = collect(grid, placeImpacts(shape, charts, impacts)[0]);
+  }
+};
+
+TEST(Choice, ContrastIsThatOfTheExtremes) {
+  // (1): two texels of a 16 x 16 histogram hold all flux; (2).
+  std::vector<Impact> impacts(3);
+  impacts[0].uv = {0.1f, 0.1f}, impacts[1].uv = {0.1f, 0.1f}, impacts[2].uv = {0.9f, 0.9f};
+  for (Impact& i : impacts) i.flux = Rgb(1.0f);
+  const Histogram h(impacts);
+  EXPECT_FLOAT_EQ(h.light.E[h.grid.cellAt({0.1, 0.1})].r, 2 * 16 * 16);
+  EXPECT_DOUBLE_EQ(contrast(h.light), 1.0);
+}
+
+TEST(Choice, EvenLightIsLeftToTheMeshWhateverItsNoise) {
+  int textures = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed)
+    for (const std::size_t n : {50u, 1000u, 20000u}) {
+      const Histogram h(test::drawImpacts(n, seed, test::evenly));
+      textures += deservesTexture(departure(h.grid, h.light), 0.05, 0);
+    }
+  EXPECT_LE(textures, 1);  // of 300, at four standard deviations
+}
+
+TEST(Choice, SmoothGradientsAreLeftToTheMesh) {
+  const auto ramp = [](Rng& rng) {
+    for (;;) {
+      const double u = rng.uniform(), v = rng.uniform();
+      if (rng.uniform() < 0.5 + 0.5 * u) return test::inSquare(u, v);
+    }
+  };
+  const Histogram h(test::drawImpacts(20000, 1, ramp));
+  EXPECT_FALSE(deservesTexture(departure(h.grid, h.light), 0.05, 0));
+}
+
+TEST(Choice, FiguresGetTextures) {
+  for (const std::size_t n : {400u, 2000u, 20000u}) {
+    const Histogram h(test::drawImpacts(n, 1, test::discInVeil));
+    EXPECT_TRUE(deservesTexture(departure(h.grid, h.light), 0.05, 0)) << n;
+  }
+}
+
+TEST(Choice, FiguresThatOtherLightDrownsDoNot) {
+  const Histogram h(test::drawImpacts(20000, 1, test::discInVeil));
+  EXPECT_FALSE(deservesTexture(departure(h.grid, h.light), 0.05, 1000));
+}
+
+TEST(Choice, ADarkSurfaceDoesNot) {
+  const Histogram h({});
+  EXPECT_EQ(contrast(h.light), 0);
+  EXPECT_FALSE(deservesTexture(departure(h.grid, h.light), 0.05, 0));
+}
+
+}  // namespace
+}  // namespace deltalux
