@@ -33,6 +33,20 @@ struct Texture {
   Rgb sample(Vec2 texcoord) const;
 };
 
+/// Where edits have put a primitive: its shape as it was read, and the map from there to the world.
+struct Placement {
+  PrimitiveId primitive;
+  Shape rest;
+  Mat4 matrix{1.0};
+  bool present = true;  // false: removed, its shape has no extent
+};
+
+/// A light that is switched off: its scale is 0, and this waits.
+struct SwitchedOff {
+  LightId light;
+  Rgb scale{1.0f};
+};
+
 struct Scene {
   double metresPerUnit = 1.0;
   Vec3 up{0, 0, 1};
@@ -42,6 +56,8 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Texture> textures;
   std::vector<View> views;
+  std::vector<Placement> placements;     // of primitives that were edited, ascending (edit.hpp)
+  std::vector<SwitchedOff> switchedOff;  // by edits
 
   const Primitive& operator[](PrimitiveId id) const { return primitives[id.index()]; }
   const Material& operator[](MaterialId id) const { return materials[id.index()]; }
@@ -60,7 +76,8 @@ std::vector<PrimitiveId> primitivesOf(const Scene&, ObjectId);
 /// Lights that `name` means: the light of that name and every `name.*`.
 std::vector<LightId> findLights(const Scene&, std::string_view name);
 /// Up to `count` existing names nearest to `name` by edit distance, for error messages.
-std::vector<std::string> nearMisses(std::string_view name, const std::vector<std::string>& existing, std::size_t count = 3);
+std::vector<std::string> nearMisses(std::string_view name, const std::vector<std::string>& existing,
+                                    std::size_t count = 3);
 
 /// Bounds of all primitives (lights at infinity have none).
 Box bounds(const Scene&);

@@ -181,6 +181,16 @@ void validate(const Scene& scene) {
     checkShape(primitive.shape, where);
   }
   for (const Light& light : scene.lights) checkLight(scene, light, "light " + light.name);
+  for (std::size_t i = 0; i < scene.placements.size(); ++i) {
+    const Placement& p = scene.placements[i];
+    require(p.primitive.index() < scene.primitives.size(), "placement: primitive out of range");
+    require(i == 0 || scene.placements[i - 1].primitive < p.primitive, "placements: ascending");
+    checkShape(p.rest, "rest shape of primitive " + std::to_string(p.primitive.value));
+    require((area(scene[p.primitive].shape) > 0) == p.present, "placement: removed things have no extent");
+  }
+  for (const SwitchedOff& s : scene.switchedOff)
+    require(s.light.index() < scene.lights.size() && isBlack(scene[s.light].scale) && nonNegative(s.scale),
+            "a light that is switched off");
   for (const View& view : scene.views) {
     require(finite(view.position) && finite(view.direction) && finite(view.up), "view " + view.name);
     require(glm::length(glm::cross(view.direction, view.up)) > 0, "view " + view.name + ": up is along its direction");

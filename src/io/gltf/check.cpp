@@ -5,7 +5,7 @@
 #include <deltalux/math.hpp>
 #include <string_view>
 
-#include "io/gltf/json_view.hpp"
+#include "io/json_view.hpp"
 
 namespace deltalux {
 
@@ -252,7 +252,7 @@ void checkNodes(const JsonView& document) {
 }  // namespace
 
 void checkGltf(const nlohmann::json& tree, const std::string& name) {
-  const JsonView document(tree, name);
+  const JsonView document(tree, name, "export the scene again, or correct it by the glTF 2.0 specification");
   document.expectObject();
   checkAsset(document, name);
   checkRequiredExtensions(document, name);

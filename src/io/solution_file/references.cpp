@@ -26,7 +26,7 @@ void checkTables(const Shape& shape) {
     require(p->outline.size() == p->vertices.size() && p->cumulativeArea.size() == p->triangles.size(),
             "polygon: its tables");
   if (const auto* m = std::get_if<Mesh>(&shape))
-    require(!m->triangles.empty() && m->cumulativeArea.size() == m->triangles.size(), "mesh: its tables");
+    require(m->triangles.empty() == m->positions.empty() && m->cumulativeArea.size() == m->triangles.size(), "mesh: its tables");
 }
 
 void checkTopology(const Elements& e) {
@@ -105,6 +105,7 @@ void checkLinkTree(const Links& links) {
 
 void checkReferences(const Solution& s) {
   for (const Primitive& p : s.scene.primitives) checkTables(p.shape);
+  for (const Placement& p : s.scene.placements) checkTables(p.rest);
   checkElements(s.elements, s.scene);
   for (const Link& l : s.links.all) checkLink(l, s.links.size(), s.elements);
   checkLinkTree(s.links);

@@ -160,9 +160,17 @@ void members(auto& archive, Is<View> auto& v) {
   auto& [name, kind, position, direction, up, horizontal, vertical] = v;
   transferAll(archive, name, kind, position, direction, up, horizontal, vertical);
 }
+void members(auto& archive, Is<Placement> auto& p) {
+  auto& [primitive, rest, matrix, present] = p;
+  transferAll(archive, primitive, rest, matrix, present);
+}
+void members(auto& archive, Is<SwitchedOff> auto& s) {
+  auto& [light, scale] = s;
+  transferAll(archive, light, scale);
+}
 void members(auto& archive, Is<Scene> auto& s) {
-  auto& [metres, up, materials, primitives, objects, lights, textures, views] = s;
-  transferAll(archive, metres, up, materials, primitives, objects, lights, textures, views);
+  auto& [metres, up, materials, primitives, objects, lights, textures, views, placements, off] = s;
+  transferAll(archive, metres, up, materials, primitives, objects, lights, textures, views, placements, off);
 }
 
 }  // namespace deltalux

@@ -10,7 +10,9 @@ namespace deltalux {
 /// Members that are not there are nowhere: present() is false, and every check passes.
 class JsonView {
  public:
-  JsonView(const nlohmann::json& value, const std::string& file) : value_(&value), file_(&file) {}
+  /// `hint` says, at the end of every message, what to do.
+  JsonView(const nlohmann::json& value, const std::string& file, const char* hint)
+      : value_(&value), file_(&file), hint_(hint) {}
 
   bool present() const { return value_ != nullptr; }
   const nlohmann::json& value() const { return *value_; }
@@ -40,11 +42,12 @@ class JsonView {
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
-  JsonView(const nlohmann::json* value, const std::string& file, std::string where)
-      : value_(value), file_(&file), where_(std::move(where)) {}
+  JsonView(const nlohmann::json* value, const JsonView& document, std::string where)
+      : value_(value), file_(document.file_), hint_(document.hint_), where_(std::move(where)) {}
 
   const nlohmann::json* value_;
   const std::string* file_;
+  const char* hint_;
   std::string where_;  // JSON pointer
 };
 

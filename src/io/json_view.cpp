@@ -1,4 +1,4 @@
-#include "io/gltf/json_view.hpp"
+#include "io/json_view.hpp"
 
 namespace deltalux {
 
@@ -13,23 +13,22 @@ std::string text(double value) {
 }  // namespace
 
 void JsonView::fail(const std::string& message) const {
-  throw InputError(*file_, 0, (where_.empty() ? "the document" : where_.substr(0, 200)) + " " + message,
-                   "export the scene again, or correct it by the glTF 2.0 specification");
+  throw InputError(*file_, 0, (where_.empty() ? "the document" : where_.substr(0, 200)) + " " + message, hint_);
 }
 
 JsonView JsonView::member(const char* key) const {
   const std::string where = where_ + "/" + key;
-  if (!present()) return {nullptr, *file_, where};
+  if (!present()) return {nullptr, *this, where};
   expectObject();
   const auto found = value_->find(key);
-  return {found == value_->end() ? nullptr : &*found, *file_, where};
+  return {found == value_->end() ? nullptr : &*found, *this, where};
 }
 
 std::vector<JsonView> JsonView::members() const {
   std::vector<JsonView> views;
   if (!present()) return views;
   expectObject();
-  for (const auto& [key, value] : value_->items()) views.push_back({&value, *file_, where_ + "/" + key});
+  for (const auto& [key, value] : value_->items()) views.push_back({&value, *this, where_ + "/" + key});
   return views;
 }
 
@@ -38,7 +37,7 @@ std::vector<JsonView> JsonView::elements() const {
   if (!present()) return views;
   if (!value_->is_array()) fail("is not an array");
   for (std::size_t i = 0; i < value_->size(); ++i) {
-    views.push_back({&(*value_)[i], *file_, where_ + "/" + std::to_string(i)});
+    views.push_back({&(*value_)[i], *this, where_ + "/" + std::to_string(i)});
   }
   return views;
 }

@@ -1,0 +1,127 @@
+#include <deltalux/edit_io.hpp>
+#include <deltalux/error.hpp>
+
+#include "base/check.hpp"
+#include "io/atomic_file.hpp"
+#include "io/edits/edit_json.hpp"
+#include "io/import_file.hpp"
+
+namespace deltalux {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr int kRecordingVersion = 1;
+
+Json triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+Json triple(const Rgb& c) { return {c.r, c.g, c.b}; }
+Json rowMajor(const Mat4& m) {
+  Json numbers = Json::array();
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) numbers.push_back(m[column][row]);
+  return numbers;
+}
+
+Json entry(const TransformObject& e) {
+  return {{"op", "transform"}, {"object", e.object}, {"matrix", rowMajor(e.matrix)}};
+}
+Json entry(const AddObject& e) {
+  return {{"op", "add"}, {"object", e.object}, {"scene", e.file}, {"matrix", rowMajor(e.matrix)}};
+}
+Json entry(const RemoveObject& e) { return {{"op", "remove"}, {"object", e.object}}; }
+Json entry(const ScaleLight& e) { return {{"op", "light"}, {"light", e.light}, {"scale", e.factor}}; }
+Json entry(const ColourLight& e) { return {{"op", "light"}, {"light", e.light}, {"rgb", triple(e.rgb)}}; }
+Json entry(const SwitchLight& e) { return {{"op", "light"}, {"light", e.light}, {"on", e.on}}; }
+Json entry(const AimLight& e) { return {{"op", "light"}, {"light", e.light}, {"aim", triple(e.direction)}}; }
+Json entry(const MoveLight& e) { return {{"op", "light"}, {"light", e.light}, {"translate", triple(e.offset)}}; }
+Json entry(const SetMaterial& e) {
+  Json json{{"op", "material"}, {"material", e.material}};
+  if (e.reflectance) json["reflectance"] = triple(*e.reflectance);
+  if (e.roughness) json["roughness"] = *e.roughness;
+  return json;
+}
+Json entry(const Restore&) {
+  DELTALUX_CHECK(false, "a recording says undo or redo instead of what they restore");
+  return {};
+}
+Json entry(const Edit& e) {
+  return std::visit([](const auto& edit) { return entry(edit); }, e);
+}
+Json entry(Undo) { return {{"op", "undo"}}; }
+Json entry(Redo) { return {{"op", "redo"}}; }
+
+double number(const JsonView& object, const char* key, double low, double high, double otherwise) {
+  const JsonView value = object.member(key);
+  value.expectNumber(low, high);
+  return value.present() ? value.value().get<double>() : otherwise;
+}
+std::uint64_t count(const JsonView& object, const char* key, std::uint64_t otherwise) {
+  const JsonView value = object.member(key);
+  if (!value.present()) return otherwise;
+  if (!value.value().is_number_unsigned()) value.fail("is not a whole number");
+  return value.value().get<std::uint64_t>();
+}
+
+SolveSettings settingsOf(const JsonView& document) {
+  SolveSettings s;
+  const JsonView json = document.member("settings");
+  s.error = number(json, "error", 1e-4, 0.999, s.error);
+  s.seconds = number(json, "seconds", 0, 1e9, s.seconds);
+  s.particles = count(json, "particles", s.particles);
+  json.member("diffuse_only").expectBool();
+  if (json.member("diffuse_only").present()) s.diffuseOnly = json.member("diffuse_only").value().get<bool>();
+  s.seed = count(document, "seed", s.seed);
+  return s;
+}
+
+}  // namespace
+
+nlohmann::ordered_json entryOf(const EditStep& step) {
+  return std::visit([](const auto& s) { return entry(s); }, step);
+}
+
+std::string toJson(const Recording& r) {
+  Json scene = Json::array(), edits = Json::array();
+  for (const fs::path& file : r.scene) scene.push_back(file.string());
+  for (const EditStep& step : r.steps) edits.push_back(entryOf(step));
+  Json document{
+      {"recording", kRecordingVersion},
+      {"scene", std::move(scene)},
+      {"import", {{"metres_per_unit", r.import.metresPerUnit}, {"luminous_efficacy", r.import.luminousEfficacy}}},
+      {"seed", r.settings.seed},
+      {"settings",
+       {{"error", r.settings.error},
+        {"particles", r.settings.particles},
+        {"seconds", r.settings.seconds},
+        {"diffuse_only", r.settings.diffuseOnly}}},
+      {"edits", std::move(edits)}};
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void saveRecording(const fs::path& path, const Recording& recording) { writeFile(path, toJson(recording)); }
+
+Recording loadRecording(const fs::path& path) {
+  const std::string file = path.string();
+  const nlohmann::json tree = parseEditJson(readInputFile(path), file);
+  const JsonView document(tree, file, kEditHint);
+  const JsonView version = document.member("recording");
+  version.expectPresent("this is no recording");
+  version.expectInteger(kRecordingVersion, kRecordingVersion);
+  Recording r;
+  const JsonView scene = document.member("scene"), import = document.member("import");
+  scene.expectPresent("the files of the scene");
+  for (const JsonView& name : scene.elements()) {
+    name.expectString();
+    r.scene.emplace_back(name.value().get<std::string>());
+  }
+  if (r.scene.empty()) scene.fail("names no file");
+  r.import.metresPerUnit = number(import, "metres_per_unit", 1e-12, 1e12, r.import.metresPerUnit);
+  r.import.luminousEfficacy = number(import, "luminous_efficacy", 1e-6, 1e6, r.import.luminousEfficacy);
+  r.settings = settingsOf(document);
+  r.steps = readEdits(document, file, path.parent_path(), r.import);
+  return r;
+}
+
+}  // namespace deltalux
