@@ -7,6 +7,7 @@
 
 #include <csignal>
 
+#include <deltalux/edit.hpp>
 #include <deltalux/engine.hpp>
 #include <deltalux/error.hpp>
 #include <deltalux/io.hpp>
@@ -101,6 +102,22 @@ TEST(SolutionFile, OneOfEverythingComesBackToTheBit) {
   EXPECT_EQ(measured[0], measured[1]) << "stored once, shared again";
   EXPECT_EQ(measured[0]->candela.size(), 9u);
   EXPECT_EQ(measured[0]->opening, Vec3(0.1, 0.2, 0));
+}
+
+TEST(SolutionFile, WhatEditsDidComesBackToo) {
+  Scene scene = test::oneOfEverything();
+  Mat4 up(1.0);
+  up[3].z = 0.25;
+  const AppliedEdit moved = applyEdit(scene, TransformObject{"scene.part", up});
+  applyEdit(scene, SwitchLight{scene.lights.back().name, false});
+  const SolutionView solution = solved(scene, 0.6);
+  const SolutionView loaded = readSolution(bytesOf(solution), "s.dlx");
+  EXPECT_TRUE(bytesOf(solution) == bytesOf(loaded));
+  Scene back = loaded.scene();
+  applyEdit(back, moved.inverse);
+  applyEdit(back, SwitchLight{scene.lights.back().name, true});
+  EXPECT_EQ(bounds(back.primitives[2].shape).upper, bounds(test::oneOfEverything().primitives[2].shape).upper);
+  EXPECT_EQ(back.lights.back().scale, Rgb(1.0f, 0.5f, 0.25f));
 }
 
 TEST(SolutionFile, AnEmptySceneHasASolutionToo) {
