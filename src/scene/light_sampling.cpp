@@ -39,6 +39,16 @@ const Emission* emissionOf(const Scene& scene, PrimitiveId p) {
 
 }  // namespace
 
+Rgb emittedRadiance(const Emission& emission, const Vec3& direction, double distance, bool front) {
+  if (!front && !emission.bothSides) return Rgb(0.0f);
+  if (!emission.spot) return emission.radiance;
+  const double focal = glm::length(emission.spot->direction);
+  const double cosine = glm::dot(direction, emission.spot->direction);
+  if (cosine < std::cos(0.5 * emission.spot->fullAngle) * focal) return Rgb(0.0f);
+  const double factor = distance / (distance + focal);
+  return emission.radiance * static_cast<float>(factor * factor);
+}
+
 LightSampler::LightSampler(const Scene& scene) : scene_(scene), lightOf_(scene.primitives.size()) {
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     Prepared prepared;
@@ -239,15 +249,7 @@ double LightSampler::pdf(LightId id, const Vec3& from, const Vec3& direction, do
 
 Rgb LightSampler::emittedRadiance(LightId id, const Vec3& direction, double distance, bool front) const {
   const Emission& emission = *emissionOf(scene_, std::get<AreaLight>(scene_[id].emitter).primitive);
-  if (!front && !emission.bothSides) return Rgb(0.0f);
-  double factor = 1.0;
-  if (emission.spot) {
-    const double focal = glm::length(emission.spot->direction);
-    const double cosine = glm::dot(direction, emission.spot->direction);
-    if (cosine < std::cos(0.5 * emission.spot->fullAngle) * focal) return Rgb(0.0f);
-    factor = distance / (distance + focal);
-  }
-  return emission.radiance * scene_[id].scale * static_cast<float>(factor * factor);
+  return scene_[id].scale * deltalux::emittedRadiance(emission, direction, distance, front);
 }
 
 Rgb LightSampler::radianceFrom(LightId id, const Vec3& towards) const {

@@ -24,6 +24,10 @@ struct LightSample {
   double pdf = 0;       // per solid angle [1/sr]; 0: point-like, the only direction
 };
 
+/// Radiance that an emitting material sends along unit `direction` to a surface at `distance`; `front`: from its front
+/// side. A light's scale comes on top.
+Rgb emittedRadiance(const Emission&, const Vec3& direction, double distance, bool front);
+
 class LightSampler {
  public:
   /// Prepares every light of the scene, which must outlive this. Lights whose primitive does not emit are dark.

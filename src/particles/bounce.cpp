@@ -1,0 +1,96 @@
+#include "particles/bounce.hpp"
+
+#include <algorithm>
+
+#include "base/sobol.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr int kStratified = 3;  // events whose numbers are; later ones gain nothing
+
+bool takesParticles(const Material& m, bool front) {
+  if (std::holds_alternative<ThinGlass>(m.surface) || std::holds_alternative<Dielectric>(m.surface)) return false;
+  return !(front && std::holds_alternative<Mirror>(m.surface));
+}
+
+/// Gray share of the flux that perfect parts pass on at that angle.
+float perfectShare(const Bsdf& b, double cosine) {
+  float share = gray(mirrorReflectance(b, cosine));
+  if (b.pane) return share + gray(transmittance(*b.pane, cosine));
+  if (b.refractingIor) return 1;
+  return share + gray(b.transmission.reflectance);
+}
+
+}  // namespace
+
+EventNumbers eventNumbers(std::uint64_t key, std::uint32_t index, int depth) {
+  const std::uint64_t own = combineKeys(key, 16 + static_cast<std::uint64_t>(depth));
+  if (depth < kStratified) {
+    const UnitPair a = scrambledSobol(index, own), b = scrambledSobol(index, ~own);
+    return {{a.x, b.x, b.y}, a.y};
+  }
+  Rng rng(own, index);
+  EventNumbers u;
+  for (int i = 0; i < 3; ++i) u.scatter[i] = rng.uniform();
+  u.roulette = rng.uniform();
+  return u;
+}
+
+ParticleSurfaces::ParticleSurfaces(const Scene& scene) : scene_(scene) {
+  for (const Material& m : scene.materials) {
+    for (const bool front : {false, true}) {
+      Side s;
+      s.bsdf = specularPart(makeBsdf(m, front));
+      s.takes = takesParticles(m, front);
+      s.rough = s.bsdf.hasFinitePart();
+      s.passesOn = s.rough || s.bsdf.pane || s.bsdf.refractingIor || !isBlack(s.bsdf.reflection.reflectance) ||
+                   !isBlack(s.bsdf.transmission.reflectance);
+      sides_.push_back(s);
+    }
+    bodies_.push_back(std::get_if<Dielectric>(&m.surface));
+  }
+}
+
+std::optional<SpecularEvent> ParticleSurfaces::scatter(const SurfaceSpot& at, const Vec3f& direction, bool first,
+                                                       const EventNumbers& u) const {
+  const Side& s = side(at.primitive, at.front);
+  if (!s.passesOn) return std::nullopt;
+  const Frame frame(glm::normalize(at.front ? Vec3(at.normal) : -Vec3(at.normal)));
+  const Vec3 wo = frame.toLocal(-Vec3(direction));
+  if (!(wo.z > 0)) return std::nullopt;
+  SpecularEvent event;
+  if (first && s.bsdf.pane) {
+    event.weight = mirrorReflectance(s.bsdf, wo.z);
+    event.direction = Vec3f(glm::normalize(frame.toWorld({-wo.x, -wo.y, wo.z})));
+    event.passed = gray(event.weight);
+    return event;
+  }
+  const auto sampled = sample(s.bsdf, wo, u.scatter);
+  if (!sampled) return std::nullopt;
+  event.weight = sampled->weight;
+  event.direction = Vec3f(glm::normalize(frame.toWorld(sampled->direction)));
+  event.refracted = sampled->event == ScatterEvent::Refraction;
+  event.passed = s.rough ? gray(event.weight) : perfectShare(s.bsdf, wo.z);
+  return event;
+}
+
+glm::vec2 ParticleSurfaces::parameters(const Hit& hit) const {
+  const Shape& shape = scene_[hit.primitive].shape;
+  const Vec3 p(hit.position);
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) {
+    const Vec3 d = p - polygon->origin;
+    return {glm::dot(d, polygon->dualU), glm::dot(d, polygon->dualV)};
+  }
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    const auto& t = mesh->triangles[hit.triangle];
+    const Vec3 p0 = mesh->positions[t[0]], a = mesh->positions[t[1]] - p0, b = mesh->positions[t[2]] - p0;
+    const Vec3 n = glm::cross(a, b);
+    const double squared = glm::dot(n, n);
+    return {glm::dot(glm::cross(p - p0, b), n) / squared, glm::dot(glm::cross(a, p - p0), n) / squared};
+  }
+  return glm::vec2(parameterAt(shape, p));
+}
+
+}  // namespace deltalux

@@ -1,0 +1,65 @@
+#pragma once
+// What surfaces do to particles: which sides take them, and where they go on by the non-diffuse part, sampled as the
+// reference integrator samples it (scene/bsdf.hpp). Flux is carried, so refraction changes nothing but the direction.
+#include <deltalux/scene.hpp>
+#include <optional>
+#include <vector>
+
+#include "scene/bsdf.hpp"
+#include "tracing/ray.hpp"
+
+namespace deltalux {
+
+/// A point of a surface and the side that a particle comes to.
+struct SurfaceSpot {
+  PrimitiveId primitive;
+  std::uint32_t triangle = 0;
+  Vec3f position{0.0f}, normal{0.0f};  // of the front
+  bool front = true;
+};
+
+struct EventNumbers {
+  Vec3 scatter{0};
+  double roulette = 0;
+};
+
+/// Numbers of event `depth` of sample `index` of a link's key: stratified for the first events.
+EventNumbers eventNumbers(std::uint64_t key, std::uint32_t index, int depth);
+
+struct SpecularEvent {
+  Vec3f direction;
+  Rgb weight;        // of the flux
+  float passed = 0;  // gray share that this surface passes on: in the mean where that is known, else of this sample
+  bool refracted = false;
+};
+
+class ParticleSurfaces {
+ public:
+  explicit ParticleSurfaces(const Scene&);
+
+  /// Whether particles land on a side: it takes light in other than passing it on or mirroring it.
+  bool takes(PrimitiveId p, bool front) const { return side(p, front).takes; }
+  bool passesOn(PrimitiveId p, bool front) const { return side(p, front).passesOn; }
+  /// Medium behind the front of a dielectric; null for all else.
+  const Dielectric* body(PrimitiveId p) const { return bodies_[scene_[p].material.index()]; }
+
+  /// The next non-diffuse event. At the first surface of a path thin glass only reflects: what it passes straight on
+  /// belongs to the segment that arrives behind it, and to diffuse links.
+  std::optional<SpecularEvent> scatter(const SurfaceSpot&, const Vec3f& direction, bool first,
+                                       const EventNumbers&) const;
+  /// Parameters of a hit, as Impact has them.
+  glm::vec2 parameters(const Hit&) const;
+
+ private:
+  struct Side {
+    Bsdf bsdf;
+    bool takes = false, passesOn = false, rough = false;
+  };
+  const Side& side(PrimitiveId p, bool front) const { return sides_[2 * scene_[p].material.index() + (front ? 1 : 0)]; }
+
+  const Scene& scene_;
+  std::vector<Side> sides_;
+  std::vector<const Dielectric*> bodies_;  // by material
+};
+
+}  // namespace deltalux

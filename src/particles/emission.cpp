@@ -1,0 +1,329 @@
+#include "particles/emission.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace deltalux {
+
+namespace {
+
+constexpr double kFar = 3.0;           // radii from a sphere's centre beyond which points in it are drawn alone
+constexpr double kFarRectangle = 3.0;  // the same for rectangles, whose solid angle is known
+constexpr double kWide = 1.5;          // sr: wider cones are not worth one
+constexpr float kAverted = 0.05f;      // of a sample that falls where its sender does not shine
+constexpr double kVeryFar = 1e100;     // where a spotlight's focal offset no longer matters
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+ParticleEmission::ParticleEmission(const Scene& scene, const RayTracer& tracer, const Senders& senders,
+                                   const Receivers& receivers)
+    : scene_(scene), tracer_(tracer), senders_(senders), receivers_(receivers) {
+  far_ = 4 * coarse(std::max(bounds(scene).diagonal(), 1e-6));
+}
+
+const Emission& ParticleEmission::emission(const SenderCell& c) const {
+  return *scene_.materialOf(c.primitive).emission;
+}
+
+FirstSegment ParticleEmission::sample(const LinkEnds& link, const EmissionNumbers& u) const {
+  FirstSegment s;
+  const RadixNode& node = senders_.nodes()[link.sender];
+  double share = 1;  // one over the chance of the cell
+  s.senderCell = node.begin;
+  if (!node.isLeaf()) {
+    s.senderCell = senders_.choose(node, u.choice.x);
+    share = senders_.weightOf(node) / senders_.weight(s.senderCell);
+  }
+  const SenderKind kind = senders_.cells()[s.senderCell].kind;
+  if (kind == SenderKind::Sun || kind == SenderKind::Sky)
+    fromInfinity(link, u, share, s);
+  else
+    fromPlace(link, u, share, s);
+  return s;
+}
+
+void ParticleEmission::fromInfinity(const LinkEnds& link, const EmissionNumbers& u, double share,
+                                    FirstSegment& s) const {
+  const SenderCell& c = senders_.cells()[s.senderCell];
+  const Vec3 w = senders_.direction(s.senderCell, u.origin);
+  Rgb L;
+  if (const auto* sun = std::get_if<SunLight>(&scene_[c.light].emitter))
+    L = sun->radiance;
+  else
+    L = skyRadiance(std::get<DomeLight>(scene_[c.light].emitter), w);
+  const RadixNode& node = receivers_.nodes()[link.receiver];
+  const std::uint32_t cell = receivers_.choose(node, u.choice.y);
+  const double area = receivers_.area(cell) * receivers_.weightOf(node) / receivers_.weight(cell);
+  s.receiverCell = cell;
+  s.atInfinity = true;
+  ReceiverPoint x;
+  if (receivers_.isFlat(cell)) {
+    const auto point = receivers_.flatPoint(cell, receivers_.rectangle(cell).at(u.direction));
+    s.bound = kAverted * static_cast<float>(share * c.measure * area) * gray(L);
+    if (!point) return;
+    x = *point;
+  } else {
+    x = receivers_.curvedPoint(cell, u.direction);
+  }
+  const double weight = share * c.measure * area, cosine = std::abs(glm::dot(x.normal, w));
+  s.flux = static_cast<float>(weight * cosine) * L;
+  s.bound = std::max(gray(s.flux), kAverted * static_cast<float>(weight) * gray(L));
+  if (isBlack(s.flux) || hidesItself(cell, x.position, w, nullptr)) return;
+  s.kind = FirstSegment::Kind::Target;
+  s.target = x.position, s.normal = x.normal;
+  s.direction = -Vec3f(w);
+  s.origin = Vec3f(x.position + far_ * w);
+  s.ray.direction = Vec3f(w);
+  s.ray.origin = offsetOrigin(Vec3f(x.position), Vec3f(x.normal), s.ray.direction);
+}
+
+void ParticleEmission::fromPlace(const LinkEnds& link, const EmissionNumbers& u, double share, FirstSegment& s) const {
+  const SenderCell& c = senders_.cells()[s.senderCell];
+  Origin y;
+  if (c.kind == SenderKind::Point) {
+    y.position = senders_.bound(link.sender).center;
+  } else {
+    const SurfacePoint p = senders_.point(s.senderCell, u.origin);
+    y = {p.position, p.normal, true};
+    s.originTriangle = p.triangle;
+  }
+  const Aim a = aim(y, link.receiver, u.choice.y, u.direction);
+  s.receiverCell = a.cell;
+  if (!(a.density > 0)) return;
+  const double weight = share * c.measure / a.density;
+  const double cosine = y.lambertian ? glm::dot(a.direction, y.normal) : 1.0;
+  Rgb whole(1.0f), shape(1.0f);  // of the sender at its brightest, and towards here
+  if (c.kind == SenderKind::Side) {
+    whole = Rgb(static_cast<float>(1 / kPi));
+    shape = cosine > 0 ? whole : Rgb(0.0f);
+  } else if (c.kind == SenderKind::Lamp) {
+    whole = emission(c).radiance;
+    // The length of open segments is not known yet; arrive() puts it in.
+    const double distance = a.kind == FirstSegment::Kind::Target ? a.distance : kVeryFar;
+    if (cosine > 0) {
+      shape = emittedRadiance(emission(c), a.direction, distance, c.front);
+    } else {
+      shape = Rgb(0.0f);
+    }
+  } else {
+    std::visit(
+        [&](const auto& e) {
+          if constexpr (requires { radiantIntensity(e, a.direction); })
+            shape = whole = radiantIntensity(e, a.direction);
+        },
+        scene_[c.light].emitter);
+  }
+  s.flux = static_cast<float>(weight * std::max(cosine, 0.0)) * shape;
+  s.bound = std::max(gray(s.flux), kAverted * static_cast<float>(weight) * gray(whole));
+  if (isBlack(s.flux) || a.kind == FirstSegment::Kind::None) return;
+  s.kind = a.kind;
+  s.direction = Vec3f(a.direction), s.origin = Vec3f(y.position);
+  s.balance = static_cast<float>(a.balance);
+  s.density = static_cast<float>(a.kind == FirstSegment::Kind::Open ? 2 * a.density : a.density);
+  if (a.kind == FirstSegment::Kind::Target) {
+    s.target = a.target, s.normal = a.normal;
+    s.ray = segment(s.origin, Vec3f(y.normal), Vec3f(a.target), Vec3f(a.normal));
+  } else {
+    s.ray.direction = s.direction;
+    s.ray.origin = offsetOrigin(s.origin, Vec3f(y.normal), s.direction);
+  }
+}
+
+ParticleEmission::Aim ParticleEmission::aim(const Origin& y, std::uint32_t at, double choice, const Vec2& u) const {
+  const RadixNode& node = receivers_.nodes()[at];
+  const BoundingSphere& ball = receivers_.bound(at);
+  const bool flat = node.isLeaf() && receivers_.isFlat(node.begin);
+  if (flat || glm::distance(y.position, ball.center) > kFar * ball.radius)
+    return aimAtCell(y.position, node, choice, u);
+  if (choice < 0.5) {
+    Aim a = aimAround(y, ball, u);
+    a.density *= 0.5;
+    return a;
+  }
+  Aim a = aimAtCell(y.position, node, 2 * choice - 1, u);
+  if (a.density > 0) {
+    const double other = densityAround(y, ball, a.direction);
+    a.balance = a.density / (a.density + other);  // [Veach97 9.8]
+    a.density *= 0.5;
+  }
+  return a;
+}
+
+ParticleEmission::Aim ParticleEmission::aimAtCell(const Vec3& from, const RadixNode& node, double choice,
+                                                  const Vec2& u) const {
+  const std::uint32_t cell = node.isLeaf() ? node.begin : receivers_.choose(node, choice);
+  Aim a = receivers_.isFlat(cell) ? aimAtFlat(from, cell, u) : aimAtCurved(from, cell, u);
+  if (!node.isLeaf()) a.density *= receivers_.weight(cell) / receivers_.weightOf(node);
+  return a;
+}
+
+bool ParticleEmission::seenBySolidAngle(const Vec3& from, const Rectangle& r) const {
+  const Vec3 toCenter = r.at({0.5, 0.5}) - from;
+  const double longest = std::max(r.lengthA, r.lengthB), height = std::abs(glm::dot(toCenter, r.normal()));
+  const double squared = glm::dot(toCenter, toCenter);
+  // Far away area is as good; at a grazing angle the solid angle has lost its digits.
+  return squared < square(kFarRectangle * longest) && height * r.area() > 1e-7 * squared * std::sqrt(squared);
+}
+
+ParticleEmission::Aim ParticleEmission::aimAtFlat(const Vec3& from, std::uint32_t cell, const Vec2& u) const {
+  Aim a;
+  a.cell = cell;
+  const Rectangle r = receivers_.rectangle(cell);
+  const double height = std::abs(glm::dot(r.corner - from, r.normal()));
+  double omega = 0;
+  Vec2 at = u;
+  if (seenBySolidAngle(from, r)) {
+    const SolidAngleRectangle seen(r, from);
+    omega = seen.solidAngle();
+    at = seen.sample(u);
+  }
+  const Vec3 x = r.at(at), d = x - from;
+  const double distance = glm::length(d);
+  if (!(height > 1e-7 * distance)) return a;  // edge on
+  a.direction = d / distance, a.distance = distance;
+  a.density = omega > 0 ? 1 / omega : distance * distance * distance / (r.area() * height);
+  const auto point = receivers_.flatPoint(cell, x);
+  if (!point) return a;
+  a.kind = FirstSegment::Kind::Target;
+  a.target = x, a.normal = point->normal;
+  return a;
+}
+
+ParticleEmission::Aim ParticleEmission::aimAtCurved(const Vec3& from, std::uint32_t cell, const Vec2& u) const {
+  Aim a;
+  a.cell = cell;
+  const ReceiverPoint x = receivers_.curvedPoint(cell, u);
+  const Vec3 d = x.position - from;
+  const double distance = glm::length(d);
+  if (!(distance > 0)) return a;
+  a.direction = d / distance, a.distance = distance;
+  const double cosine = std::abs(glm::dot(a.direction, x.normal));
+  if (!(cosine > 0)) return a;
+  a.density = distance * distance / (receivers_.area(cell) * cosine);
+  if (hidesItself(cell, x.position, -a.direction, &from)) return a;
+  a.kind = FirstSegment::Kind::Target;
+  a.target = x.position, a.normal = x.normal;
+  return a;
+}
+
+double ParticleEmission::densityAtCell(const Vec3& from, const RadixNode& node, std::uint32_t cell, const Vec3& at,
+                                       const Vec3& normal) const {
+  const double chance = node.isLeaf() ? 1.0 : receivers_.weight(cell) / receivers_.weightOf(node);
+  const Vec3 d = at - from;
+  const double squared = glm::dot(d, d), distance = std::sqrt(squared);
+  if (receivers_.isFlat(cell)) {
+    const Rectangle r = receivers_.rectangle(cell);
+    const double height = std::abs(glm::dot(r.corner - from, r.normal()));
+    if (!(height > 1e-7 * distance)) return 0;
+    if (seenBySolidAngle(from, r)) return chance / SolidAngleRectangle(r, from).solidAngle();
+    return chance * squared * distance / (r.area() * height);
+  }
+  const double cosine = std::abs(glm::dot(d, normal)) / distance;
+  return cosine > 0 ? chance * squared / (receivers_.area(cell) * cosine) : 0.0;
+}
+
+namespace {
+
+/// 1 - cos of the cone that a sphere fills; 2 from inside.
+double coneDepth(const Vec3& toCenter, double radius) {
+  const double squared = glm::dot(toCenter, toCenter), r2 = square(radius * (1 + 1e-6));
+  if (!(squared > r2)) return 2;
+  const double sin2 = r2 / squared;
+  return sin2 / (1 + std::sqrt(1 - sin2));
+}
+
+}  // namespace
+
+ParticleEmission::Aim ParticleEmission::aimAround(const Origin& y, const BoundingSphere& ball, const Vec2& u) const {
+  Aim a;
+  a.kind = FirstSegment::Kind::Open;
+  const Vec3 toCenter = ball.center - y.position;
+  const double depth = coneDepth(toCenter, ball.radius), phi = 2 * kPi * u.y;
+  if (2 * kPi * depth > kWide && y.lambertian) {
+    const double r = std::sqrt(u.x), z = std::sqrt(1 - u.x);
+    a.direction = Frame(y.normal).toWorld({r * std::cos(phi), r * std::sin(phi), z});
+  } else {
+    const double down = u.x * depth, r = std::sqrt(std::max(0.0, down * (2 - down)));
+    const double length = glm::length(toCenter);
+    const Vec3 axis = length > 0 ? toCenter / length : Vec3(0, 0, 1);
+    a.direction = Frame(axis).toWorld({r * std::cos(phi), r * std::sin(phi), 1 - down});
+  }
+  a.density = densityAround(y, ball, a.direction);
+  return a;
+}
+
+double ParticleEmission::densityAround(const Origin& y, const BoundingSphere& ball, const Vec3& direction) const {
+  const double omega = 2 * kPi * coneDepth(ball.center - y.position, ball.radius);
+  if (omega > kWide && y.lambertian) return std::max(0.0, glm::dot(direction, y.normal)) / kPi;
+  return 1 / omega;  // targets always lie in the cone
+}
+
+/// The far side of a ball that light does not pass straight through: known without a ray.
+bool ParticleEmission::hidesItself(std::uint32_t cell, const Vec3& position, const Vec3& towardsLight,
+                                   const Vec3* from) const {
+  const Primitive& p = scene_[receivers_.primitive(cell)];
+  const auto* ball = std::get_if<Sphere>(&p.shape);
+  if (!ball || isThinGlass(scene_[p.material])) return false;
+  if (from && glm::distance(*from, ball->center) <= ball->radius) return false;
+  return glm::dot(position - ball->center, towardsLight) < 0;
+}
+
+void ParticleEmission::arrive(std::span<const LinkEnds> links, std::span<const FirstSegment> segments,
+                              std::span<Arrival> arrivals, std::uint64_t& rays) const {
+  std::vector<std::uint32_t> targets, opens;
+  std::vector<Ray> straight, open;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const FirstSegment& s = segments[i];
+    arrivals[i] = {};
+    if (s.kind == FirstSegment::Kind::Target)
+      targets.push_back(static_cast<std::uint32_t>(i)), straight.push_back(s.ray);
+    if (s.kind == FirstSegment::Kind::Open) opens.push_back(static_cast<std::uint32_t>(i)), open.push_back(s.ray);
+  }
+  std::vector<Rgb> passed(straight.size());
+  tracer_.transmittances(straight, passed);
+  std::vector<Hit> hits(open.size());
+  tracer_.closestHits(open, hits);
+  rays += straight.size() + open.size();
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    if (isBlack(passed[k])) continue;
+    const FirstSegment& s = segments[targets[k]];
+    Arrival& a = arrivals[targets[k]];
+    a.primitive = receivers_.primitive(s.receiverCell);
+    a.triangle = receivers_.triangle(s.receiverCell);
+    a.position = Vec3f(s.target), a.normal = Vec3f(s.normal), a.direction = s.direction;
+    a.distance = s.atInfinity ? std::numeric_limits<float>::infinity() : glm::length(a.position - s.origin);
+    // An open direction would have ended at the first pane.
+    const bool byEither = passed[k] == Rgb(1.0f);
+    a.flux = s.flux * passed[k] * (byEither ? s.balance : 1.0f);
+  }
+  for (std::size_t k = 0; k < opens.size(); ++k)
+    if (hits[k]) arrivals[opens[k]] = meet(links[opens[k]], segments[opens[k]], hits[k]);
+}
+
+Arrival ParticleEmission::meet(const LinkEnds& link, const FirstSegment& s, const Hit& hit) const {
+  const RadixNode& node = receivers_.nodes()[link.receiver];
+  const std::uint32_t cell = receivers_.cellOf(hit);
+  if (cell < node.begin || cell >= node.end) return {};
+  Arrival a{hit.primitive, hit.triangle, hit.position, hit.normal, s.direction, hit.t, s.flux};
+  const double other = densityAtCell(Vec3(s.origin), node, cell, Vec3(hit.position), glm::normalize(Vec3(hit.normal)));
+  a.flux *= static_cast<float>(s.density / (s.density + other));  // [Veach97 9.8]
+  const SenderCell& c = senders_.cells()[s.senderCell];
+  if (c.kind == SenderKind::Lamp && emission(c).spot) {
+    const double focal = glm::length(emission(c).spot->direction);
+    a.flux *= static_cast<float>(square(a.distance / (a.distance + focal)));
+  }
+  return a;
+}
+
+bool ParticleEmission::averted(const LinkEnds& link) const {
+  const Senders::Cone& cone = senders_.normals(link.sender);
+  const RadixNode& node = senders_.nodes()[link.sender];
+  const SenderCell &first = senders_.cells()[node.begin], &last = senders_.cells()[node.end - 1];
+  if (cone.cosine < 1 || first.primitive != last.primitive || first.front != last.front) return false;
+  const BoundingSphere& ball = receivers_.bound(link.receiver);
+  return glm::dot(cone.axis, ball.center - senders_.point(node.begin, {0.5, 0.5}).position) + ball.radius <= 0;
+}
+
+}  // namespace deltalux

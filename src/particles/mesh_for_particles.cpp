@@ -1,0 +1,80 @@
+#include "particles/mesh_for_particles.hpp"
+
+#include <array>
+
+#include "base/parallel.hpp"
+#include "hierarchy/patch.hpp"
+#include "hierarchy/side_locator.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr int kLevels = 8;
+constexpr std::uint32_t kFewest = 32;  // impacts in a leaf that is split: fewer cannot show detail
+constexpr double kClearly = 1.5;       // a histogram's noise counts this much more than for placing particles
+
+struct Quarter {
+  double sum = 0, squares = 0;
+
+  void add(double w) { sum += w, squares += w * w; }
+  /// Estimated squared error of spreading these over `area`. [Rudemo82 (2.8)]
+  double error(double area) const { return (2 * kClearly * squares - sum * sum) / area; }
+};
+
+struct Tally {
+  std::array<Quarter, 4> quarters;
+  std::uint32_t count = 0;
+};
+
+}  // namespace
+
+std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const Particles& p) {
+  std::vector<ElementId> leaf(p.impacts());
+  std::vector<float> weights(p.impacts());
+  {
+    const SideLocator locator(elements, scene);
+    parallelFor(p.paths(), 1024, [&](std::size_t path) {
+      const float power = p.links[p.link[path]].scale * p.nominal[p.sender[path]];
+      for (std::uint32_t i = p.impactBegin[path]; i < p.impactBegin[path + 1]; ++i) {
+        const ElementId side = locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
+        if (side.valid()) leaf[i] = locator.leafAt(side, Vec2(p.uv[i]));
+        weights[i] = power * gray(p.throughput[i]);
+      }
+    });
+  }
+  std::size_t total = 0;
+  for (int level = 0; level < kLevels; ++level) {
+    std::vector<Tally> tallies(elements.size());
+    for (std::size_t i = 0; i < leaf.size(); ++i) {
+      if (!leaf[i].valid()) continue;
+      const PatchDomain& d = elements.domain[leaf[i].index()];
+      const int quarter = (p.uv[i].x > 0.5f * (d.u0 + d.u1) ? 1 : 0) + (p.uv[i].y > 0.5f * (d.v0 + d.v1) ? 2 : 0);
+      Tally& t = tallies[leaf[i].index()];
+      t.quarters[quarter].add(weights[i]);
+      ++t.count;
+    }
+    std::size_t split = 0;
+    for (std::size_t e = 0; e < tallies.size(); ++e) {
+      const Tally& t = tallies[e];
+      if (t.count < kFewest) continue;
+      const double A = elements.geometry[e].area;
+      Quarter whole;
+      double parts = 0;
+      for (const Quarter& q : t.quarters) {
+        parts += q.error(A / 4);
+        whole.sum += q.sum, whole.squares += q.squares;
+      }
+      if (parts < whole.error(A)) split += subdivide(elements, scene, ElementId(e));
+    }
+    if (split == 0) break;
+    total += split;
+    const SideLocator locator(elements, scene);
+    parallelFor(leaf.size(), 4096, [&](std::size_t i) {
+      if (leaf[i].valid()) leaf[i] = locator.leafAt(leaf[i], Vec2(p.uv[i]));
+    });
+  }
+  return total;
+}
+
+}  // namespace deltalux

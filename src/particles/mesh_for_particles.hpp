@@ -1,0 +1,13 @@
+#pragma once
+// Splits leaf patches where particles show detail that they are too large for, so that a caustic's light is sent on
+// from where it lies: by the same estimated error that places particles in the hierarchy (transfer.hpp), four quarters
+// against the whole. Links are untouched; they stay with the patch above.
+// Cost: about 0.2 microseconds an impact and level.
+#include "particles/particles.hpp"
+
+namespace deltalux {
+
+/// Returns how many patches were split.
+std::size_t subdivideForParticles(Elements&, const Scene&, const Particles&);
+
+}  // namespace deltalux

@@ -1,0 +1,47 @@
+#include "particles/reached_sides.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace deltalux {
+
+namespace {
+
+/// In the order of surfaceSides(): fronts before backs.
+auto orderOf(const SurfaceSide& s) { return std::tuple(s.primitive, s.triangle, !s.front); }
+
+double areaOf(const Scene& scene, const SurfaceSide& s) {
+  const Shape& shape = scene[s.primitive].shape;
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  if (!mesh) return area(shape);
+  return mesh->cumulativeArea[s.triangle] - (s.triangle > 0 ? mesh->cumulativeArea[s.triangle - 1] : 0.0);
+}
+
+}  // namespace
+
+void addReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles, const Scene& scene) {
+  std::map<std::pair<PrimitiveId, std::uint32_t>, RgbSum> flux;  // by primitive, triangle and side
+  for (std::size_t path = 0; path < particles.paths(); ++path) {
+    const double power =
+        double(particles.links[particles.link[path]].scale) * particles.nominal[particles.sender[path]];
+    for (std::uint32_t i = particles.impactBegin[path]; i < particles.impactBegin[path + 1]; ++i)
+      flux[{particles.primitive[i], particles.triangleAndSide[i]}] += power * RgbSum(particles.throughput[i]);
+  }
+  const auto before = [](const SurfaceSide& a, const SurfaceSide& b) { return orderOf(a) < orderOf(b); };
+  std::vector<SurfaceSide> added;
+  for (const auto& [where, power] : flux) {
+    SurfaceSide s{where.first, where.second >> 1, (where.second & 1) == 0, 0, Rgb(0.0f), 0};
+    if (std::binary_search(sides.begin(), sides.end(), s, before)) continue;
+    const double A = areaOf(scene, s);
+    s.irradiance = Rgb(power / A);
+    s.typicalIrradiance = gray(s.irradiance);
+    s.meanFreePath = static_cast<float>(std::sqrt(A));
+    added.push_back(s);
+  }
+  sides.insert(sides.end(), added.begin(), added.end());
+  std::sort(sides.begin(), sides.end(), before);
+}
+
+}  // namespace deltalux

@@ -1,0 +1,11 @@
+#pragma once
+#include "hierarchy/build.hpp"
+#include "particles/particles.hpp"
+
+namespace deltalux {
+
+/// Adds the sides that only particles reach (behind a lens, inside a glass case) to those that other light does, so
+/// that they have elements; keeps the order of surfaceSides().
+void addReachedSides(std::vector<SurfaceSide>&, const Particles&, const Scene&);
+
+}  // namespace deltalux

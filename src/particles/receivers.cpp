@@ -1,0 +1,240 @@
+#include "particles/receivers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace deltalux {
+
+namespace {
+
+constexpr double kCellsOfScene = 4096;  // cells that the whole scene's area would make
+constexpr std::uint64_t kSeed = 0x7265636569766572ull;
+
+double lobe(const SpecularLobe& l) { return maxChannel(l.reflectance); }
+
+/// A few digits only: a motion must not change them, nor with them which cells are drawn.
+double rounded(double x) {
+  return static_cast<double>(static_cast<float>(std::ldexp(std::round(std::ldexp(x, 12)), -12)));
+}
+
+double weightOf(double area, double albedo) {
+  int exponent = 0;
+  const double mantissa = std::frexp(area * albedo, &exponent);
+  return std::ldexp(rounded(mantissa), exponent);
+}
+
+Rectangle frameOf(const Polygon& p) {
+  const double length = glm::length(p.edgeU);
+  const Vec3 a = p.edgeU / length, b = glm::cross(p.normal, a);
+  Vec2 low(kInfinity), high(-kInfinity);
+  for (const Vec3& v : p.vertices) {
+    const Vec2 at(glm::dot(v - p.origin, a), glm::dot(v - p.origin, b));
+    low = glm::min(low, at), high = glm::max(high, at);
+  }
+  return {p.origin + low.x * a + low.y * b, a, b, high.x - low.x, high.y - low.y};
+}
+
+Rectangle frameOf(const Ring& r) {
+  const Frame f(r.normal);
+  return {r.center - r.outerRadius * (f.tangent + f.bitangent), f.tangent, f.bitangent, 2 * r.outerRadius,
+          2 * r.outerRadius};
+}
+
+Rectangle frameOf(const Mesh& m, std::uint32_t triangle) {
+  const auto& t = m.triangles[triangle];
+  Vec3 p[3] = {m.positions[t[0]], m.positions[t[1]], m.positions[t[2]]};
+  // Along the longest edge the rectangle is least.
+  int longest = 0;
+  for (int i = 1; i < 3; ++i)
+    if (glm::distance(p[i], p[(i + 1) % 3]) > (1 + 1e-6) * glm::distance(p[longest], p[(longest + 1) % 3])) longest = i;
+  const Vec3 origin = p[longest], edge = p[(longest + 1) % 3] - origin, third = p[(longest + 2) % 3] - origin;
+  const double length = glm::length(edge);
+  const Vec3 a = edge / length, up = third - glm::dot(third, a) * a;
+  const double height = glm::length(up);
+  return {origin, a, up / height, length, height};
+}
+
+}  // namespace
+
+float specularAlbedo(const Material& material) {
+  struct Visitor {
+    double operator()(const Opaque& s) const { return lobe(s.specular); }
+    double operator()(const Mirror& s) const { return maxChannel(s.reflectance); }
+    double operator()(const ThinGlass& s) const { return maxChannel(reflectance(s, 0.5)); }
+    double operator()(const Dielectric&) const { return 1.0; }
+    double operator()(const Trans& s) const { return lobe(s.reflection) + lobe(s.transmission); }
+  };
+  return static_cast<float>(std::visit(Visitor{}, material.surface));
+}
+
+Receivers::Receivers(const Scene& scene) : scene_(scene), surfaceOf_(scene.primitives.size(), RadixNode::kNone) {
+  double total = 0;
+  for (const Primitive& p : scene.primitives) total += deltalux::area(p.shape);
+  const double limit = coarse(total) / kCellsOfScene;
+  const std::vector<std::uint32_t> top = topObjects(scene);
+  std::vector<std::pair<Code, Cell>> cells;
+  for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+    const Primitive& p = scene.primitives[i];
+    if (!isSpecular(scene[p.material]) || !(deltalux::area(p.shape) > 0)) continue;
+    surfaceOf_[i] = static_cast<std::uint32_t>(surfaces_.size());
+    const auto* mesh = std::get_if<Mesh>(&p.shape);
+    for (std::uint32_t t = 0; t < (mesh ? mesh->triangles.size() : 1); ++t)
+      addSurface(p, PrimitiveId(i), t, top[i], limit, cells);
+  }
+  if (cells.empty()) return;
+  std::sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Code> codes;
+  cumulative_.push_back(0);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Cell& cell = cells[i].second;
+    if (i == 0 || cell.surface != cells_.back().surface)
+      surfaces_[cell.surface].firstCell = static_cast<std::uint32_t>(i);
+    codes.push_back(cells[i].first);
+    cells_.push_back(cell);
+    cumulative_.push_back(cumulative_.back() + deltalux::weightOf(cell.area, surfaces_[cell.surface].albedo));
+  }
+  appendRadixTree(nodes_, codes, 0, kSeed);
+  bounds_.resize(nodes_.size());
+  std::vector<Box> boxes(nodes_.size());
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
+    const RadixNode& node = nodes_[n];
+    if (node.isLeaf()) {
+      bounds_[n] = boundOf(cells_[node.begin]);
+      boxes[n] = {bounds_[n].center - bounds_[n].radius, bounds_[n].center + bounds_[n].radius};
+      continue;
+    }
+    const BoundingSphere &a = bounds_[node.child[0]], &b = bounds_[node.child[1]];
+    boxes[n] = boxes[node.child[0]];
+    boxes[n].extend(boxes[node.child[1]]);
+    const Vec3 c = boxes[n].center();
+    bounds_[n] = {c, std::max(glm::distance(a.center, c) + a.radius, glm::distance(b.center, c) + b.radius)};
+  }
+}
+
+void Receivers::addSurface(const Primitive& p, PrimitiveId id, std::uint32_t triangle, std::uint32_t object,
+                           double limit, std::vector<std::pair<Code, Cell>>& cells) {
+  Surface s;
+  s.primitive = id, s.triangle = triangle;
+  s.albedo = specularAlbedo(scene_[p.material]);
+  s.flat = true;
+  if (const auto* polygon = std::get_if<Polygon>(&p.shape)) {
+    s.frame = frameOf(*polygon);
+    s.fills = s.frame.area() < (1 + 1e-9) * polygon->area;
+  } else if (const auto* ring = std::get_if<Ring>(&p.shape)) {
+    s.frame = frameOf(*ring);
+  } else if (const auto* mesh = std::get_if<Mesh>(&p.shape)) {
+    s.frame = frameOf(*mesh, triangle);
+  } else {
+    s.flat = false;
+  }
+  const double whole = s.flat ? s.frame.area() : deltalux::area(p.shape);
+  s.size = s.flat ? Vec2(s.frame.lengthA, s.frame.lengthB) : sampleSize(p.shape);
+  s.halvings = halvings(whole, limit);
+  s.firstCell = RadixNode::kNone;
+  const auto surface = static_cast<std::uint32_t>(surfaces_.size());
+  surfaces_.push_back(s);
+  if (!(whole > 0) || !std::isfinite(whole)) return;
+  for (const UnitCell& c : cellsOf(s.size, s.halvings)) {
+    Cell cell{surface, c.rect, whole * c.rect.measure(), s.flat};
+    cells.push_back({Code{object, id.value, triangle, c.code}, cell});
+  }
+}
+
+std::uint32_t Receivers::choose(const RadixNode& node, double u) const {
+  const double target = cumulative_[node.begin] + u * weightOf(node);
+  const auto first = cumulative_.begin() + node.begin + 1, last = cumulative_.begin() + node.end;
+  return static_cast<std::uint32_t>(std::upper_bound(first, last, target) - cumulative_.begin() - 1);
+}
+
+Rectangle Receivers::rectangle(std::uint32_t cell) const {
+  const Cell& c = cells_[cell];
+  const Rectangle& f = surfaces_[c.surface].frame;
+  return {f.at({c.rect.u0, c.rect.v0}), f.a, f.b, (c.rect.u1 - c.rect.u0) * f.lengthA,
+          (c.rect.v1 - c.rect.v0) * f.lengthB};
+}
+
+bool Receivers::onSurface(const Surface& s, const Vec3& p) const {
+  const Shape& shape = scene_[s.primitive].shape;
+  if (const auto* ring = std::get_if<Ring>(&shape)) {
+    const double r = glm::distance(p, ring->center);
+    return r >= ring->innerRadius && r <= ring->outerRadius;
+  }
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    const auto& t = mesh->triangles[s.triangle];
+    const Vec3 p0 = mesh->positions[t[0]], e1 = mesh->positions[t[1]] - p0, e2 = mesh->positions[t[2]] - p0;
+    const Vec3 n = glm::cross(e1, e2);
+    const double squared = glm::dot(n, n);
+    const double u = glm::dot(glm::cross(p - p0, e2), n) / squared, v = glm::dot(glm::cross(e1, p - p0), n) / squared;
+    return u >= 0 && v >= 0 && u + v <= 1;
+  }
+  const auto& polygon = std::get<Polygon>(shape);
+  const Vec3 d = p - polygon.origin;
+  return covers(shape, {glm::dot(d, polygon.dualU), glm::dot(d, polygon.dualV)});
+}
+
+std::optional<ReceiverPoint> Receivers::flatPoint(std::uint32_t cell, const Vec3& position) const {
+  const Surface& s = surfaces_[cells_[cell].surface];
+  if (!s.fills && !onSurface(s, position)) return std::nullopt;
+  const Shape& shape = scene_[s.primitive].shape;
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) return ReceiverPoint{position, polygon->normal};
+  if (const auto* ring = std::get_if<Ring>(&shape)) return ReceiverPoint{position, ring->normal};
+  const auto& mesh = std::get<Mesh>(shape);
+  const auto& t = mesh.triangles[s.triangle];
+  const Vec3& p0 = mesh.positions[t[0]];
+  return ReceiverPoint{position, glm::normalize(glm::cross(mesh.positions[t[1]] - p0, mesh.positions[t[2]] - p0))};
+}
+
+ReceiverPoint Receivers::curvedPoint(std::uint32_t cell, const Vec2& u) const {
+  const Cell& c = cells_[cell];
+  const SurfacePoint p = samplePoint(scene_[surfaces_[c.surface].primitive].shape, c.rect.at(u));
+  return {p.position, p.normal};
+}
+
+std::uint32_t Receivers::cellOf(const Hit& hit) const {
+  const std::uint32_t first = surfaceOf_[hit.primitive.index()];
+  if (first == RadixNode::kNone) return RadixNode::kNone;
+  const Surface& s = surfaces_[first + hit.triangle];
+  if (s.halvings == 0 || s.firstCell == RadixNode::kNone) return s.firstCell;
+  const Vec3 p(hit.position);
+  Vec2 at;
+  if (s.flat) {
+    const Vec3 d = p - s.frame.corner;
+    at = {glm::dot(d, s.frame.a) / s.frame.lengthA, glm::dot(d, s.frame.b) / s.frame.lengthB};
+  } else {
+    const Shape& shape = scene_[s.primitive].shape;
+    at = sampleNumbers(shape, 0, parameterAt(shape, p));
+  }
+  return s.firstCell + cellAt(s.size, s.halvings, at);
+}
+
+BoundingSphere Receivers::boundOf(const Cell& c) const {
+  const Surface& s = surfaces_[c.surface];
+  if (s.flat) {
+    const Vec3 low = s.frame.at({c.rect.u0, c.rect.v0}), high = s.frame.at({c.rect.u1, c.rect.v1});
+    return {0.5 * (low + high), 0.5 * glm::distance(low, high)};
+  }
+  const Shape& shape = scene_[s.primitive].shape;
+  const Box whole = bounds(shape);
+  const auto* ball = std::get_if<Sphere>(&shape);
+  const BoundingSphere sphere{whole.center(), ball ? ball->radius : 0.5 * whole.diagonal()};
+  if (s.halvings == 0) return sphere;
+  // A grid of points, widened by what the surface bulges between them.
+  constexpr int kGrid = 4;
+  Box box;
+  for (int j = 0; j <= kGrid; ++j)
+    for (int i = 0; i <= kGrid; ++i)
+      box.extend(samplePoint(shape, c.rect.at({double(i) / kGrid, std::min(double(j) / kGrid, 1.0)})).position);
+  const double du = (c.rect.u1 - c.rect.u0) / kGrid, dv = (c.rect.v1 - c.rect.v0) / kGrid;
+  const double step = std::max(2 * kPi * du, 2.5 * std::sqrt(dv));  // angle; v is the height, steep at a ball's poles
+  const double bulge = (1 - std::cos(std::min(kPi, step) / 2)) * 0.5 * whole.diagonal();
+  const BoundingSphere part{box.center(), 0.5 * box.diagonal() + bulge};
+  return part.radius < sphere.radius ? part : sphere;
+}
+
+std::size_t Receivers::memoryBytes() const {
+  return surfaces_.capacity() * sizeof(Surface) + cells_.capacity() * sizeof(Cell) +
+         nodes_.capacity() * sizeof(RadixNode) + bounds_.capacity() * sizeof(BoundingSphere) +
+         cumulative_.capacity() * 8 + surfaceOf_.capacity() * 4;
+}
+
+}  // namespace deltalux

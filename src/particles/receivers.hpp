@@ -1,0 +1,93 @@
+#pragma once
+// What particles are sent to: the surfaces that pass light on other than diffusely (mirrors, lobes, glass), cut into
+// cells, in a tree of their own. Both sides of a surface are one receiver.
+//
+// Flat surfaces have cells of their plane's rectangle (what of it the surface leaves empty is simply never met), curved
+// ones of their parameters. Cells and nodes of the tree are bounded by spheres.
+#include "particles/radix_tree.hpp"
+#include "particles/solid_angle_rectangle.hpp"
+#include "particles/surface_cells.hpp"
+#include "tracing/ray.hpp"
+
+namespace deltalux {
+
+struct BoundingSphere {
+  Vec3 center{0};
+  double radius = 0;
+};
+
+/// A point of a receiver with its unit front normal.
+struct ReceiverPoint {
+  Vec3 position{0}, normal{0, 0, 1};
+};
+
+class Receivers {
+ public:
+  explicit Receivers(const Scene&);
+
+  bool empty() const { return cells_.empty(); }
+  std::size_t size() const { return cells_.size(); }
+  const std::vector<RadixNode>& nodes() const { return nodes_; }
+  std::uint32_t root() const { return 0; }
+  const BoundingSphere& bound(std::uint32_t node) const { return bounds_[node]; }
+  bool isFlat(std::uint32_t cell) const { return cells_[cell].flat; }
+  PrimitiveId primitive(std::uint32_t cell) const { return surfaces_[cells_[cell].surface].primitive; }
+  std::uint32_t triangle(std::uint32_t cell) const { return surfaces_[cells_[cell].surface].triangle; }
+  /// Greatest specular reflectance or transmittance of the surface.
+  float albedo(std::uint32_t cell) const { return surfaces_[cells_[cell].surface].albedo; }
+  /// Area of the cell: of a flat one with what the surface leaves empty of it.
+  double area(std::uint32_t cell) const { return cells_[cell].area; }
+  /// Weight by which a cell is drawn, area times albedo.
+  double weight(std::uint32_t cell) const { return cumulative_[cell + 1] - cumulative_[cell]; }
+  double weightOf(const RadixNode& node) const { return cumulative_[node.end] - cumulative_[node.begin]; }
+  /// A cell below the node, drawn by weight; `u` in [0,1).
+  std::uint32_t choose(const RadixNode& node, double u) const;
+
+  /// The rectangle of a flat cell.
+  Rectangle rectangle(std::uint32_t cell) const;
+  /// The point of a flat cell at shares `s` of its rectangle; nullopt where the surface is not.
+  std::optional<ReceiverPoint> flatPoint(std::uint32_t cell, const Vec3& position) const;
+  /// A point of a curved cell, uniform by area.
+  ReceiverPoint curvedPoint(std::uint32_t cell, const Vec2& u) const;
+
+  /// The cell that holds the point a ray has hit; kNone when its surface receives no particles.
+  std::uint32_t cellOf(const Hit&) const;
+
+  std::size_t memoryBytes() const;
+
+ private:
+  struct Surface {
+    PrimitiveId primitive;
+    std::uint32_t triangle = 0;
+    std::uint32_t firstCell = 0;
+    int halvings = 0;
+    float albedo = 0;
+    Vec2 size{0};
+    Rectangle frame;  // flat ones
+    bool flat = false, fills = false;
+  };
+  struct Cell {
+    std::uint32_t surface = 0;
+    UnitRect rect;
+    double area = 0;
+    bool flat = false;
+  };
+
+  void addSurface(const Primitive&, PrimitiveId, std::uint32_t triangle, std::uint32_t object, double limit,
+                  std::vector<std::pair<Code, Cell>>&);
+  bool onSurface(const Surface&, const Vec3&) const;
+  BoundingSphere boundOf(const Cell&) const;
+
+  const Scene& scene_;
+  std::vector<Surface> surfaces_;
+  std::vector<Cell> cells_;
+  std::vector<RadixNode> nodes_;
+  std::vector<BoundingSphere> bounds_;    // by node
+  std::vector<double> cumulative_;        // of weights, one more
+  std::vector<std::uint32_t> surfaceOf_;  // by primitive: first surface, or none
+};
+
+/// Greatest share of incident light that a surface passes on other than diffusely.
+float specularAlbedo(const Material&);
+
+}  // namespace deltalux

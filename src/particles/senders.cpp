@@ -1,0 +1,239 @@
+#include "particles/senders.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr double kCellsOfScene = 1024;   // diffuse cells that the whole scene's area would make
+constexpr double kLampsOfScene = 16384;  // the same for emitters
+constexpr int kMostLampHalvings = 6;
+constexpr int kSkyHalvings = 8;
+constexpr std::uint64_t kSurfaceSeed = 0x737572666163657aull, kLightSeed = 0x6c69676874737a7aull;
+
+bool isDiffuse(const Material& m, bool front) {
+  return !isBlack(diffuseReflectance(m, front)) || !isBlack(diffuseTransmittance(m));
+}
+
+/// A few digits only, see Receivers.
+double rounded(double x) {
+  int exponent = 0;
+  return std::ldexp(std::round(std::ldexp(std::frexp(x, &exponent), 12)), exponent - 12);
+}
+
+}  // namespace
+
+Senders::Senders(const Scene& scene, const LightSampler& lights) : scene_(scene), lights_(lights) {
+  double total = 0;
+  for (const Primitive& p : scene.primitives) total += area(p.shape);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) addLight(LightId(i), coarse(total) / kLampsOfScene);
+  lightTrees_ = roots_.size();
+  surfaceCells_ = static_cast<std::uint32_t>(cells_.size());
+  addSurfaces(coarse(total) / kCellsOfScene);
+}
+
+void Senders::addLight(LightId id, double limit) {
+  std::vector<std::pair<Code, SenderCell>> cells;
+  const auto& emitter = scene_[id].emitter;
+  SenderCell c;
+  c.light = id;
+  if (const auto* areaLight = std::get_if<AreaLight>(&emitter)) {
+    const Material& material = scene_.materialOf(areaLight->primitive);
+    const Shape& shape = scene_[areaLight->primitive].shape;
+    const double whole = area(shape);
+    if (!material.emission || !(whole > 0)) return;
+    c.kind = SenderKind::Lamp;
+    c.primitive = areaLight->primitive;
+    const int halves = std::min(halvings(whole, limit), kMostLampHalvings);
+    for (const bool front : {true, false}) {
+      if (!front && !material.emission->bothSides) continue;
+      c.front = front;
+      for (const UnitCell& cell : cellsOf(sampleSize(shape), halves)) {
+        c.rect = cell.rect;
+        c.measure = static_cast<float>(whole * cell.rect.measure());
+        cells.push_back({Code{front ? 0u : 1u, cell.code, 0, 0}, c});
+      }
+    }
+  } else if (const auto* sun = std::get_if<SunLight>(&emitter)) {
+    c.kind = SenderKind::Sun;
+    c.measure = static_cast<float>(solidAngle(*sun));
+    cells.push_back({Code{}, c});
+  } else if (const auto* dome = std::get_if<DomeLight>(&emitter)) {
+    c.kind = SenderKind::Sky;
+    const double cap = 1 - std::cos(dome->halfAngle);
+    for (const UnitCell& cell : cellsOf({2 * kPi, std::sqrt(cap) * 1.5}, kSkyHalvings)) {
+      c.rect = cell.rect;
+      c.measure = static_cast<float>(2 * kPi * cap * cell.rect.measure());
+      cells.push_back({Code{0, cell.code, 0, 0}, c});
+    }
+  } else {
+    c.kind = SenderKind::Point;
+    c.measure = 1;
+    cells.push_back({Code{}, c});
+  }
+  addTree(std::move(cells), combineKeys(kLightSeed, id.value));
+}
+
+void Senders::addSurfaces(double limit) {
+  const std::vector<std::uint32_t> top = topObjects(scene_);
+  halvings_.assign(scene_.primitives.size(), 0);
+  firstCell_.assign(2 * scene_.primitives.size(), RadixNode::kNone);
+  std::vector<std::pair<Code, SenderCell>> cells;
+  for (std::size_t i = 0; i < scene_.primitives.size(); ++i) {
+    const Primitive& p = scene_.primitives[i];
+    const Material& material = scene_[p.material];
+    const double whole = area(p.shape);
+    if (!(whole > 0)) continue;
+    for (const bool front : {true, false}) {
+      if (!isDiffuse(material, front)) continue;
+      SenderCell c;
+      c.front = front, c.primitive = PrimitiveId(i);
+      halvings_[i] = static_cast<std::uint8_t>(halvings(whole, limit));
+      for (const UnitCell& cell : cellsOf(sampleSize(p.shape), halvings_[i])) {
+        c.rect = cell.rect;
+        c.measure = static_cast<float>(whole * cell.rect.measure());
+        cells.push_back({Code{top[i], static_cast<std::uint32_t>(i), front ? 0u : 1u, cell.code}, c});
+      }
+    }
+  }
+  std::sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  addTree(std::move(cells), kSurfaceSeed);
+  for (std::size_t i = cells_.size(); i-- > surfaceCells_;)
+    firstCell_[2 * cells_[i].primitive.index() + (cells_[i].front ? 0 : 1)] = static_cast<std::uint32_t>(i);
+}
+
+std::uint32_t Senders::cellOf(PrimitiveId p, std::uint32_t triangle, bool front, const Vec2& uv) const {
+  const std::uint32_t first = firstCell_[2 * p.index() + (front ? 0 : 1)];
+  const int halves = halvings_[p.index()];
+  if (first == RadixNode::kNone || halves == 0) return first;
+  const Shape& shape = scene_[p].shape;
+  return first + cellAt(sampleSize(shape), halves, sampleNumbers(shape, triangle, uv));
+}
+
+void Senders::addTree(std::vector<std::pair<Code, SenderCell>> cells, std::uint64_t seed) {
+  if (cells.empty()) return;
+  const std::size_t firstNode = nodes_.size();
+  const auto firstLeaf = static_cast<std::uint32_t>(cells_.size());
+  std::vector<Code> codes;
+  for (auto& [code, cell] : cells) {
+    codes.push_back(code);
+    cells_.push_back(std::move(cell));
+  }
+  roots_.push_back(appendRadixTree(nodes_, codes, firstLeaf, seed));
+  boundNodes(firstNode);
+}
+
+void Senders::boundNodes(std::size_t firstNode) {
+  bounds_.resize(nodes_.size());
+  normals_.resize(nodes_.size());
+  for (std::size_t n = nodes_.size(); n-- > firstNode;) {
+    const RadixNode& node = nodes_[n];
+    if (node.isLeaf()) {
+      boundLeaf(n, cells_[node.begin]);
+      continue;
+    }
+    const std::uint32_t a = node.child[0], b = node.child[1];
+    const bool sky = cells_[node.begin].kind == SenderKind::Sky;
+    const BoundingSphere &s = bounds_[a], &t = bounds_[b];
+    if (sky) {
+      const Vec3 sum = s.center + t.center;
+      const Vec3 axis = glm::length(sum) > 1e-6 ? glm::normalize(sum) : s.center;
+      const auto reach = [&](const BoundingSphere& x) {
+        return std::acos(std::clamp(glm::dot(x.center, axis), -1.0, 1.0)) + x.radius;
+      };
+      bounds_[n] = {axis, std::min(kPi, std::max(reach(s), reach(t)))};
+      continue;
+    }
+    // The smallest sphere over two.
+    const double d = glm::distance(s.center, t.center);
+    if (d + t.radius <= s.radius) {
+      bounds_[n] = s;
+    } else if (d + s.radius <= t.radius) {
+      bounds_[n] = t;
+    } else {
+      const double radius = 0.5 * (d + s.radius + t.radius);
+      bounds_[n] = {s.center + (radius - s.radius) / d * (t.center - s.center), radius};
+    }
+    const Cone &p = normals_[a], &q = normals_[b];
+    if (p.cosine > 1 - 1e-12 && q.cosine > 1 - 1e-12 && glm::dot(p.axis, q.axis) > 1 - 1e-12) normals_[n] = p;
+  }
+}
+
+void Senders::boundLeaf(std::size_t n, const SenderCell& c) {
+  if (c.kind == SenderKind::Point) {
+    bounds_[n] = {lights_.position(c.light), 0};
+    return;
+  }
+  const std::uint32_t cell = nodes_[n].begin;
+  constexpr int kGrid = 4;
+  if (c.kind == SenderKind::Sun || c.kind == SenderKind::Sky) {
+    const Vec3 axis = direction(cell, {0.5, c.kind == SenderKind::Sun ? 0.0 : 0.5});
+    double angle = 0;
+    for (int i = 0; i <= kGrid; ++i)
+      for (int j = 0; j <= kGrid; ++j)
+        angle = std::max(angle, std::acos(std::clamp(
+                                    glm::dot(axis, direction(cell, {double(i) / kGrid, double(j) / kGrid})), -1., 1.)));
+    bounds_[n] = {axis, angle};
+    return;
+  }
+  const Shape& shape = scene_[c.primitive].shape;
+  Box box;
+  for (int i = 0; i <= kGrid; ++i)
+    for (int j = 0; j <= kGrid; ++j) {
+      const Vec2 s = glm::min(Vec2(double(i) / kGrid, double(j) / kGrid), Vec2(1 - 1e-9));
+      box.extend(samplePoint(shape, c.rect.at(s)).position);
+    }
+  bounds_[n] = {box.center(), 0.5 * box.diagonal()};
+  const bool flat = std::holds_alternative<Polygon>(shape) || std::holds_alternative<Ring>(shape);
+  if (flat) normals_[n] = {point(cell, {0.5, 0.5}).normal, 1};
+}
+
+void Senders::weigh(std::span<const float> strength) {
+  cumulative_.assign(1, 0.0);
+  for (std::size_t i = 0; i < cells_.size(); ++i)
+    cumulative_.push_back(cumulative_.back() + rounded(double(cells_[i].measure) * strength[i]));
+}
+
+std::uint32_t Senders::choose(const RadixNode& node, double u) const {
+  const double target = cumulative_[node.begin] + u * weightOf(node);
+  const auto first = cumulative_.begin() + node.begin + 1, last = cumulative_.begin() + node.end;
+  return static_cast<std::uint32_t>(std::upper_bound(first, last, target) - cumulative_.begin() - 1);
+}
+
+SurfacePoint Senders::point(std::uint32_t cell, const Vec2& u) const {
+  const SenderCell& c = cells_[cell];
+  SurfacePoint p = samplePoint(scene_[c.primitive].shape, c.rect.at(u));
+  if (!c.front) p.normal = -p.normal;
+  return p;
+}
+
+Vec3 Senders::direction(std::uint32_t cell, const Vec2& u) const {
+  const SenderCell& c = cells_[cell];
+  const auto& emitter = scene_[c.light].emitter;
+  Vec3 axis;
+  double halfAngle;
+  if (const auto* sun = std::get_if<SunLight>(&emitter)) {
+    axis = sun->direction, halfAngle = sun->angularRadius;
+  } else {
+    const auto& dome = std::get<DomeLight>(emitter);
+    axis = dome.axis, halfAngle = dome.halfAngle;
+  }
+  const Vec2 at = c.rect.at(u);
+  const double halfSine = std::sin(0.5 * halfAngle);
+  // 1 - cos, so that the sun's small disc keeps its digits.
+  const double down = 2 * halfSine * halfSine * at.y, radius = std::sqrt(std::max(0.0, down * (2 - down)));
+  const double phi = 2 * kPi * at.x;
+  return Frame(axis).toWorld({radius * std::cos(phi), radius * std::sin(phi), 1 - down});
+}
+
+std::size_t Senders::memoryBytes() const {
+  return cells_.capacity() * sizeof(SenderCell) + nodes_.capacity() * sizeof(RadixNode) +
+         bounds_.capacity() * sizeof(BoundingSphere) + normals_.capacity() * sizeof(Cone) + cumulative_.capacity() * 8 +
+         roots_.capacity() * 4;
+}
+
+}  // namespace deltalux

@@ -1,0 +1,10 @@
+#pragma once
+#include "particles/particles.hpp"
+
+namespace deltalux {
+
+/// Traces the paths of counted links, in blocks: all first segments of a block at once, then all next ones, so that
+/// rays reach the tracer in batches. Cost: about as much as the rays alone.
+void tracePaths(const Scene&, const RayTracer&, const ParticleEmission&, int maxDepth, Particles&);
+
+}  // namespace deltalux

@@ -1,0 +1,74 @@
+#include <algorithm>
+
+#include "particles/count_paths.hpp"
+#include "particles/particles.hpp"
+#include "particles/trace.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr double kPilots = 1 << 15;  // particles that find where caustics light diffuse senders
+
+void nameSenders(const Senders& senders, const CoarseExitance& exitance, Particles& p) {
+  p.senderCells = senders.cells();
+  p.nominal = exitance.perCell;
+  std::fill_n(p.nominal.begin(), senders.surfaceCells(), 1.0f);
+}
+
+/// Flux of particles by the diffuse cell that they land on.
+std::vector<double> landedFlux(const Particles& p, const Senders& senders) {
+  std::vector<double> flux(senders.cells().size(), 0.0);
+  for (std::size_t path = 0; path < p.paths(); ++path) {
+    const double power = double(p.links[p.link[path]].scale) * p.nominal[p.sender[path]];
+    for (std::uint32_t i = p.impactBegin[path]; i < p.impactBegin[path + 1]; ++i) {
+      const std::uint32_t side = p.triangleAndSide[i];
+      const std::uint32_t cell = senders.cellOf(p.primitive[i], side >> 1, (side & 1) == 0, Vec2(p.uv[i]));
+      if (cell != RadixNode::kNone) flux[cell] += power * gray(p.throughput[i]);
+    }
+  }
+  return flux;
+}
+
+void append(DsLinks& links, const DsLinks& more) {
+  links.all.insert(links.all.end(), more.all.begin(), more.all.end());
+  std::sort(links.all.begin(), links.all.end(), [](const DsLink& a, const DsLink& b) { return a.key < b.key; });
+  links.flux += more.flux, links.rays += more.rays, links.judged += more.judged;
+}
+
+}  // namespace
+
+Particles traceParticles(const Scene& scene, const RayTracer& tracer, const ParticleSettings& settings) {
+  Particles p;
+  const Receivers receivers(scene);
+  if (receivers.empty() || settings.count == 0) return p;
+  const LightSampler lights(scene);
+  Senders senders(scene, lights);
+  const ParticleEmission emission(scene, tracer, senders, receivers);
+  CoarseExitance exitance = coarseExitance(scene, tracer, lights, senders);
+  senders.weigh(exitance.perCell);
+  DsLinks links;
+  const auto refine = [&](std::span<const std::uint32_t> roots) {
+    DsSettings ds;
+    ds.otherFlux = links.flux, ds.seed = settings.seed;
+    return refineDsLinks(scene, tracer, emission, senders, receivers, exitance, roots, ds);
+  };
+
+  // The light of lights first: surfaces that it reaches over mirrors and glass send on more than shadow rays know of.
+  links = refine(senders.lightRoots());
+  Particles pilots;
+  nameSenders(senders, exitance, pilots);
+  countPaths(links, kPilots, pilots);
+  tracePaths(scene, tracer, emission, settings.maxDepth, pilots);
+  addFlux(exitance, senders, landedFlux(pilots, senders));
+  senders.weigh(exitance.perCell);
+  append(links, refine(senders.surfaceRoots()));
+
+  nameSenders(senders, exitance, p);
+  countPaths(links, static_cast<double>(settings.count), p);
+  tracePaths(scene, tracer, emission, settings.maxDepth, p);
+  p.looks = exitance.rays + links.rays + pilots.rays;
+  return p;
+}
+
+}  // namespace deltalux

@@ -1,0 +1,150 @@
+// Particles are a function of the scene, the seed and the target count alone, and their flux is accounted for.
+#include "particles/particles.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "base/parallel.hpp"
+#include "particles/transfer.hpp"
+#include "radiosity/coarse_solution.hpp"
+#include "radiosity/push_pull.hpp"
+#include "support/rooms.hpp"
+
+namespace deltalux {
+namespace {
+
+/// A room with a lamp, a sunlit window of glass, a mirror, a metal ball, a glass ball and a glossy floor.
+Scene room(float lampScale = 1.0f, float wallColour = 0.6f) {
+  Scene scene;
+  const MaterialId wall = test::addMaterial(scene, "wall", test::lambert(wallColour));
+  test::addBox(scene, wall, {0, 0, 0}, {4, 3, 2.5}, true);
+  Opaque glossy = test::lambert(0.3f);
+  glossy.specular = {Rgb(0.1f, 0.2f, 0.3f), 0.1f, SpecularLobe::Distribution::Ward};
+  test::addPolygon(scene, test::addMaterial(scene, "tiles", glossy),
+                   {{1, 1, 0.01}, {3, 1, 0.01}, {3, 2, 0.01}, {1, 2, 0.01}});
+  test::addPolygon(scene, test::addMaterial(scene, "mirror", Mirror{Rgb(0.9f)}),
+                   {{3.99, 1, 1}, {3.99, 1, 2}, {3.99, 2, 2}, {3.99, 2, 1}});
+  test::addPolygon(scene, test::addMaterial(scene, "pane", ThinGlass{Rgb(0.95f), 1.52f}),
+                   {{1, 0.5, 0.5}, {2, 0.5, 0.5}, {2, 0.5, 1.5}, {1, 0.5, 1.5}});
+  Opaque metal;
+  metal.specular = {Rgb(0.8f, 0.6f, 0.3f), 0.0f, SpecularLobe::Distribution::Ward};
+  test::addShape(scene, test::addMaterial(scene, "metal", metal), Sphere{{1, 2.2, 0.4}, 0.3});
+  test::addShape(scene, test::addMaterial(scene, "glass", Dielectric{Rgb(0.9f), 1.5f}), Sphere{{2.5, 1.2, 0.6}, 0.25});
+  const MaterialId lamp = test::addMaterial(scene, "lamp", Opaque{}, Emission{Rgb(20.0f), false, {}});
+  test::addPolygon(scene, lamp, {{1.5, 1, 2.4}, {1.5, 1.6, 2.4}, {2.1, 1.6, 2.4}, {2.1, 1, 2.4}});
+  test::addLight(scene, PointLight{{3, 2.5, 2}, Rgb(3.0f)});
+  addAreaLights(scene);
+  scene.lights.back().scale = Rgb(lampScale);
+  return scene;
+}
+
+Particles trace(const Scene& scene, std::uint64_t count = 20000, std::uint64_t seed = 1) {
+  const auto tracer = makeEmbreeTracer(scene);
+  ParticleSettings settings;
+  settings.count = count, settings.seed = seed;
+  Particles p = traceParticles(scene, *tracer, settings);
+  validate(p, scene);
+  return p;
+}
+
+TEST(Particles, AreTheSameForAnyNumberOfThreads) {
+  const Scene scene = room();
+  std::uint64_t hash = 0;
+  for (const std::size_t threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    const Particles p = trace(scene);
+    EXPECT_GT(p.impacts(), 10000u);
+    if (hash != 0) {
+      EXPECT_EQ(p.hash(), hash);
+    }
+    hash = p.hash();
+  }
+  EXPECT_NE(trace(scene, 20000, 2).hash(), hash);
+}
+
+TEST(Particles, TwiceAsManyContainTheOthers) {
+  const Scene scene = room();
+  const Particles few = trace(scene, 20000), many = trace(scene, 40000);
+  std::map<std::uint64_t, std::size_t> byKey;
+  for (std::size_t l = 0; l < many.links.size(); ++l) byKey[many.links[l].key] = l;
+  for (const ParticleLink& l : few.links) {
+    ASSERT_TRUE(byKey.contains(l.key));
+    const ParticleLink& m = many.links[byKey[l.key]];
+    ASSERT_GE(m.paths, l.paths);
+    for (std::uint32_t k = 0; k < l.paths; ++k) {
+      const std::uint32_t a = l.firstPath + k, b = m.firstPath + k;
+      const auto vertices = few.vertexBegin[a + 1] - few.vertexBegin[a];
+      const auto impacts = few.impactBegin[a + 1] - few.impactBegin[a];
+      ASSERT_EQ(vertices, many.vertexBegin[b + 1] - many.vertexBegin[b]);
+      ASSERT_EQ(impacts, many.impactBegin[b + 1] - many.impactBegin[b]);
+      for (std::uint32_t v = 0; v < vertices; ++v)
+        ASSERT_EQ(few.vertices[few.vertexBegin[a] + v], many.vertices[many.vertexBegin[b] + v]);
+      for (std::uint32_t i = 0; i < impacts; ++i)
+        ASSERT_EQ(few.throughput[few.impactBegin[a] + i], many.throughput[many.impactBegin[b] + i]);
+    }
+  }
+  EXPECT_NEAR(double(few.arrived), 20000, 6000);
+  EXPECT_NEAR(double(many.arrived) / double(few.arrived), 2.0, 0.1);
+}
+
+TEST(Particles, DimmedLightsAndNewDiffuseColoursTraceNothingNew) {
+  const std::uint64_t hash = trace(room()).hash();
+  EXPECT_EQ(trace(room(0.2f)).hash(), hash);
+  EXPECT_EQ(trace(room(0.0f)).hash(), hash);
+  EXPECT_EQ(trace(room(1.0f, 0.3f)).hash(), hash);
+}
+
+TEST(Particles, LedgerCloses) {
+  const Particles p = trace(room(), 200000);
+  const ParticleLedger& l = p.ledger;
+  EXPECT_GT(l.arrived, 0);
+  EXPECT_NEAR(l.residue() / l.arrived, 0, 1e-3);
+  EXPECT_NEAR(l.roulette / l.arrived, 0, 1e-3);
+  EXPECT_NEAR(l.escaped / l.arrived, 0, 1e-6);  // the room is closed
+  EXPECT_EQ(p.depthLimit, 0u);
+}
+
+/// Mirrors face to face: paths end by chance, and the few that do not are counted.
+TEST(Particles, LightCaughtBetweenMirrorsEnds) {
+  Scene scene;
+  const MaterialId mirror = test::addMaterial(scene, "mirror", Mirror{Rgb(1.0f)});
+  test::addPolygon(scene, mirror, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  test::addPolygon(scene, mirror, {{0, 0, 0.1}, {0, 1, 0.1}, {1, 1, 0.1}, {1, 0, 0.1}});
+  test::addLight(scene, PointLight{{0.5, 0.5, 0.05}, Rgb(1.0f)});
+  const auto tracer = makeEmbreeTracer(scene);
+  ParticleSettings settings;
+  settings.count = 5000, settings.maxDepth = 24;
+  const Particles p = traceParticles(scene, *tracer, settings);
+  EXPECT_GT(p.depthLimit, 0u);
+  EXPECT_NEAR((p.ledger.escaped + p.ledger.ended + p.ledger.roulette) / p.ledger.arrived, 1.0, 1e-5);
+}
+
+TEST(Particles, DepositKeepsTheirFlux) {
+  const Scene scene = room();
+  const auto tracer = makeEmbreeTracer(scene);
+  const Particles p = trace(scene, 50000);
+  Elements elements = buildElements(scene, surfaceSides(scene));
+  for (std::size_t i = 0; i < elements.size(); ++i) elements.radiometry[i].B = Rgb(2.0f);
+  const ParticleTransfer transfer(p, elements, scene);
+  transfer.apply(elements, scene);
+  RgbSum deposited(0.0), landed(0.0);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const ElementTopology& t = elements.topology[i];
+    if (t.kind == ElementKind::Patch && !t.emitter && !t.blocker && t.childCount == 0)
+      deposited += double(elements.geometry[i].area) * RgbSum(elements.radiometry[i].particle);
+  }
+  for (const Impact& i : impacts(p, elements, scene)) landed += RgbSum(i.flux);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(deposited[c] / landed[c], 1.0, 1e-4);
+  EXPECT_EQ(transfer.lost(), 0);
+}
+
+TEST(Particles, NoneWithoutSpeculars) {
+  Scene scene;
+  test::addBox(scene, test::addMaterial(scene, "wall", test::lambert(0.5f)), {0, 0, 0}, {1, 1, 1}, true);
+  test::addLight(scene, PointLight{{0.5, 0.5, 0.5}, Rgb(1.0f)});
+  EXPECT_EQ(trace(scene).paths(), 0u);
+}
+
+}  // namespace
+}  // namespace deltalux
