@@ -12,6 +12,10 @@ void SolveOptions::add(CLI::App& app) {
       ->type_name("E")
       ->check(CLI::Range(1e-4, 0.999))
       ->capture_default_str();
+  app.add_option("--particles", settings.particles,
+                 "About how many particles carry light over mirrors, gloss and glass; without it as --error wants")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 28));
   app.add_flag("--diffuse-only", settings.diffuseOnly,
                "Drop specular lobes and mirrors; thin glass still passes light");
 }
@@ -29,7 +33,7 @@ void SolutionSource::add(CLI::App& app) {
   solve_.add(app);
   app.get_option("SCENE")->description(
       "A solution (.dlx); or a scene, which is solved first: .gltf, .glb, .obj, or .rad files in order");
-  for (const char* name : {"--ies", "--metres-per-unit", "--efficacy", "--error", "--diffuse-only"})
+  for (const char* name : {"--ies", "--metres-per-unit", "--efficacy", "--error", "--particles", "--diffuse-only"})
     sceneOnly_.push_back(app.get_option(name));
 }
 

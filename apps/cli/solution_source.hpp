@@ -11,7 +11,7 @@ namespace deltalux::cli {
 struct SolveOptions {
   SolveSettings settings;
 
-  void add(CLI::App&);  // --error, --diffuse-only
+  void add(CLI::App&);  // --error, --particles, --diffuse-only
   /// Solves; notes times, counts and energy in the run's report. Throws Interrupted.
   SolutionView solve(Scene, Run&, const RunOptions&, Progress&) const;
 };

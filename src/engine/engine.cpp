@@ -5,7 +5,11 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "engine/particle_count.hpp"
 #include "hierarchy/build.hpp"
+#include "particles/mesh_for_particles.hpp"
+#include "particles/reached_sides.hpp"
+#include "particles/transfer.hpp"
 #include "radiosity/coarse_solution.hpp"
 #include "radiosity/gather.hpp"
 #include "radiosity/push_pull.hpp"
@@ -42,14 +46,32 @@ struct Engine::State {
     Solution& s = *solution;
     const Clock time;
     CoarseReport coarse;
-    const auto sides = coarseSolution(s.scene, *s.tracer, &coarse);
+    auto sides = coarseSolution(s.scene, *s.tracer, &coarse);
+    trace();
+    addReachedSides(sides, s.particles, s.scene);
     s.elements = buildElements(s.scene, sides);
     pull(s.elements);
     DELTALUX_VALIDATED(validate(s.elements));
     s.report.counts.raysVisibility += coarse.rays;
-    s.report.times.hierarchy += time.seconds();
+    s.report.times.hierarchy += time.seconds() - s.report.times.particles;
     nextError = s.settings.error * kFirstError;
     if (progress) progress->report("hierarchy", 1.0);
+  }
+
+  /// Once a geometry: what particles carry follows the light by itself.
+  void trace() {
+    Solution& s = *solution;
+    if (s.settings.diffuseOnly) return;
+    const Clock time;
+    s.particles = traceParticles(s.scene, *s.tracer, {particleCount(s.settings), s.settings.seed});
+    DELTALUX_VALIDATED(validate(s.particles, s.scene));
+    s.report.times.particles += time.seconds();
+    WorkCounts& c = s.report.counts;
+    c.linksDs = s.particles.links.size();
+    c.particles = s.particles.arrived;
+    c.impacts = s.particles.impacts();
+    c.raysParticles += s.particles.rays + s.particles.looks;
+    s.report.memory.particles = s.particles.memoryBytes();
   }
 
   void round(Progress* progress) {
@@ -67,6 +89,10 @@ struct Engine::State {
     s.report.provenClear += refined.provenClear;
     s.report.provenBlocked += refined.provenBlocked;
 
+    const Clock placing;
+    subdivideForParticles(s.elements, s.scene, s.particles);
+    s.report.times.particles += placing.seconds();
+
     const Clock gathering;
     const bool settled = settle(progress);
     s.report.times.gather += gathering.seconds();
@@ -81,9 +107,11 @@ struct Engine::State {
     Solution& s = *solution;
     const GatherPlan plan(s.links, s.elements);
     plan.gatherDirect(s.elements);
+    const ParticleTransfer transfer(s.particles, s.elements, s.scene);
     RgbSum unsettled(0.0), emitted(0.0);
     for (int i = 0; i < kMaxIterations; ++i) {
       plan.gatherIndirect(s.elements);
+      transfer.apply(s.elements, s.scene);
       unsettled = pushPull(s.elements);
       ++s.report.counts.iterations;
       emitted = directPower();

@@ -20,6 +20,7 @@ void forEachSection(auto& solution, const auto& visit) {
   visit("SCEN", solution.scene);
   visit("ELEM", solution.elements);
   visit("LINK", solution.links);
+  visit("PART", solution.particles);
   visit("REPT", solution.report);
 }
 

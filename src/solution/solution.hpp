@@ -4,6 +4,7 @@
 
 #include "hierarchy/element.hpp"
 #include "hierarchy/link.hpp"
+#include "particles/particles.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
@@ -14,6 +15,7 @@ struct Solution {
   std::shared_ptr<const RayTracer> tracer;  // over `scene`
   Elements elements;
   Links links;
+  Particles particles;  // a function of scene, seed and target count
   SolveReport report;
 };
 

@@ -172,7 +172,7 @@ TEST(SolutionFile, OtherFilesAndOtherVersionsAreToldApart) {
     std::memcpy(bytes.data() + 24, &sum, 4);
   };
   reseal(kFormatVersion + 1);
-  EXPECT_TRUE(contains(refusal(bytes), "is of solution format 2"));
+  EXPECT_TRUE(contains(refusal(bytes), "is of solution format " + std::to_string(kFormatVersion + 1)));
   reseal(0);
   EXPECT_TRUE(contains(refusal(bytes), "is of solution format 0"));
   reseal(kFormatVersion);

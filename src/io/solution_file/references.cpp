@@ -109,6 +109,7 @@ void checkReferences(const Solution& s) {
   checkElements(s.elements, s.scene);
   for (const Link& l : s.links.all) checkLink(l, s.links.size(), s.elements);
   checkLinkTree(s.links);
+  validate(s.particles, s.scene);
 }
 
 }  // namespace deltalux

@@ -31,4 +31,11 @@ void members(auto& archive, Is<Links> auto& l) {
   transferAll(archive, all, roots);
 }
 
+void members(auto& archive, Is<Particles> auto& p) {
+  auto& [senderCells, nominal, links, link, sender, originTriangle, vertexBegin, impactBegin, vertices, primitive,
+         triangleAndSide, uv, throughput, ledger, quantum, rays, looks, arrived, depthLimit] = p;
+  transferAll(archive, senderCells, nominal, links, link, sender, originTriangle, vertexBegin, impactBegin, vertices,
+              primitive, triangleAndSide, uv, throughput, ledger, quantum, rays, looks, arrived, depthLimit);
+}
+
 }  // namespace deltalux
