@@ -6,6 +6,7 @@
 #include "base/sobol.hpp"
 #include "render/eye_path.hpp"
 #include "render/leaf_gather.hpp"
+#include "render/particle_field.hpp"
 #include "render/work_progress.hpp"
 #include "solution/solution.hpp"
 
@@ -39,6 +40,7 @@ class LightMeter {
         reconstruction_(s),
         paths_(s, reconstruction_, {0, 24}),
         gather_(s),
+        particles_(s),
         size_(bounds(s.scene).diagonal()) {}
 
   ProbeResult measure(const ProbePoint& point, std::uint64_t key) const {
@@ -101,7 +103,8 @@ class LightMeter {
   Rgb indirectAt(const LeafPoint& at, const SurfaceSpot& spot) const {
     const Vec3f p(spot.position);
     if (reconstruction_.field.torn(at.leaf)) return reconstruction_.field.indirect(at, p);
-    return gather_.indirectAt(at.leaf, p, Vec3f(spot.normal)) + elements_.radiometry[at.leaf.index()].particle;
+    return gather_.indirectAt(at.leaf, p, Vec3f(spot.normal)) +
+           particles_.at(spot.primitive, spot.front, spot.position, spot.normal);
   }
 
   ProbeResult inFreeSpace(const ProbePoint& point, std::uint64_t key) const {
@@ -159,6 +162,7 @@ class LightMeter {
   Reconstruction reconstruction_;
   EyePaths paths_;
   LeafGather gather_;
+  ParticleField particles_;
   double size_;
 };
 

@@ -1,0 +1,212 @@
+#include "render/particle_field.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "base/parallel.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr std::size_t kMostNeighbours = 400;
+constexpr double kStep = 1.25;       // between radii
+constexpr std::size_t kFewest = 6;   // impacts in the narrowest kernel
+constexpr double kConfidence = 1.5;  // standard deviations of an interval [GN97, 2.3: about 2 for Gaussian noise]
+constexpr double kLift = 0.02;       // of the radius, for looking along the surface
+constexpr int kDisc = 64;
+
+/// Points of the unit disc, even in area. [Vogel 1979]
+const std::array<Vec2, kDisc>& disc() {
+  static const std::array<Vec2, kDisc> points = [] {
+    std::array<Vec2, kDisc> p;
+    for (int i = 0; i < kDisc; ++i) {
+      const double r = std::sqrt((i + 0.5) / kDisc), phi = i * kPi * (3 - std::sqrt(5.0));
+      p[i] = {r * std::cos(phi), r * std::sin(phi)};
+    }
+    return p;
+  }();
+  return points;
+}
+
+double kernel(double squared) { return std::max(0.0, 1 - squared); }
+
+int widestAxis(const auto* first, const auto* last) {
+  Vec3f low(std::numeric_limits<float>::infinity()), high(-low);
+  for (const auto* l = first; l != last; ++l) low = glm::min(low, l->position), high = glm::max(high, l->position);
+  const Vec3f size = high - low;
+  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
+
+/// Whether the surface is there, at the tangent plane's point `q`.
+bool onSurface(const Shape& shape, const Vec3& q) {
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) {
+    const Vec3 d = q - polygon->origin;
+    return covers(shape, {glm::dot(d, polygon->dualU), glm::dot(d, polygon->dualV)});
+  }
+  if (const auto* ring = std::get_if<Ring>(&shape)) {
+    const double r = glm::distance(q, ring->center);
+    return r >= ring->innerRadius && r <= ring->outerRadius;
+  }
+  const auto along = [&](const Vec3& p0, const Vec3& p1) {
+    const double t = glm::dot(q - p0, p1 - p0) / glm::dot(p1 - p0, p1 - p0);
+    return t >= 0 && t <= 1;
+  };
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return along(cylinder->p0, cylinder->p1);
+  if (const auto* cone = std::get_if<Cone>(&shape)) return along(cone->p0, cone->p1);
+  return true;
+}
+
+}  // namespace
+
+ParticleField::ParticleField(const Solution& s) : scene_(s.scene), tracer_(*s.tracer) {
+  const std::vector<Impact> all = impacts(s.particles, s.elements, s.scene);
+  begin_.assign(2 * scene_.primitives.size() + 1, 0);
+  const auto group = [](const Impact& i) { return 2 * i.primitive.index() + (i.front ? 0 : 1); };
+  for (const Impact& i : all) ++begin_[group(i) + 1];
+  for (std::size_t g = 1; g < begin_.size(); ++g) begin_[g] += begin_[g - 1];
+  landings_.resize(all.size());
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+  std::vector<std::uint32_t> place(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) place[i] = next[group(all[i])]++;
+  parallelFor(all.size(), 4096, [&](std::size_t i) {
+    const Impact& impact = all[i];
+    const Shape& shape = scene_[impact.primitive].shape;
+    Vec3 p;
+    if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+      const auto& t = mesh->triangles[impact.triangle];
+      const Vec3 &a = mesh->positions[t[0]], &b = mesh->positions[t[1]], &c = mesh->positions[t[2]];
+      p = a + double(impact.uv.x) * (b - a) + double(impact.uv.y) * (c - a);
+    } else {
+      p = pointAt(shape, Vec2(impact.uv)).position;
+    }
+    landings_[place[i]] = {Vec3f(p), 0, impact.flux};
+  });
+  parallelFor(begin_.size() - 1, 4, [&](std::size_t g) { sortTree(begin_[g], begin_[g + 1]); });
+}
+
+/// The middle of each range is its root, the halves on either side its subtrees.
+void ParticleField::sortTree(std::uint32_t begin, std::uint32_t end) {
+  if (end - begin < 2) return;
+  const std::uint32_t middle = begin + (end - begin) / 2;
+  Landing* const at = landings_.data();
+  const int axis = widestAxis(at + begin, at + end);
+  std::nth_element(at + begin, at + middle, at + end,
+                   [axis](const Landing& a, const Landing& b) { return a.position[axis] < b.position[axis]; });
+  landings_[middle].axis = static_cast<std::uint32_t>(axis);
+  sortTree(begin, middle);
+  sortTree(middle + 1, end);
+}
+
+void ParticleField::search(std::uint32_t begin, std::uint32_t end, Query& q) const {
+  if (begin == end) return;
+  const std::uint32_t middle = begin + (end - begin) / 2;
+  const Landing& l = landings_[middle];
+  const Vec3f p(q.position), d = l.position - p;
+  const auto nearer = [](const Neighbour& a, const Neighbour& b) { return a.squared < b.squared; };
+  const float squared = glm::dot(d, d);
+  if (q.found.size() < kMostNeighbours || squared < q.found.front().squared) {
+    q.found.push_back({squared, middle});
+    std::push_heap(q.found.begin(), q.found.end(), nearer);
+    if (q.found.size() > kMostNeighbours) {
+      std::pop_heap(q.found.begin(), q.found.end(), nearer);
+      q.found.pop_back();
+    }
+  }
+  const float across = d[static_cast<int>(l.axis)];
+  const auto lower = [&] { search(begin, middle, q); };
+  const auto upper = [&] { search(middle + 1, end, q); };
+  const auto reachable = [&] { return q.found.size() < kMostNeighbours || across * across < q.found.front().squared; };
+  if (across > 0) {
+    lower();
+    if (reachable()) upper();
+  } else {
+    upper();
+    if (reachable()) lower();
+  }
+}
+
+Rgb ParticleField::at(PrimitiveId primitive, bool front, const Vec3& position, const Vec3& normal) const {
+  const std::size_t group = 2 * primitive.index() + (front ? 0 : 1);
+  if (begin_[group] == begin_[group + 1]) return Rgb(0.0f);
+  Query q;
+  q.primitive = primitive, q.position = position, q.normal = normal;
+  q.found.reserve(kMostNeighbours + 1);
+  search(begin_[group], begin_[group + 1], q);
+  std::sort_heap(q.found.begin(), q.found.end(),
+                 [](const Neighbour& a, const Neighbour& b) { return a.squared < b.squared; });
+  const bool all = q.found.size() < kMostNeighbours;
+  // A surface with few impacts is one kernel that reaches well over it.
+  const double reach = std::sqrt(double(q.found.back().squared));
+  q.radius = all ? std::max(1.5 * reach, 0.5 * bounds(scene_[primitive].shape).diagonal()) : reach;
+  if (!(q.radius > 0)) return Rgb(0.0f);
+  return estimate(q, lookAround(q));
+}
+
+bool ParticleField::inSight(const Query& q, const Vec3& to) const {
+  const double lift = kLift * q.radius;
+  const Vec3f from(q.position + lift * q.normal), d = Vec3f(to + lift * q.normal) - from;
+  Ray ray;
+  ray.origin = from;
+  ray.tFar = glm::length(d);
+  if (!(ray.tFar > 0)) return true;
+  ray.direction = d / ray.tFar;
+  return !tracer_.occluded(ray);
+}
+
+ParticleField::Surroundings ParticleField::lookAround(const Query& q) const {
+  Surroundings s;
+  s.open.assign(kDisc, 0);
+  const Frame frame(q.normal);
+  const Shape& shape = scene_[q.primitive].shape;
+  const bool flat = std::holds_alternative<Polygon>(shape) || std::holds_alternative<Ring>(shape);
+  for (int i = 0; i < kDisc; ++i) {
+    const Vec2 at = q.radius * disc()[i];
+    const Vec3 to = q.position + at.x * frame.tangent + at.y * frame.bitangent;
+    if (!onSurface(shape, to)) continue;
+    const bool seen = !flat || inSight(q, to);
+    s.open[i] = seen;
+    s.blocked = s.blocked || !seen;
+  }
+  return s;
+}
+
+Rgb ParticleField::estimate(Query& q, const Surroundings& around) const {
+  if (around.blocked)
+    std::erase_if(q.found, [&](const Neighbour& n) { return !inSight(q, Vec3(landings_[n.landing].position)); });
+  if (q.found.empty()) return Rgb(0.0f);
+  // The share of the disc that is surface, as a function of the radius: by the points within.
+  const auto surface = [&](double share) {
+    double open = 1, all = 1;  // the point itself is on it
+    for (int i = 0; i < kDisc; ++i) {
+      const double k = kernel(glm::dot(disc()[i], disc()[i]) / (share * share));
+      all += k, open += around.open[i] * k;
+    }
+    return open / all;
+  };
+  const std::size_t few = std::min(kFewest, q.found.size());
+  double radius = std::min(q.radius, 1.2 * std::sqrt(double(q.found[few - 1].squared)));
+  radius = std::max(radius, 1e-6 * q.radius);
+  Rgb best(0.0f);
+  double low = -kInfinity, high = kInfinity;
+  for (;; radius = std::min(q.radius, radius * kStep)) {
+    RgbSum sum(0.0);
+    double squares = 0;
+    for (const Neighbour& n : q.found) {
+      const double k = kernel(n.squared / (radius * radius));
+      if (!(k > 0)) break;
+      const Rgb& w = landings_[n.landing].flux;
+      sum += k * RgbSum(w), squares += k * k * double(gray(w)) * gray(w);
+    }
+    const double area = 0.5 * kPi * radius * radius * surface(radius / q.radius);
+    const double E = gray(sum) / area, noise = kConfidence * std::sqrt(squares) / area;
+    low = std::max(low, E - noise), high = std::min(high, E + noise);
+    if (low > high) break;
+    best = Rgb(sum / area);
+    if (radius >= q.radius) break;
+  }
+  return best;
+}
+
+}  // namespace deltalux
