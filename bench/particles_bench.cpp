@@ -1,0 +1,144 @@
+// particles_bench NAME SCENE COUNT [MIRROR-FLUX.csv]
+//
+// The particles of a scene, as CSV rows: scene, particles asked for, measure, value, unit. Times are the fastest of
+// several, in turns with the same rays traced raw in batches; "rays" counts those that decided about links, too. With a
+// file of fluxes, the flux from the sun over a mirror onto the wall behind x = 0.06, against the file's line of the
+// sum.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <deltalux/io.hpp>
+#include <deltalux/report.hpp>
+#include <exception>
+#include <fstream>
+#include <sstream>
+
+#include "base/parallel.hpp"
+#include "particles/particles.hpp"
+
+namespace deltalux {
+namespace {
+
+constexpr int kRounds = 3;
+constexpr std::size_t kBlock = 1024;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// The segments of all paths as rays.
+std::vector<Ray> raysOf(const Particles& p) {
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < p.paths(); ++i) {
+    for (std::uint32_t v = p.vertexBegin[i]; v + 1 < p.vertexBegin[i + 1]; ++v) {
+      const Vec3f d = p.vertices[v + 1] - p.vertices[v];
+      const float length = glm::length(d);
+      if (!(length > 0)) continue;
+      Ray ray;
+      ray.direction = d / length;
+      ray.origin = p.vertices[v] + 1e-5f * length * ray.direction;
+      rays.push_back(ray);
+    }
+  }
+  return rays;
+}
+
+double rawSeconds(const RayTracer& tracer, const std::vector<Ray>& rays) {
+  std::vector<Hit> hits(rays.size());
+  const double start = now();
+  parallelBlocks(rays.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    tracer.closestHits(std::span(rays).subspan(begin, end - begin), std::span(hits).subspan(begin, end - begin));
+  });
+  return now() - start;
+}
+
+/// Flux of first impacts, beyond x = 0.06, of paths from a sun over a Mirror.
+RgbSum mirrorFlux(const Particles& p, const Scene& scene, const RayTracer& tracer) {
+  RgbSum sum(0.0);
+  for (std::size_t i = 0; i < p.paths(); ++i) {
+    if (p.senderCells[p.sender[i]].kind != SenderKind::Sun || p.impactBegin[i] == p.impactBegin[i + 1]) continue;
+    const Vec3f *v = &p.vertices[p.vertexBegin[i]], from = v[0], to = v[1];
+    Ray ray;
+    ray.direction = glm::normalize(from - to);
+    ray.origin = to + 0.01f * ray.direction;
+    ray.direction = -ray.direction;
+    const Hit hit = tracer.closestHit(ray);
+    if (!hit || !std::holds_alternative<Mirror>(scene.materialOf(hit.primitive).surface)) continue;
+    const std::uint32_t first = p.impactBegin[i];
+    if (std::abs(v[2].x) < 0.06f) sum += double(p.links[p.link[i]].scale) * RgbSum(p.throughput[first]);
+  }
+  return sum;
+}
+
+RgbSum expectedFlux(const char* file) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with("WESTWALL_sum")) continue;
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream fields(line);
+    std::string name;
+    RgbSum flux(0.0);
+    fields >> name >> flux.r >> flux.g >> flux.b;
+    return flux;
+  }
+  throw std::runtime_error(std::string(file) + " has no line WESTWALL_sum");
+}
+
+void run(int argc, char** argv) {
+  Scene scene = loadScene({argv[2]}).scene;
+  addAreaLights(scene);
+  const auto tracer = makeEmbreeTracer(scene);
+  ParticleSettings settings;
+  settings.count = std::strtoull(argv[3], nullptr, 10);
+  const auto row = [&](const char* measure, double value, const char* unit) {
+    fmt::print("{},{},{},{:.6g},{}\n", argv[1], settings.count, measure, value, unit);
+  };
+  double seconds = 1e30, raw = 1e30;
+  Particles p;
+  std::size_t segments = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    const double start = now();
+    p = traceParticles(scene, *tracer, settings);
+    seconds = std::min(seconds, now() - start);
+    const std::vector<Ray> rays = raysOf(p);
+    segments = rays.size();
+    raw = std::min(raw, rawSeconds(*tracer, rays));
+  }
+  validate(p, scene);
+  const auto all = static_cast<double>(p.rays + p.looks);
+  const double rawOfAll = raw * all / static_cast<double>(segments);
+  row("links", static_cast<double>(p.links.size()), "");
+  row("samples", static_cast<double>(p.paths()), "");
+  row("particles", static_cast<double>(p.arrived), "");
+  row("landed", static_cast<double>(p.landed()), "");
+  row("impacts", static_cast<double>(p.impacts()), "");
+  row("rays", all, "");
+  row("time", seconds, "s");
+  row("time of the rays alone", rawOfAll, "s");
+  row("ratio", seconds / rawOfAll, "");
+  row("memory", static_cast<double>(p.memoryBytes()) / 1048576.0, "MiB");
+  row("ended by the depth limit", static_cast<double>(p.depthLimit), "");
+  row("ledger residue of arrived flux", 100 * p.ledger.residue() / p.ledger.arrived, "%");
+  if (argc > 4) {
+    const RgbSum expected = expectedFlux(argv[4]), found = mirrorFlux(p, scene, *tracer);
+    row("flux from the mirror onto the west wall", gray(found), "W");
+    row("its difference", 100 * (gray(found) / gray(expected) - 1), "%");
+  }
+}
+
+}  // namespace
+}  // namespace deltalux
+
+int main(int argc, char** argv) {
+  if (argc < 4) {
+    std::fputs("usage: particles_bench NAME SCENE COUNT [MIRROR-FLUX.csv]\n", stderr);
+    return 2;
+  }
+  try {
+    deltalux::run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "particles_bench: {}\n", error.what());
+    return 1;
+  }
+}
