@@ -21,7 +21,8 @@ namespace deltalux {
 
 namespace {
 
-constexpr double kFirstError = 8.0;    // of the target, in the first round
+constexpr double kFirstError = 64.0;   // of the links, relative to the target, in the first round
+constexpr double kLastError = 20.0;    // in the last: what links leave, the leaves' own samples resolve
 constexpr double kErrorFactor = 0.35;  // from round to round
 constexpr double kSettled = 1e-3;      // unsettled power, relative to emitted
 constexpr int kMaxIterations = 64;
@@ -77,7 +78,8 @@ struct Engine::State {
   void round(Progress* progress) {
     Solution& s = *solution;
     OracleSettings oracle;
-    oracle.error = std::max(nextError, s.settings.error);
+    oracle.error = std::max(nextError, s.settings.error * kLastError);
+    const bool last = oracle.error <= s.settings.error * kLastError;
     const Clock refining;
     const RefineReport refined = refine(s.links, s.elements, s.scene, *s.tracer, oracle, [&] {
       if (progress && progress->stopRequested()) throw Interrupted();
@@ -94,11 +96,12 @@ struct Engine::State {
     s.report.times.particles += placing.seconds();
 
     const Clock gathering;
-    const bool settled = settle(progress);
+    bool settled = settle(progress);
+    if (last || refined.stopped) settled = resolve(progress);
     s.report.times.gather += gathering.seconds();
     count();
-    s.report.converged = settled && !refined.stopped && oracle.error <= s.settings.error;
-    finished = refined.stopped || oracle.error <= s.settings.error;
+    s.report.converged = settled && !refined.stopped && last;
+    finished = refined.stopped || last;
     nextError *= kErrorFactor;
   }
 
@@ -115,6 +118,29 @@ struct Engine::State {
       unsettled = pushPull(s.elements);
       ++s.report.counts.iterations;
       emitted = directPower();
+      if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
+      if (gray(unsettled) <= kSettled * gray(emitted)) break;
+    }
+    balance(emitted, unsettled);
+    return gray(unsettled) <= kSettled * gray(emitted);
+  }
+
+  /// The links' transfers resolved to leaves, and settled again.
+  bool resolve(Progress* progress) {
+    Solution& s = *solution;
+    LeafTransferSettings settings;
+    settings.error = s.settings.error;
+    const LeafTransferReport r = s.transfers.build(s.elements, s.links, s.scene, *s.tracer, settings);
+    s.report.counts.raysVisibility += r.rays;
+    RgbSum unsettled(0.0);
+    s.transfers.gatherDirect(s.elements);
+    const RgbSum emitted = directPower();
+    const ParticleTransfer particles(s.particles, s.elements, s.scene);
+    for (int i = 0; i < kMaxIterations; ++i) {
+      s.transfers.gatherIndirect(s.elements);
+      particles.apply(s.elements, s.scene);
+      unsettled = pull(s.elements);
+      ++s.report.counts.iterations;
       if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
       if (gray(unsettled) <= kSettled * gray(emitted)) break;
     }

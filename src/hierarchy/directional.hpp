@@ -10,6 +10,7 @@
 namespace deltalux {
 
 inline constexpr int kHarmonics = 9;
+inline constexpr float kConstantHarmonic = 0.28209479f;
 
 /// Values of the nine basis functions at the unit vector `w`.
 inline std::array<float, kHarmonics> harmonics(const Vec3f& w) {

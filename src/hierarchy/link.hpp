@@ -24,8 +24,6 @@ struct Link {
   LinkId parent, firstChild;
   float K = 0.0f;                 // unoccluded transfer; its unit by kind of sender is in radiosity/kernel.hpp
   Rgb V{0.0f};                    // mean transmittance of the sample rays
-  float guess = 1.0f;             // V (gray) as refinement saw it, from other rays: deciding and measuring by the same
-                                  // rays would keep the links that they happen to underrate
   float receiverSpread = 0.0f;    // bound on |K(x) - K| over the receiver
   float senderSpread = 0.0f;      // bound on |K(y) - K| over the sender
   float visibilitySpread = 0.0f;  // bound on |V(x) - V|

@@ -172,10 +172,24 @@ PatchPoint pointOn(const Elements& elements, const Scene& scene, ElementId patch
   return {Vec3f(p.position), Vec3f(front ? p.normal : -p.normal)};
 }
 
+namespace {
+/// The parameter below which lies the share `b` of a cone's area between v0 and v1: its radius grows linearly.
+double byArea(const Cone& cone, double v0, double v1, double b) {
+  const auto radius = [&](double v) { return cone.radius0 + v * (cone.radius1 - cone.radius0); };
+  const double r0 = radius(v0), r1 = radius(v1);
+  if (std::abs(r1 - r0) < 1e-9 * std::max(r0, r1)) return v0 + b * (v1 - v0);
+  const double r = std::sqrt(r0 * r0 + b * (r1 * r1 - r0 * r0));
+  return v0 + (v1 - v0) * std::clamp((r - r0) / (r1 - r0), 0.0, 1.0);
+}
+}  // namespace
+
 PatchPoint samplePatch(const Elements& elements, const Scene& scene, ElementId patch, double a, double b) {
   const PatchDomain& d = elements.domain[patch.index()];
   const double du = d.u1 - d.u0, dv = d.v1 - d.v0;
-  if (!elements.at(patch).flat) return pointOn(elements, scene, patch, d.u0 + a * du, d.v0 + b * dv);
+  if (!elements.at(patch).flat) {
+    const auto* cone = std::get_if<Cone>(&scene[d.primitive].shape);
+    return pointOn(elements, scene, patch, d.u0 + a * du, cone ? byArea(*cone, d.v0, d.v1, b) : d.v0 + b * dv);
+  }
   const auto outline = elements.outline(patch);
   const bool full = outline.size() == 4 && std::abs(outlineArea(outline)) > 0.9999 * du * dv;
   Vec2 uv{d.u0 + a * du, d.v0 + b * dv};

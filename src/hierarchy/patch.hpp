@@ -13,7 +13,7 @@ struct PatchPoint {
 /// The point at parameters (u,v) of the patch's primitive (of its triangle, for meshes).
 PatchPoint pointOn(const Elements&, const Scene&, ElementId patch, double u, double v);
 
-/// A point of the patch from two numbers in [0,1): uniform by area for flat patches and for equal-area shapes.
+/// A point of the patch from two numbers in [0,1): uniform by area.
 PatchPoint samplePatch(const Elements&, const Scene&, ElementId patch, double a, double b);
 
 /// Fills geometry, nodes, moments and reflectances of a patch whose domain, side and frame are set.

@@ -66,8 +66,9 @@ LinkError Oracle::judge(const Link& link) const {
   const double strength = senderStrength(elements_, link.sender, link.receiver);
   // A cluster's surfaces see a direction at all angles: a quarter of their area faces it [Cauchy].
   const double area = elements_.shape(link.receiver).area * (elements_.isCluster(link.receiver) ? 0.25 : 1.0);
-  const double V =
-      link.visibility == Visibility::Unknown ? 1.0 : std::min(1.0, double(link.guess) + double(link.visibilitySpread));
+  const double V = link.visibility == Visibility::Unknown
+                       ? 1.0
+                       : std::min(1.0, double(maxChannel(link.V)) + double(link.visibilitySpread));
   e.power = strength * link.K * area;
   e.receiver = strength * area * V * link.receiverSpread;
   e.sender = area * V * (strength * link.senderSpread + link.K * senderVariation(elements_, link.sender));

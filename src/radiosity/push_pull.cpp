@@ -116,6 +116,8 @@ RgbSum reflectAndPull(Elements& elements) {
         else if (elements.isPatch(child))
           intensity.addLobe(elements.moments[child.index()],
                             elements.shape(child).area / float(kPi) * elements.radiometry[child.index()].B);
+        else  // a point of any distribution, as bright all round as where it is brightest
+          intensity.c[0] += elements.radiometry[child.index()].B / kConstantHarmonic;
       }
       continue;
     }
@@ -149,15 +151,14 @@ RgbSum reflectAndPull(Elements& elements) {
 
 }  // namespace
 
-void pull(Elements& elements) {
+RgbSum pull(Elements& elements) {
   pullIrradiance(elements);
-  reflectAndPull(elements);
+  return reflectAndPull(elements);
 }
 
 RgbSum pushPull(Elements& elements) {
   push(elements);
-  pullIrradiance(elements);
-  return reflectAndPull(elements);
+  return pull(elements);
 }
 
 }  // namespace deltalux

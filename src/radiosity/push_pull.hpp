@@ -11,7 +11,7 @@ namespace deltalux {
 /// unit^2 as area].
 RgbSum pushPull(Elements&);
 
-/// The upward half alone: from the irradiances that the leaves have (a first estimate), everything above.
-void pull(Elements&);
+/// The upward half alone: from the irradiances that the leaves have, everything above. Returns as pushPull.
+RgbSum pull(Elements&);
 
 }  // namespace deltalux

@@ -13,7 +13,7 @@ namespace deltalux {
 
 namespace {
 
-constexpr int kFewSamples = 4, kSomeSamples = 12, kManySamples = 32;
+constexpr int kFewSamples = 4, kSomeSamples = 8, kManySamples = 16;
 constexpr float kFineCell = 0.2f;     // radians: sky cells larger than this are split before the surface they light
 constexpr float kFinestCell = 0.06f;  // radians: smaller ones are not split
 
@@ -77,18 +77,16 @@ class Judge {
       if (v.blockers.count == 0 && solidEnds) {
         link.visibility = Visibility::Clear;
         link.V = Rgb(1.0f);
-        link.guess = 1.0f, link.visibilitySpread = 0;
+        link.visibilitySpread = 0;
       } else if (link.visibility == Visibility::Unknown &&
                  provablyBlocked(elements_, scene_, link.receiver, link.sender, own, v.blockers.count)) {
         link.visibility = Visibility::Blocked;
         link.V = Rgb(0.0f);
-        link.guess = 0.0f, link.visibilitySpread = 0;
+        link.visibilitySpread = 0;
       }
     }
-    const int before = link.samples;
     if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) look(link, v);
     v.split = choose(link);
-    if (v.split == Split::None && link.visibility == Visibility::Sampled && link.samples != before) measure(link, v);
     v.link = link;
     return v;
   }
@@ -114,28 +112,19 @@ class Judge {
     return weight < 0.5 ? kFewSamples : weight < 2 ? kSomeSamples : kManySamples;
   }
 
-  /// Decides by a first set of rays: few, and more when the kernel alone does not already demand a split.
+  /// Few rays, and more when the kernel alone does not already demand a split.
   void look(Link& link, Verdict& v) const {
     const auto take = [&](int samples) {
       if (samples <= link.samples) return;
-      const VisibilityEstimate e =
-          sampleVisibility(elements_, scene_, tracer_, link.receiver, link.sender, samples, SampleSet::Decide);
+      const VisibilityEstimate e = sampleVisibility(elements_, scene_, tracer_, link.receiver, link.sender, samples);
       v.rays = static_cast<std::uint16_t>(v.rays + samples);
-      link.guess = maxChannel(e.V), link.visibilitySpread = e.spread, link.samples = e.samples;
+      link.V = e.V, link.sampleMask = e.mask, link.visibilitySpread = e.spread, link.samples = e.samples;
       link.visibility = Visibility::Sampled;
     };
     const int wanted = wantedSamples(link, oracle_.judge(link));
     take(std::min(wanted, kFewSamples));
     const LinkError e = oracle_.judge(link);
     if (wanted > kFewSamples && !(e.receiver + e.sender > e.budget)) take(wanted);
-  }
-
-  /// Measures an accepted link by a second, independent set.
-  void measure(Link& link, Verdict& v) const {
-    const VisibilityEstimate e =
-        sampleVisibility(elements_, scene_, tracer_, link.receiver, link.sender, link.samples, SampleSet::Measure);
-    v.rays = static_cast<std::uint16_t>(v.rays + link.samples);
-    link.V = e.V, link.sampleMask = e.mask;
   }
 
   Split splitOverlapping(const Link& link) const {
@@ -172,7 +161,7 @@ class Judge {
     LinkError e = oracle_.judge(link);
     const ElementGeometry &r = elements_.shape(link.receiver), &s = elements_.shape(link.sender);
     const bool clusterReceiver = elements_.isCluster(link.receiver), clusterSender = elements_.isCluster(link.sender);
-    if (link.visibility == Visibility::Sampled && link.guess <= 0) {
+    if (link.visibility == Visibility::Sampled && isBlack(link.V)) {
       // What rays may have missed between them matters on surfaces larger than A_0.
       if (r.area < oracle_.referenceArea(link.receiver)) e.visibility = 0;
     }

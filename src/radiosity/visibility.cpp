@@ -2,63 +2,25 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include "base/random.hpp"
 #include "hierarchy/patch.hpp"
 #include "radiosity/kernel.hpp"
+#include "radiosity/sender_sampling.hpp"
 
 namespace deltalux {
 
-namespace {
-
-double fraction(double x) { return x - std::floor(x); }
-
-/// Sample i of the plastic sequence (Roberts' R4), shifted by the key: four stratified numbers for any prefix.
-std::array<double, 4> stratified(std::uint64_t key, int i) {
-  static constexpr std::array<double, 4> step = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
-                                                 0.5385972572236101};
-  std::array<double, 4> u{};
-  for (std::size_t k = 0; k < 4; ++k) u[k] = fraction(toUnit(mix64(key + k)) + (i + 1) * step[k]);
-  return u;
-}
-
-/// A surface point of any element; clusters pick children by area.
-PatchPoint pointOf(const Elements& elements, const Scene& scene, ElementId e, double a, double b) {
-  while (elements.isCluster(e)) {
-    double rest = a * elements.shape(e).area;
-    ElementId next;
-    double nextArea = 0;
-    for (std::size_t i = 0; i < elements.at(e).childCount; ++i) {
-      const ElementId c = elements.child(e, i);
-      const double part = elements.at(c).blocker ? 0.0 : double(elements.shape(c).area);
-      if (part <= 0) continue;
-      next = c, nextArea = part;
-      if (rest < part) break;
-      rest -= part;
-    }
-    if (!next.valid()) break;
-    a = std::clamp(rest / nextArea, 0.0, 0x1.fffffep-1);
-    e = next;
-  }
-  if (elements.isPatch(e)) return samplePatch(elements, scene, e, a, b);
-  return {elements.shape(e).center, Vec3f(0.0f)};
-}
-
-}  // namespace
-
 VisibilityEstimate sampleVisibility(const Elements& elements, const Scene& scene, const RayTracer& tracer,
-                                    ElementId receiver, ElementId sender, int samples, SampleSet set) {
+                                    ElementId receiver, ElementId sender, int samples) {
   VisibilityEstimate result;
-  const std::uint64_t key = combineKeys(combineKeys(elements.key[receiver.index()], elements.key[sender.index()]),
-                                        static_cast<std::uint64_t>(set));
+  const std::uint64_t key = combineKeys(elements.key[receiver.index()], elements.key[sender.index()]);
   RgbSum passed(0.0);
   double weights = 0, squares = 0, clearWeight = 0;
   std::array<double, 4> quadrantClear{}, quadrantWeight{};
   for (int i = 0; i < samples; ++i) {
-    const auto u = stratified(key, i);
-    const PatchPoint x = pointOf(elements, scene, receiver, u[0], u[1]);
+    const auto u = stratified4(key, i);
+    const PatchPoint x = samplePoint(elements, scene, receiver, u[0], u[1]);
     Ray ray;
     double weight = 0;
     if (elements.isDistant(sender)) {
@@ -67,7 +29,7 @@ VisibilityEstimate sampleVisibility(const Elements& elements, const Scene& scene
       ray.origin = offsetOrigin(x.position, x.normal, w);
       ray.direction = w;
     } else {
-      const PatchPoint y = pointOf(elements, scene, sender, u[2], u[3]);
+      const PatchPoint y = samplePoint(elements, scene, sender, u[2], u[3]);
       weight = elements.isPoint(sender) || elements.isPatch(sender)
                    ? pointKernel(elements, scene, x.position, x.normal, sender, y.position, y.normal)
                    : std::max(0.0f, glm::dot(x.normal, y.position - x.position)) *

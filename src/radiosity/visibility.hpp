@@ -16,11 +16,8 @@ struct VisibilityEstimate {
   std::uint8_t samples = 0;
 };
 
-/// Two independent sets of rays for one link: one to decide by, one to measure by.
-enum class SampleSet : std::uint64_t { Decide, Measure };
-
 /// `samples` in 1..kMaxSamples rays.
 VisibilityEstimate sampleVisibility(const Elements&, const Scene&, const RayTracer&, ElementId receiver,
-                                    ElementId sender, int samples, SampleSet set);
+                                    ElementId sender, int samples);
 
 }  // namespace deltalux

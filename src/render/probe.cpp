@@ -4,8 +4,8 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
+#include "radiosity/indirect_sampler.hpp"
 #include "render/eye_path.hpp"
-#include "render/leaf_gather.hpp"
 #include "render/particle_field.hpp"
 #include "render/work_progress.hpp"
 #include "solution/solution.hpp"
@@ -17,6 +17,7 @@ namespace {
 constexpr double kOnSurface = 1e-3;  // of the scene's size: this near, a point lies on a surface
 constexpr double kFacing = 0.5;      // cosine from which a side faces the normal
 constexpr int kMaxLayers = 16;       // surfaces that are looked at around a point
+constexpr int kGatherRays = 1024;    // over the links of a surface point
 constexpr int kGatherBatch = 256;    // rays of one independent estimate in free space
 constexpr int kFirstBatches = 4;
 constexpr double kDirectShare =
@@ -39,8 +40,8 @@ class LightMeter {
         settings_(settings),
         reconstruction_(s),
         paths_(s, reconstruction_, {0, 24}),
-        gather_(s),
         particles_(s),
+        sampler_(s.scene, s.elements, s.links, *s.tracer),
         size_(bounds(s.scene).diagonal()) {}
 
   ProbeResult measure(const ProbePoint& point, std::uint64_t key) const {
@@ -98,12 +99,8 @@ class LightMeter {
     return result;
   }
 
-  /// By the leaf's links at the point itself; where a wall cuts the leaf in two, they speak for both sides, and the
-  /// reconstruction knows better.
   Rgb indirectAt(const LeafPoint& at, const SurfaceSpot& spot) const {
-    const Vec3f p(spot.position);
-    if (reconstruction_.field.torn(at.leaf)) return reconstruction_.field.indirect(at, p);
-    return gather_.indirectAt(at.leaf, p, Vec3f(spot.normal)) +
+    return sampler_.atPoint(at.leaf, Vec3f(spot.position), Vec3f(spot.normal), kGatherRays) +
            particles_.at(spot.primitive, spot.front, spot.position, spot.normal);
   }
 
@@ -161,8 +158,8 @@ class LightMeter {
   const ProbeSettings& settings_;
   Reconstruction reconstruction_;
   EyePaths paths_;
-  LeafGather gather_;
   ParticleField particles_;
+  IndirectSampler sampler_;
   double size_;
 };
 

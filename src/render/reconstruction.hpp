@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hierarchy/side_locator.hpp"
-#include "render/direct_light.hpp"
+#include "radiosity/direct_light.hpp"
 #include "render/irradiance_field.hpp"
 
 namespace deltalux {

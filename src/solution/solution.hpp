@@ -5,6 +5,7 @@
 #include "hierarchy/element.hpp"
 #include "hierarchy/link.hpp"
 #include "particles/particles.hpp"
+#include "radiosity/leaf_transfers.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
@@ -15,7 +16,8 @@ struct Solution {
   std::shared_ptr<const RayTracer> tracer;  // over `scene`
   Elements elements;
   Links links;
-  Particles particles;  // a function of scene, seed and target count
+  Particles particles;      // a function of scene, seed and target count
+  LeafTransfers transfers;  // empty before the last round
   SolveReport report;
 };
 

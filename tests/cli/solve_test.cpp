@@ -90,7 +90,7 @@ TEST(SolveCommand, AnInterruptLeavesWhatStoodThere) {
 TEST(SolveCommand, TimeLimitEndsWithASolution) {
   const TempFolder folder;
   const auto result = runCli(
-      {"solve", bundledScene("cornell/cornell.rad"), "-o", folder / "c.dlx", "--error", "0.01", "--seconds", "0.2"});
+      {"solve", bundledScene("cornell/cornell.rad"), "-o", folder / "c.dlx", "--error", "0.0005", "--seconds", "0.05"});
   EXPECT_EQ(result.exitCode, 0) << result.err;
   EXPECT_NE(result.err.find("time was up"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(folder / "c.dlx"));

@@ -6,7 +6,6 @@
 #include <deltalux/render.hpp>
 
 #include "base/parallel.hpp"
-#include "render/leaf_gather.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux {
@@ -97,23 +96,6 @@ TEST_F(SolvedRoom, ProbesAgreeWithTheReference) {
     sum += std::abs(E - T) / T;
   }
   EXPECT_LT(sum / static_cast<double>(where.size()), 0.08);
-}
-
-TEST_F(SolvedRoom, GatheringAtLeavesKeepsTheMeshsLightOnAverage) {
-  const Solution& s = engine_->solution().get();
-  const auto values = gatherAtLeaves(s);
-  double mesh = 0, gathered = 0, moved = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!isReceivingLeaf(s.elements, ElementId(i))) continue;
-    const double A = s.elements.geometry[i].area, E = gray(s.elements.radiometry[i].indirect);
-    mesh += A * E;
-    gathered += A * gray(values[i].indirect);
-    moved += A * std::abs(E - gray(values[i].indirect));
-    EXPECT_EQ(values[i].direct, s.elements.radiometry[i].direct);
-  }
-  EXPECT_NEAR(gathered, mesh, 0.1 * mesh);
-  EXPECT_GT(moved, 1e-4 * mesh);
-  EXPECT_LT(moved, 0.15 * mesh);
 }
 
 TEST_F(SolvedRoom, RendersTheSameForAnyNumberOfThreads) {

@@ -1,30 +1,22 @@
-#include "render/direct_light.hpp"
+#include "radiosity/direct_light.hpp"
 
 #include <algorithm>
 
 #include "base/sobol.hpp"
 #include "hierarchy/patch.hpp"
-#include "render/patch_support.hpp"
-#include "solution/solution.hpp"
 
 namespace deltalux {
 
 namespace {
 
 constexpr int kBatch = 64,
-              kFirstBatches = 4;  // shadow rays of one independent estimate; estimates before any judgement
-constexpr float kTestRays = 256;  // of a place, shared by potential within these bounds for one sender:
-constexpr int kFewestTests = 4, kMostTests = 16;            // from a leaf patch
-constexpr int kFewestFreeTests = 64, kMostFreeTests = 512;  // from a free point, which sees skies as a whole
+              kFirstBatches = 4;              // shadow rays of one independent estimate; estimates before any judgement
+constexpr TestRays kFreeTests{256, 64, 512};  // from a free point, which sees skies as a whole
 
 }  // namespace
 
-DirectLight::DirectLight(const Solution& s)
-    : scene_(s.scene),
-      elements_(s.elements),
-      tracer_(*s.tracer),
-      lights_(s.scene),
-      senders_(s.elements, s.links, s.scene) {}
+DirectLight::DirectLight(const Scene& scene, const Elements& elements, const Links& links, const RayTracer& tracer)
+    : scene_(scene), elements_(elements), tracer_(tracer), lights_(scene), senders_(elements, links, scene) {}
 
 /// A sender and what test rays say of it.
 struct DirectLight::Trial {
@@ -32,7 +24,11 @@ struct DirectLight::Trial {
   int tests = 0, hits = 0;
   bool promising = false;  // seen, or next to a part of the sky that is seen
 
-  float chance() const { return (static_cast<float>(hits) + 0.5f) / static_cast<float>(tests + 1); }
+  /// That a ray passes, by the test rays and, a little, by the link's own from all over its receiver.
+  float chance() const {
+    const float known = std::min(4.0f, static_cast<float>(sender.rays));
+    return (static_cast<float>(hits) + sender.open * known + 0.5f) / (static_cast<float>(tests) + known + 1.0f);
+  }
 };
 
 template <class ReceiverAt>
@@ -49,7 +45,7 @@ void DirectLight::test(Trial& trial, int tests, std::uint64_t key, const Receive
 /// Cells of the sky that touch one that was seen: a window shows some of each.
 void DirectLight::promoteNeighbours(std::vector<Trial>& trials) const {
   for (Trial& t : trials) {
-    t.promising = t.hits > 0;
+    t.promising = t.hits > 0 || (t.sender.rays > 0 && t.sender.open > 0);
     if (t.promising || !elements_.isDistant(t.sender.sender)) continue;
     const ElementGeometry& g = elements_.shape(t.sender.sender);
     for (const Trial& other : trials) {
@@ -62,20 +58,21 @@ void DirectLight::promoteNeighbours(std::vector<Trial>& trials) const {
 }
 
 template <class ReceiverAt>
-SenderChoice DirectLight::tested(const std::vector<PossibleSender>& senders, int fewest, int most, std::uint64_t key,
+SenderChoice DirectLight::tested(const std::vector<PossibleSender>& senders, const TestRays& tests, std::uint64_t key,
                                  const ReceiverAt& receiver) const {
   float total = 0;
   for (const PossibleSender& s : senders) total += s.potential;
   std::vector<Trial> trials;
   for (const PossibleSender& s : senders) {
     trials.push_back({s});
-    test(trials.back(), std::clamp(static_cast<int>(kTestRays * s.potential / total), fewest, most), key, receiver);
+    test(trials.back(), std::clamp(static_cast<int>(tests.all * s.potential / total), tests.fewest, tests.most), key,
+         receiver);
   }
   promoteNeighbours(trials);
   SenderChoice choice;
   for (Trial& t : trials) {
     if (!t.promising) continue;
-    test(t, most, key, receiver);
+    test(t, tests.most, key, receiver);
     // Rays in proportion to the standard deviation of one, which is that of its visibility.
     choice.seen.add(t.sender.sender, t.sender.potential * std::sqrt(t.chance()));
   }
@@ -86,17 +83,16 @@ SenderChoice DirectLight::tested(const std::vector<PossibleSender>& senders, int
   return choice;
 }
 
-SenderChoice DirectLight::choiceAt(ElementId leaf) const {
-  return tested(senders_.at(leaf), kFewestTests, kMostTests, elements_.key[leaf.index()],
-                [&](std::uint32_t i, std::uint64_t key) {
-                  const UnitPair u = scrambledSobol(i, combineKeys(key, 1));
-                  const PatchPoint p = samplePatch(elements_, scene_, leaf, u.x, u.y);
-                  return Receiver{Vec3(p.position), Vec3(p.normal)};
-                });
+SenderChoice DirectLight::choiceAt(ElementId leaf, const TestRays& tests) const {
+  return tested(senders_.at(leaf), tests, elements_.key[leaf.index()], [&](std::uint32_t i, std::uint64_t key) {
+    const UnitPair u = scrambledSobol(i, combineKeys(key, 1));
+    const PatchPoint p = samplePatch(elements_, scene_, leaf, u.x, u.y);
+    return Receiver{Vec3(p.position), Vec3(p.normal)};
+  });
 }
 
 SenderChoice DirectLight::choiceAt(const Receiver& x) const {
-  return tested(senders_.at(Vec3f(x.position), Vec3f(x.normal)), kFewestFreeTests, kMostFreeTests, 0,
+  return tested(senders_.at(Vec3f(x.position), Vec3f(x.normal)), kFreeTests, 0,
                 [&](std::uint32_t, std::uint64_t) { return x; });
 }
 
@@ -173,15 +169,7 @@ std::optional<DirectLight::SenderSample> DirectLight::samplePart(ElementId e, co
     const Vec3 w(directionOf(elements_, scene_, e, u.x, u.y));
     return SenderSample{e, w, kInfinity, Vec3(0.0), g.area * lights_.radianceFrom(light, w)};
   }
-  const PatchDomain& domain = elements_.domain[e.index()];
-  const Shape& shape = scene_[domain.primitive].shape;
   const PatchPoint y = samplePatch(elements_, scene_, e, u.x, u.y);
-  double A = g.area;
-  if (std::holds_alternative<Cone>(shape)) {
-    // Points are uniform in the cone's parameters, its area is not.
-    const double v = glm::mix(double(domain.v0), double(domain.v1), u.y);
-    A *= relativeRadius(shape, v) / (0.5 * (relativeRadius(shape, domain.v0) + relativeRadius(shape, domain.v1)));
-  }
   const Vec3 d = Vec3(y.position) - x.position;
   const double squared = glm::dot(d, d);
   if (!(squared > 0)) return std::nullopt;
@@ -190,7 +178,7 @@ std::optional<DirectLight::SenderSample> DirectLight::samplePart(ElementId e, co
   const double cosine = -glm::dot(w, Vec3(y.normal));
   if (!(cosine > 0)) return std::nullopt;
   const Rgb L = lights_.emittedRadiance(light, -w, distance, elements_.at(e).front);
-  return SenderSample{e, w, distance, Vec3(y.normal), static_cast<float>(A * cosine / squared) * L};
+  return SenderSample{e, w, distance, Vec3(y.normal), static_cast<float>(g.area * cosine / squared) * L};
 }
 
 ElementId DirectLight::pickLight(ElementId e, const Vec3f& x, double& u, float& chance) const {

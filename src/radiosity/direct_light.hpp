@@ -9,13 +9,11 @@
 #include <deltalux/probe.hpp>
 
 #include "base/random.hpp"
-#include "render/direct_senders.hpp"
+#include "radiosity/direct_senders.hpp"
 #include "scene/light_sampling.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
-
-struct Solution;
 
 /// Senders with their shares of the rays, summed.
 struct SenderList {
@@ -36,6 +34,12 @@ struct SenderChoice {
   bool dark() const { return !(seen.total() > 0 || unseen.total() > 0); }
 };
 
+/// Test rays of a place: shared by potential, within bounds for one sender.
+struct TestRays {
+  float all = 256;
+  int fewest = 4, most = 16;
+};
+
 /// A point with the unit normal of the side that light falls on.
 struct Receiver {
   Vec3 position, normal;
@@ -51,12 +55,12 @@ struct LightArrival {
 
 class DirectLight {
  public:
-  /// The solution must outlive this.
-  explicit DirectLight(const Solution&);
+  /// All must outlive this.
+  DirectLight(const Scene&, const Elements&, const Links&, const RayTracer&);
 
   const LightSampler& lights() const { return lights_; }
-  /// Senders of a leaf patch, as seen from points all over it.
-  SenderChoice choiceAt(ElementId leaf) const;
+  /// Senders of a leaf patch, as seen from points all over it by `tests` rays, shared by what senders may bring.
+  SenderChoice choiceAt(ElementId leaf, const TestRays& tests = {}) const;
   /// Senders of a free point, out of all lights.
   SenderChoice choiceAt(const Receiver&) const;
 
@@ -99,7 +103,7 @@ class DirectLight {
   void promoteNeighbours(std::vector<Trial>&) const;
   /// Sorts senders by test rays from points that `receiver(i, key)` gives.
   template <class ReceiverAt>
-  SenderChoice tested(const std::vector<PossibleSender>&, int fewest, int most, std::uint64_t key,
+  SenderChoice tested(const std::vector<PossibleSender>&, const TestRays&, std::uint64_t key,
                       const ReceiverAt& receiver) const;
   std::optional<SenderSample> sampleSender(ElementId, const Receiver&, Vec2 u) const;
   bool ownSide(ElementId, const Vec3& y, const Vec3& normal) const;

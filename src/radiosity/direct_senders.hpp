@@ -10,8 +10,10 @@
 namespace deltalux {
 
 struct PossibleSender {
-  ElementId sender;     // emitter patch, cluster of emitters, point or distant cell
-  float potential = 0;  // irradiance if nothing stands between, gray [W/m2]; > 0
+  ElementId sender;       // emitter patch, cluster of emitters, point or distant cell
+  float potential = 0;    // irradiance if nothing stands between, gray [W/m2]; > 0
+  float open = 0;         // share of the link's rays that passed; 1 when nothing can stand between
+  std::uint8_t rays = 0;  // that the link sampled; 0: none were needed, or none were taken
 };
 
 class DirectSenders {
@@ -28,9 +30,11 @@ class DirectSenders {
   struct Arriving {
     ElementId sender;
     float potential;  // at patch receivers; at clusters before the cosine
+    float open;
+    std::uint8_t rays;
   };
   float strength(ElementId receiver, ElementId sender) const;
-  void addLights(ElementId cluster, ElementId leaf, std::vector<PossibleSender>& out) const;
+  void addLights(ElementId cluster, ElementId leaf, const Arriving&, std::vector<PossibleSender>& out) const;
   void collectAll(ElementId e, const Vec3f& x, const Vec3f& normal, std::vector<PossibleSender>& out) const;
 
   const Elements& elements_;

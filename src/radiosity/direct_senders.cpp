@@ -1,4 +1,4 @@
-#include "render/direct_senders.hpp"
+#include "radiosity/direct_senders.hpp"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 namespace deltalux {
 
 namespace {
-constexpr std::uint32_t kFewLights = 64;  // clusters of no more than these are told apart
+constexpr std::uint32_t kFewLights = 4096;  // clusters of no more than these are told apart
 constexpr float kLeastCosine = 0.1f;      // credited to senders only part of which rises above the horizon
 constexpr float kLeastKernel = 0.02f;     // of the sender's solid angle: its few nodes may all face away, or lie below
 
@@ -35,7 +35,9 @@ DirectSenders::DirectSenders(const Elements& elements, const Links& links, const
   for (const Link& l : links.all) {
     if (!mayCarry(elements, l)) continue;
     const float K = std::max(l.K, leastKernel(elements, elements.shape(l.receiver).center, l.sender));
-    arriving_[next[l.receiver.index()]++] = {l.sender, K * strength(l.receiver, l.sender)};
+    const bool sampled = l.visibility == Visibility::Sampled;
+    arriving_[next[l.receiver.index()]++] = {l.sender, K * strength(l.receiver, l.sender),
+                                             sampled ? maxChannel(l.V) : 1.0f, sampled ? l.samples : std::uint8_t{0}};
   }
   lightCount_.assign(elements.size(), 0);
   for (std::size_t i = elements.size(); i-- > 0;) {
@@ -46,16 +48,16 @@ DirectSenders::DirectSenders(const Elements& elements, const Links& links, const
   }
 }
 
-void DirectSenders::addLights(ElementId e, ElementId leaf, std::vector<PossibleSender>& out) const {
+void DirectSenders::addLights(ElementId e, ElementId leaf, const Arriving& by, std::vector<PossibleSender>& out) const {
   if (elements_.isCluster(e) && lightCount_[e.index()] <= kFewLights) {
-    for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) addLights(elements_.child(e, i), leaf, out);
+    for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) addLights(elements_.child(e, i), leaf, by, out);
     return;
   }
   const ElementGeometry& g = elements_.shape(leaf);
   const Vec3f normal = g.normalCone > 0 ? g.normal : Vec3f(0.0f);
   const double K = kernelAtPoint(elements_, scene_, g.center, normal, e);
   const float potential = std::max(static_cast<float>(K), leastKernel(elements_, g.center, e)) * strength(leaf, e);
-  if (potential > 0) out.push_back({e, potential});
+  if (potential > 0) out.push_back({e, potential, by.open, by.rays});
 }
 
 float DirectSenders::strength(ElementId receiver, ElementId sender) const {
@@ -74,7 +76,7 @@ std::vector<PossibleSender> DirectSenders::at(ElementId leaf) const {
     for (std::uint32_t i = begin_[e.index()]; i < begin_[e.index() + 1]; ++i) {
       const Arriving& a = arriving_[i];
       if (elements_.isCluster(a.sender) && lightCount_[a.sender.index()] <= kFewLights) {
-        addLights(a.sender, leaf, out);
+        addLights(a.sender, leaf, a, out);
         continue;
       }
       float potential = a.potential;
@@ -90,7 +92,7 @@ std::vector<PossibleSender> DirectSenders::at(ElementId leaf) const {
         if (cosine + extent + bend <= 0) continue;
         potential *= std::max(cosine, kLeastCosine);
       }
-      if (potential > 0) out.push_back({a.sender, potential});
+      if (potential > 0) out.push_back({a.sender, potential, a.open, a.rays});
     }
   }
   return out;
@@ -114,7 +116,7 @@ void DirectSenders::collectAll(ElementId e, const Vec3f& x, const Vec3f& normal,
   const bool above = elements_.isDistant(e) || glm::dot(g.center - x, normal) + g.radius > 0;
   if (above) K = std::max(K, double(leastKernel(elements_, x, e)));
   const float potential = static_cast<float>(K) * gray(elements_.radiometry[e.index()].B);
-  if (potential > 0) out.push_back({e, potential});
+  if (potential > 0) out.push_back({e, potential, 1.0f, 0});
 }
 
 }  // namespace deltalux

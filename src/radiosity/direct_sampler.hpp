@@ -1,0 +1,48 @@
+#pragma once
+// What lights bring a leaf patch: for every light that the links let reach it, the transfer K, exact where the light is
+// flat, times the share of shadow rays that pass; so a light in plain view has no noise, a light half hidden only that
+// of its rays.
+//
+//   E = sum over lights T B(light),   T = K sum_i w_i V_i / sum_i w_i    points, flat lights, cells of the sky, the sun
+//                                     T = sum_i cos_i L_i V_i / (n p_i B)    curved ones, by solid angle
+//
+// Rays go where light may come from, as for indirect light; what no ray of the links saw takes no more of them than
+// what was seen. The four quadrants of the leaf are kept apart: how much they differ says whether to split it. Cost:
+// five kernels a light, about `rays` rays.
+#include "base/random.hpp"
+#include "radiosity/direct_senders.hpp"
+#include "radiosity/indirect_sampler.hpp"
+#include "scene/light_sampling.hpp"
+
+namespace deltalux {
+
+/// The row of one leaf.
+struct DirectRow {
+  std::vector<LeafTransfer> lights;  // emitters in place of leaves
+  double mean = 0;                   // irradiance, gray
+  double variation = 0;              // of it over the quadrants, beyond what chance explains
+  std::uint64_t rays = 0;
+};
+
+class DirectSampler {
+ public:
+  /// All must outlive this.
+  DirectSampler(const Scene&, const Elements&, const Links&, const RayTracer&);
+
+  /// By about `rays` shadow rays.
+  DirectRow at(ElementId leaf, int rays) const;
+
+ private:
+  struct Term;
+  struct Quadrants;
+  Term term(ElementId leaf, const PossibleSender&) const;
+  void sample(ElementId leaf, const Term&, int rays, float gain, std::uint64_t key, DirectRow&, Quadrants&) const;
+
+  const Scene& scene_;
+  const Elements& elements_;
+  const RayTracer& tracer_;
+  DirectSenders senders_;
+  LightSampler lights_;
+};
+
+}  // namespace deltalux

@@ -1,0 +1,53 @@
+#pragma once
+// The last round: the links' transfers resolved to leaf patches. Every leaf gets a row: what each light brings it
+// (direct_sampler.hpp) and what it receives from other leaves
+// (indirect_sampler.hpp). Rows are linear in lights and reflectances, so gathering over them, however often, needs no
+// ray.
+//
+// Where direct light varies over a leaf by more than the error allows, the leaf is split first: its own samples tell,
+// so shadow edges and the scallops of lamps are found where they are, not where links might have them.
+// Cost: about 64 + 128 rays a leaf; 16 bytes a transfer.
+#include "hierarchy/link.hpp"
+#include "radiosity/indirect_sampler.hpp"
+#include "tracing/ray_tracer.hpp"
+
+namespace deltalux {
+
+struct LeafTransferSettings {
+  double error = 0.05;   // target relative error of irradiance
+  double variation = 2;  // of direct light over a leaf that is let stand, relative to `error`
+  double scale = 0.15;   // of the mean free path: side of the area that variation is weighed against, as in the oracle
+  double finest = 1.0;   // least area of a leaf that is still split: finest * error * that area
+  int shadowRays = 64;   // of a leaf
+  int gatherRays = 128;  // of a leaf
+};
+
+struct LeafTransferReport {
+  std::uint64_t rays = 0, split = 0;
+};
+
+class LeafTransfers {
+ public:
+  /// Samples the rows of all receiving leaves; splits leaves of `elements` where direct light varies. The links' state
+  /// and the present radiosities say where light comes from.
+  LeafTransferReport build(Elements& elements, const Links&, const Scene&, const RayTracer&,
+                           const LeafTransferSettings&);
+
+  bool empty() const { return leaves_.empty(); }
+  std::size_t size() const { return transfers_.size(); }
+  std::size_t memoryBytes() const;
+
+  /// Fills `direct` of the leaves from the present B of emitters.
+  void gatherDirect(Elements&) const;
+  /// Fills `indirect` of the leaves from the present B of leaves.
+  void gatherIndirect(Elements&) const;
+
+ private:
+  std::vector<ElementId> leaves_;
+  std::vector<std::uint32_t> lightBegin_;  // per leaf, one more
+  std::vector<LeafTransfer> lights_;       // from emitters
+  std::vector<std::uint64_t> begin_;       // per leaf, one more
+  std::vector<LeafTransfer> transfers_;
+};
+
+}  // namespace deltalux

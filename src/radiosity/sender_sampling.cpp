@@ -1,0 +1,76 @@
+#include "radiosity/sender_sampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.hpp"
+#include "radiosity/kernel.hpp"
+
+namespace deltalux {
+
+namespace {
+
+double fraction(double x) { return x - std::floor(x); }
+
+/// The child that holds the share `a` of the area; `a` is used up in part. Invalid when nothing has area.
+ElementId childByArea(const Elements& elements, ElementId e, double& a) {
+  double rest = a * elements.shape(e).area;
+  ElementId picked;
+  double part = 0;
+  for (std::size_t i = 0; i < elements.at(e).childCount; ++i) {
+    const ElementId c = elements.child(e, i);
+    const double area = elements.at(c).blocker ? 0.0 : double(elements.shape(c).area);
+    if (area <= 0) continue;
+    picked = c, part = area;
+    if (rest < area) break;
+    rest -= area;
+  }
+  if (picked.valid()) a = std::clamp(rest / part, 0.0, 0x1.fffffep-1);
+  return picked;
+}
+
+}  // namespace
+
+std::array<double, 4> stratified4(std::uint64_t key, int i) {
+  static constexpr std::array<double, 4> step = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
+                                                 0.5385972572236101};
+  std::array<double, 4> u{};
+  for (std::size_t k = 0; k < 4; ++k) u[k] = fraction(toUnit(mix64(key + k)) + (i + 1) * step[k]);
+  return u;
+}
+
+PatchPoint samplePoint(const Elements& elements, const Scene& scene, ElementId e, double a, double b) {
+  while (elements.isCluster(e)) {
+    const ElementId next = childByArea(elements, e, a);
+    if (!next.valid()) break;
+    e = next;
+  }
+  if (elements.isPatch(e)) return samplePatch(elements, scene, e, a, b);
+  return {elements.shape(e).center, Vec3f(0.0f)};
+}
+
+SenderSample sampleLeafOf(const Elements& elements, const Scene& scene, const PatchPoint& x, ElementId sender, double a,
+                          double b) {
+  SenderSample s;
+  // Below a cluster the surface is picked by area; on the surface the point comes first, then its leaf.
+  ElementId surface = sender;
+  while (elements.isCluster(surface)) {
+    surface = childByArea(elements, surface, a);
+    if (!surface.valid()) return s;
+  }
+  s.leaf = surface;
+  while (!elements.isLeaf(s.leaf)) {
+    const ElementId next = childByArea(elements, s.leaf, a);
+    if (!next.valid()) break;
+    s.leaf = next;
+  }
+  const PatchPoint y = samplePatch(elements, scene, s.leaf, a, b);
+  const Vec3f d = y.position - x.position;
+  const double squared = glm::dot(d, d);
+  if (!(squared > 0)) return s;
+  s.weight = std::max(0.0f, glm::dot(x.normal, d)) * std::max(0.0f, -glm::dot(y.normal, d)) / (kPi * squared * squared);
+  if (s.weight > 0) s.ray = segment(x.position, x.normal, y.position, y.normal);
+  return s;
+}
+
+}  // namespace deltalux

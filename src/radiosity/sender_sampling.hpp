@@ -1,0 +1,27 @@
+#pragma once
+// Points of elements and rays between them: what visibility and final gathering sample alike.
+#include <array>
+
+#include "hierarchy/patch.hpp"
+#include "tracing/ray.hpp"
+
+namespace deltalux {
+
+/// Sample i of a four-dimensional sequence shifted by the key: stratified for any prefix (additive recurrence with the
+/// powers of the generalised golden ratio [Roberts 2018]).
+std::array<double, 4> stratified4(std::uint64_t key, int i);
+
+/// A surface point of any element by two numbers in [0,1), uniform by area; clusters pick surfaces by area.
+PatchPoint samplePoint(const Elements&, const Scene&, ElementId, double a, double b);
+
+/// One ray from a receiving point to a point of a sender.
+struct SenderSample {
+  Ray ray;
+  ElementId leaf;     // the patch below the sender that the point lies on
+  double weight = 0;  // kernel between the points, per sender area; not above 0: they do not face each other
+};
+
+/// To the leaf that holds the sampled point of `sender`, a cluster or patch.
+SenderSample sampleLeafOf(const Elements&, const Scene&, const PatchPoint& x, ElementId sender, double a, double b);
+
+}  // namespace deltalux

@@ -1,0 +1,83 @@
+// The transfers between leaves against rays over the hemisphere, which know nothing of links.
+#include <gtest/gtest.h>
+
+#include <deltalux/engine.hpp>
+
+#include "base/sobol.hpp"
+#include "hierarchy/patch.hpp"
+#include "hierarchy/side_locator.hpp"
+#include "solution/solution.hpp"
+#include "support/rooms.hpp"
+
+namespace deltalux {
+namespace {
+
+/// A room with a lamp below its ceiling, a block and a ball.
+Scene furnished() {
+  Scene scene;
+  const MaterialId grey = test::addMaterial(scene, "grey", test::lambert(0.6f));
+  test::addBox(scene, grey, {0, 0, 0}, {4, 3, 2.5}, true);
+  test::addBox(scene, grey, {1.5, 1, 0}, {2.2, 1.8, 1.1}, false);
+  test::addShape(scene, grey, Sphere{{3, 0.8, 0.5}, 0.4});
+  const MaterialId lamp = test::addMaterial(scene, "lamp", test::lambert(0.0f), Emission{Rgb(10.0f), false, {}});
+  test::addPolygon(scene, lamp, {{1, 1, 2.4}, {1, 1.6, 2.4}, {1.6, 1.6, 2.4}, {1.6, 1, 2.4}});
+  return scene;
+}
+
+/// Irradiance of a leaf from the radiosities of the leaves that cosine-distributed rays from it meet.
+double overHemisphere(const Solution& s, const SideLocator& locator, ElementId leaf, std::uint32_t rays) {
+  double sum = 0;
+  for (std::uint32_t k = 0; k < rays; ++k) {
+    const UnitPair u = scrambledSobol(k, 11), v = scrambledSobol(k, 12);
+    const PatchPoint p = samplePatch(s.elements, s.scene, leaf, u.x, u.y);
+    const double r = std::sqrt(v.x), phi = 2 * kPi * v.y;
+    const Vec3f w(Frame(Vec3(p.normal)).toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - v.x)}));
+    Ray ray;
+    ray.origin = offsetOrigin(p.position, p.normal, w);
+    ray.direction = w;
+    const Hit hit = s.tracer->closestHit(ray);
+    if (!hit) continue;
+    const ElementId side = locator.side(hit.primitive, hit.triangle, hit.front);
+    if (side.valid())
+      sum += gray(s.elements.radiometry[locator.locate(side, Vec3(hit.position)).leaf.index()].B) / double(rays);
+  }
+  return sum;
+}
+
+TEST(LeafTransfers, BringWhatRaysOverTheHemisphereFind) {
+  Engine engine(furnished());
+  engine.solve();
+  const Solution& s = engine.solution().get();
+  ASSERT_FALSE(s.transfers.empty());
+  const SideLocator locator(s.elements, s.scene);
+  double power = 0, found = 0, apart = 0;
+  int leaves = 0;
+  for (std::size_t i = 0; i < s.elements.size(); i += 5) {
+    const ElementTopology& t = s.elements.topology[i];
+    if (t.kind != ElementKind::Patch || t.childCount > 0 || t.emitter) continue;
+    const double A = s.elements.geometry[i].area, E = gray(s.elements.radiometry[i].indirect);
+    const double truth = overHemisphere(s, locator, ElementId(i), 2000);
+    power += A * E, found += A * truth, apart += A * std::abs(E - truth);
+    ++leaves;
+  }
+  EXPECT_GT(leaves, 50);
+  EXPECT_NEAR(power, found, 0.015 * found);
+  EXPECT_LT(apart, 0.06 * found);
+}
+
+TEST(LeafTransfers, AreLinearInEveryLight) {
+  Scene scene = furnished();
+  Engine engine(scene);
+  engine.solve();
+  for (Material& m : scene.materials)
+    if (m.emission) m.emission->radiance *= 3.0f;
+  Engine brighter(scene);
+  brighter.solve();
+  const auto &a = engine.solution().get().elements.radiometry, &b = brighter.solution().get().elements.radiometry;
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    EXPECT_NEAR(3 * gray(a[i].indirect), gray(b[i].indirect), 1e-3 * gray(b[i].indirect) + 1e-9) << i;
+}
+
+}  // namespace
+}  // namespace deltalux
