@@ -190,7 +190,7 @@ struct Engine::State {
     s.report.activeLinks = 0;
     for (const Link& l : s.links.all) s.report.activeLinks += l.state == LinkState::Active;
     s.report.memory.elements = s.elements.memoryBytes();
-    s.report.memory.links = s.links.memoryBytes();
+    s.report.memory.links = s.links.memoryBytes() + s.transfers.memoryBytes();
     s.report.memory.peakRss = peakResidentBytes();
   }
 };

@@ -21,6 +21,7 @@ void forEachSection(auto& solution, const auto& visit) {
   visit("ELEM", solution.elements);
   visit("LINK", solution.links);
   visit("PART", solution.particles);
+  visit("TRAN", solution.transfers);
   visit("REPT", solution.report);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "base/parallel.hpp"
 #include "hierarchy/patch.hpp"
@@ -29,6 +30,26 @@ bool varies(const Elements& elements, ElementId leaf, const DirectRow& s, const 
   const double tolerated =
       settings.variation * settings.error * std::max<double>(l.tolerance, s.mean + gray(l.indirect));
   return s.variation * g.area > tolerated * std::max<double>(area, g.area);
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(what);
+}
+
+/// Rows of one kind: where each begins, and what they hold.
+template <class Index>
+void validateRows(const std::vector<Index>& begin, const std::vector<LeafTransfer>& transfers, std::size_t leaves,
+                  bool ofEmitters, const Elements& elements) {
+  if (leaves == 0 && begin.empty()) return require(transfers.empty(), "transfers: rows of leaves");
+  require(begin.size() == leaves + 1 && begin.front() == 0 && begin.back() == transfers.size() &&
+              std::is_sorted(begin.begin(), begin.end()),
+          "transfers: rows");
+  for (const LeafTransfer& t : transfers) {
+    require(t.leaf.index() < elements.size(), "transfer: sender");
+    const ElementTopology& s = elements.at(t.leaf);
+    require(ofEmitters == (s.emitter || s.kind != ElementKind::Patch), "transfer: direct from lights, indirect not");
+    for (int c = 0; c < 3; ++c) require(std::isfinite(t.T[c]) && t.T[c] >= 0, "transfer: finite and not negative");
+  }
 }
 
 }  // namespace
@@ -116,6 +137,15 @@ void LeafTransfers::gatherIndirect(Elements& elements) const {
       sum += transfers_[k].T * elements.radiometry[transfers_[k].leaf.index()].B;
     elements.radiometry[leaves_[i].index()].indirect = sum;
   });
+}
+
+void LeafTransfers::validate(const Elements& elements) const {
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    require(leaves_[i].index() < elements.size() && receives(elements, leaves_[i].index()), "transfers: of leaves");
+    require(i == 0 || leaves_[i - 1].index() < leaves_[i].index(), "transfers: each leaf once, in order");
+  }
+  validateRows(lightBegin_, lights_, leaves_.size(), true, elements);
+  validateRows(begin_, transfers_, leaves_.size(), false, elements);
 }
 
 }  // namespace deltalux

@@ -42,7 +42,13 @@ class LeafTransfers {
   /// Fills `indirect` of the leaves from the present B of leaves.
   void gatherIndirect(Elements&) const;
 
+  /// Checks that rows are those of receiving leaves, each once, from leaves and emitters that exist, by transfers that
+  /// are finite and not negative. Throws std::logic_error with the first violation.
+  void validate(const Elements&) const;
+
  private:
+  friend struct StoredTransfers;  // solution files
+
   std::vector<ElementId> leaves_;
   std::vector<std::uint32_t> lightBegin_;  // per leaf, one more
   std::vector<LeafTransfer> lights_;       // from emitters

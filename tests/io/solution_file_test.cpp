@@ -67,6 +67,25 @@ void expectSameProbes(const SolutionView& a, const SolutionView& b) {
   }
 }
 
+/// The rows of transfers bring every leaf the same, to the bit.
+void expectSameGathering(const Solution& a, const Solution& b) {
+  ASSERT_FALSE(a.transfers.empty());
+  ASSERT_EQ(a.transfers.size(), b.transfers.size());
+  Elements before = a.elements, after = b.elements;
+  for (auto& [transfers, elements] : {std::pair(&a.transfers, &before), std::pair(&b.transfers, &after)}) {
+    for (ElementLight& l : elements->radiometry) l.direct = l.indirect = Rgb(0.0f);
+    transfers->gatherDirect(*elements);
+    transfers->gatherIndirect(*elements);
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    ASSERT_EQ(before.radiometry[i].direct, after.radiometry[i].direct) << i;
+    ASSERT_EQ(before.radiometry[i].indirect, after.radiometry[i].indirect) << i;
+    sum += gray(after.radiometry[i].direct) * gray(after.radiometry[i].indirect);
+  }
+  EXPECT_GT(sum, 0);
+}
+
 void expectSameBack(const SolutionView& solution) {
   const TempFolder folder;
   saveSolution(folder / "s.dlx", solution);
@@ -75,6 +94,7 @@ void expectSameBack(const SolutionView& solution) {
   EXPECT_TRUE(bytesOf(solution) == bytesOf(loaded)) << "what is stored is what was";
   EXPECT_NO_THROW(validate(loaded.get().elements));
   EXPECT_NO_THROW(validate(loaded.get().links, loaded.get().elements));
+  expectSameGathering(solution.get(), loaded.get());
   expectSameProbes(solution, loaded);
 }
 
@@ -205,6 +225,8 @@ TEST(SolutionFile, IndicesOutOfRangeAreRefused) {
   EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(3, 12 + offsetof(Link, receiver), far))), "does not hold together"));
   EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(2, 12 + offsetof(ElementTopology, firstChild), far))),
                        "does not hold together"));
+  // The leaf of the first row of transfers, behind a count and a record size.
+  EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(5, 12, far))), "does not hold together"));
   EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(2, 8, "\x7f"))), "another version of deltalux"));
   std::vector<fuzz::StoredSection> fewer = sections;
   fewer.pop_back();

@@ -26,7 +26,8 @@ void checkTables(const Shape& shape) {
     require(p->outline.size() == p->vertices.size() && p->cumulativeArea.size() == p->triangles.size(),
             "polygon: its tables");
   if (const auto* m = std::get_if<Mesh>(&shape))
-    require(m->triangles.empty() == m->positions.empty() && m->cumulativeArea.size() == m->triangles.size(), "mesh: its tables");
+    require(m->triangles.empty() == m->positions.empty() && m->cumulativeArea.size() == m->triangles.size(),
+            "mesh: its tables");
 }
 
 void checkTopology(const Elements& e) {
@@ -110,6 +111,7 @@ void checkReferences(const Solution& s) {
   for (const Link& l : s.links.all) checkLink(l, s.links.size(), s.elements);
   checkLinkTree(s.links);
   validate(s.particles, s.scene);
+  s.transfers.validate(s.elements);
 }
 
 }  // namespace deltalux

@@ -38,4 +38,12 @@ void members(auto& archive, Is<Particles> auto& p) {
               primitive, triangleAndSide, uv, throughput, ledger, quantum, rays, looks, arrived, depthLimit);
 }
 
+struct StoredTransfers {
+  static void transfer(auto& archive, auto& t) {
+    auto& [leaves, lightBegin, lights, begin, transfers] = t;
+    transferAll(archive, leaves, lightBegin, lights, begin, transfers);
+  }
+};
+void members(auto& archive, Is<LeafTransfers> auto& t) { StoredTransfers::transfer(archive, t); }
+
 }  // namespace deltalux
