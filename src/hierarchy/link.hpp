@@ -3,6 +3,7 @@
 // line-space hierarchy [GD01 5, DS97]. Refined links stay as interior nodes; the leaves carry light. Links that carry
 // nothing (facing away, fully occluded) are kept too, so that every pair of leaves is covered by exactly one leaf link
 // and the removal of a blocker is noticed.
+#include <functional>
 #include <vector>
 
 #include "hierarchy/element.hpp"
@@ -15,6 +16,7 @@ enum class LinkState : std::uint8_t {
   Active,    // E(receiver) += K V B(sender)
   Interior,  // refined: its children carry the light
   Averted,   // the ends do not face each other; nothing between them matters until one of them moves
+  Free,      // no link: what a collapsed link's children leave, for the next ones of their number
 };
 
 enum class Visibility : std::uint8_t { Unknown, Clear, Blocked, Sampled };
@@ -22,22 +24,26 @@ enum class Visibility : std::uint8_t { Unknown, Clear, Blocked, Sampled };
 struct Link {
   ElementId receiver, sender;
   LinkId parent, firstChild;
-  float K = 0.0f;                 // unoccluded transfer; its unit by kind of sender is in radiosity/kernel.hpp
-  Rgb V{0.0f};                    // mean transmittance of the sample rays
-  float receiverSpread = 0.0f;    // bound on |K(x) - K| over the receiver
-  float senderSpread = 0.0f;      // bound on |K(y) - K| over the sender
-  float visibilitySpread = 0.0f;  // bound on |V(x) - V|
-  std::uint32_t sampleMask = 0;   // bit i: sample ray i passed
+  LinkId nextArriving, previousArriving;  // at the same receiver
+  float K = 0.0f;                         // unoccluded transfer; its unit by kind of sender is in radiosity/kernel.hpp
+  Rgb V{0.0f};                            // mean transmittance of the sample rays
+  float receiverSpread = 0.0f;            // bound on |K(x) - K| over the receiver
+  float senderSpread = 0.0f;              // bound on |K(y) - K| over the sender
+  float visibilitySpread = 0.0f;          // bound on |V(x) - V|
+  std::uint32_t sampleMask = 0;           // bit i: sample ray i passed
   std::uint16_t childCount = 0;
   std::uint8_t samples = 0;
   LinkState state = LinkState::Active;
   Visibility visibility = Visibility::Unknown;
+  std::uint8_t unused[3] = {0, 0, 0};  // whole words: files hold the record as it is
 };
 
 class Links {
  public:
   std::vector<Link> all;
-  std::vector<LinkId> roots;  // scene <- scene, scene <- lights, scene <- each distant sender
+  std::vector<LinkId> roots;              // scene <- scene, scene <- lights, scene <- each distant sender
+  std::vector<LinkId> arriving;           // by element: the first link of which it is the receiver
+  std::vector<std::vector<LinkId>> free;  // blocks of free links, by their number
 
   Link& operator[](LinkId id) { return all[id.index()]; }
   const Link& operator[](LinkId id) const { return all[id.index()]; }
@@ -45,7 +51,25 @@ class Links {
   LinkId child(LinkId id, std::size_t i) const {
     return LinkId(all[id.index()].firstChild.value + static_cast<std::uint32_t>(i));
   }
-  std::size_t memoryBytes() const { return all.capacity() * sizeof(Link); }
+  /// All links of a receiver, whatever their state, last made first: for (id = first(e); id.valid(); id = next).
+  LinkId first(ElementId receiver) const {
+    return receiver.index() < arriving.size() ? arriving[receiver.index()] : LinkId();
+  }
+
+  /// A link without a parent.
+  LinkId addRoot(ElementId receiver, ElementId sender);
+  /// `count` contiguous links below `parent`, which becomes Interior. The caller sets their ends by setEnds.
+  LinkId addChildren(LinkId parent, std::size_t count);
+  void setEnds(LinkId, ElementId receiver, ElementId sender);
+  /// Frees all links below an interior link, which becomes Active. Calls `gone` with each.
+  void collapse(LinkId, const std::function<void(LinkId)>& gone = {});
+  /// Makes the lists of arriving links anew, in the order of the links.
+  void listArriving();
+  std::size_t memoryBytes() const;
+
+ private:
+  void addArriving(LinkId);
+  void removeArriving(LinkId);
 };
 
 /// Checks the tree: children cover exactly the pairs of their parent, transfers are finite and not negative, leaves

@@ -16,6 +16,7 @@ void require(bool holds, std::size_t link, const char* what) {
 void validate(const Links& links, const Elements& elements) {
   for (std::size_t i = 0; i < links.size(); ++i) {
     const Link& l = links.all[i];
+    if (l.state == LinkState::Free) continue;
     require(l.receiver.index() < elements.size() && l.sender.index() < elements.size(), i, "its ends exist");
     require(std::isfinite(l.K) && l.K >= 0, i, "K is finite and not negative");
     require(glm::all(glm::greaterThanEqual(l.V, Rgb(0.0f))) && glm::all(glm::lessThanEqual(l.V, Rgb(1.0001f))), i,

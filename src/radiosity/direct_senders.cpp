@@ -8,8 +8,8 @@ namespace deltalux {
 
 namespace {
 constexpr std::uint32_t kFewLights = 4096;  // clusters of no more than these are told apart
-constexpr float kLeastCosine = 0.1f;      // credited to senders only part of which rises above the horizon
-constexpr float kLeastKernel = 0.02f;     // of the sender's solid angle: its few nodes may all face away, or lie below
+constexpr float kLeastCosine = 0.1f;        // credited to senders only part of which rises above the horizon
+constexpr float kLeastKernel = 0.02f;  // of the sender's solid angle: its few nodes may all face away, or lie below
 
 bool mayCarry(const Elements& elements, const Link& l) {
   return elements.at(l.sender).emitter && l.state == LinkState::Active && l.visibility != Visibility::Blocked;
@@ -26,19 +26,7 @@ float leastKernel(const Elements& elements, const Vec3f& x, ElementId sender) {
 }  // namespace
 
 DirectSenders::DirectSenders(const Elements& elements, const Links& links, const Scene& scene)
-    : elements_(elements), scene_(scene), begin_(elements.size() + 1, 0) {
-  for (const Link& l : links.all)
-    if (mayCarry(elements, l)) ++begin_[l.receiver.index() + 1];
-  for (std::size_t i = 0; i < elements.size(); ++i) begin_[i + 1] += begin_[i];
-  arriving_.resize(begin_.back());
-  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for (const Link& l : links.all) {
-    if (!mayCarry(elements, l)) continue;
-    const float K = std::max(l.K, leastKernel(elements, elements.shape(l.receiver).center, l.sender));
-    const bool sampled = l.visibility == Visibility::Sampled;
-    arriving_[next[l.receiver.index()]++] = {l.sender, K * strength(l.receiver, l.sender),
-                                             sampled ? maxChannel(l.V) : 1.0f, sampled ? l.samples : std::uint8_t{0}};
-  }
+    : elements_(elements), links_(links), scene_(scene) {
   lightCount_.assign(elements.size(), 0);
   for (std::size_t i = elements.size(); i-- > 0;) {
     const ElementTopology& t = elements.topology[i];
@@ -48,7 +36,8 @@ DirectSenders::DirectSenders(const Elements& elements, const Links& links, const
   }
 }
 
-void DirectSenders::addLights(ElementId e, ElementId leaf, const Arriving& by, std::vector<PossibleSender>& out) const {
+void DirectSenders::addLights(ElementId e, ElementId leaf, const PossibleSender& by,
+                              std::vector<PossibleSender>& out) const {
   if (elements_.isCluster(e) && lightCount_[e.index()] <= kFewLights) {
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) addLights(elements_.child(e, i), leaf, by, out);
     return;
@@ -57,7 +46,7 @@ void DirectSenders::addLights(ElementId e, ElementId leaf, const Arriving& by, s
   const Vec3f normal = g.normalCone > 0 ? g.normal : Vec3f(0.0f);
   const double K = kernelAtPoint(elements_, scene_, g.center, normal, e);
   const float potential = std::max(static_cast<float>(K), leastKernel(elements_, g.center, e)) * strength(leaf, e);
-  if (potential > 0) out.push_back({e, potential, by.open, by.rays});
+  if (potential > 0) out.push_back({by.link, e, potential, by.open, by.rays});
 }
 
 float DirectSenders::strength(ElementId receiver, ElementId sender) const {
@@ -73,16 +62,19 @@ std::vector<PossibleSender> DirectSenders::at(ElementId leaf) const {
   const ElementGeometry& g = elements_.shape(leaf);
   for (ElementId e = leaf; e.valid(); e = elements_.at(e).parent) {
     const bool cluster = elements_.isCluster(e);
-    for (std::uint32_t i = begin_[e.index()]; i < begin_[e.index() + 1]; ++i) {
-      const Arriving& a = arriving_[i];
-      if (elements_.isCluster(a.sender) && lightCount_[a.sender.index()] <= kFewLights) {
-        addLights(a.sender, leaf, a, out);
+    for (LinkId id = links_.first(e); id.valid(); id = links_[id].nextArriving) {
+      const Link& l = links_[id];
+      if (!mayCarry(elements_, l)) continue;
+      const bool sampled = l.visibility == Visibility::Sampled;
+      PossibleSender a{id, l.sender, 0.0f, sampled ? maxChannel(l.V) : 1.0f, sampled ? l.samples : std::uint8_t{0}};
+      if (elements_.isCluster(l.sender) && lightCount_[l.sender.index()] <= kFewLights) {
+        addLights(l.sender, leaf, a, out);
         continue;
       }
-      float potential = a.potential;
+      a.potential = std::max(l.K, leastKernel(elements_, elements_.shape(e).center, l.sender)) * strength(e, l.sender);
       if (cluster) {
-        const ElementGeometry& s = elements_.shape(a.sender);
-        const bool distant = elements_.isDistant(a.sender);
+        const ElementGeometry& s = elements_.shape(l.sender);
+        const bool distant = elements_.isDistant(l.sender);
         const Vec3f between = distant ? s.center : s.center - g.center;
         const float distance = std::max(glm::length(between), 1e-20f);
         // How far the sender and the patch's own curvature reach above the horizon.
@@ -90,9 +82,9 @@ std::vector<PossibleSender> DirectSenders::at(ElementId leaf) const {
         const float bend = g.normalCone > 0 ? std::sqrt(1 - g.normalCone * g.normalCone) : 1.0f;
         const float cosine = glm::dot(g.normal, between) / distance;
         if (cosine + extent + bend <= 0) continue;
-        potential *= std::max(cosine, kLeastCosine);
+        a.potential *= std::max(cosine, kLeastCosine);
       }
-      if (potential > 0) out.push_back({a.sender, potential, a.open, a.rays});
+      if (a.potential > 0) out.push_back(a);
     }
   }
   return out;
@@ -116,7 +108,7 @@ void DirectSenders::collectAll(ElementId e, const Vec3f& x, const Vec3f& normal,
   const bool above = elements_.isDistant(e) || glm::dot(g.center - x, normal) + g.radius > 0;
   if (above) K = std::max(K, double(leastKernel(elements_, x, e)));
   const float potential = static_cast<float>(K) * gray(elements_.radiometry[e.index()].B);
-  if (potential > 0) out.push_back({e, potential, 1.0f, 0});
+  if (potential > 0) out.push_back({{}, e, potential, 1.0f, 0});
 }
 
 }  // namespace deltalux

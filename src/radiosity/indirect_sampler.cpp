@@ -42,15 +42,7 @@ float openness(const Link& l) {
 
 IndirectSampler::IndirectSampler(const Scene& scene, const Elements& elements, const Links& links,
                                  const RayTracer& tracer)
-    : scene_(scene), elements_(elements), tracer_(tracer), links_(links), begin_(elements.size() + 1, 0) {
-  for (const Link& l : links.all)
-    if (carries(elements, l)) ++begin_[l.receiver.index() + 1];
-  for (std::size_t i = 0; i < elements.size(); ++i) begin_[i + 1] += begin_[i];
-  own_.resize(begin_.back());
-  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for (std::size_t i = 0; i < links.size(); ++i)
-    if (carries(elements, links.all[i])) own_[next[links.all[i].receiver.index()]++] = LinkId(i);
-}
+    : scene_(scene), elements_(elements), tracer_(tracer), links_(links) {}
 
 float IndirectSampler::strength(ElementId receiver, ElementId sender) const {
   if (!elements_.isCluster(sender)) return gray(elements_.radiometry[sender.index()].B);
@@ -77,8 +69,9 @@ std::vector<IndirectSampler::Term> IndirectSampler::terms(ElementId leaf, int ra
   std::vector<Term> whole;
   float total = 0;
   for (ElementId r = leaf; r.valid(); r = elements_.at(r).parent) {
-    for (std::uint32_t i = begin_[r.index()]; i < begin_[r.index() + 1]; ++i) {
-      const Link& l = links_[own_[i]];
+    for (LinkId id = links_.first(r); id.valid(); id = links_[id].nextArriving) {
+      const Link& l = links_[id];
+      if (!carries(elements_, l)) continue;
       const Term t = term(leaf, l.sender, openness(l), kernelOf);
       if (!(t.weight > 0)) continue;
       whole.push_back(t);

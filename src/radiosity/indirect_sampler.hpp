@@ -59,8 +59,6 @@ class IndirectSampler {
   const Elements& elements_;
   const RayTracer& tracer_;
   const Links& links_;
-  std::vector<std::uint32_t> begin_;  // per receiver, one more
-  std::vector<LinkId> own_;
 };
 
 }  // namespace deltalux

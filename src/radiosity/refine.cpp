@@ -200,20 +200,11 @@ bool splitLink(Links& links, Elements& elements, const Scene& scene, LinkId id, 
   const std::size_t rCount = splitReceiver ? elements.at(receiver).childCount : 1;
   const std::size_t sCount = splitSender ? elements.at(sender).childCount : 1;
   if (rCount * sCount == 0 || rCount * sCount > 65535) return false;
-  const LinkId first(links.size());
-  for (std::size_t i = 0; i < rCount; ++i) {
-    for (std::size_t j = 0; j < sCount; ++j) {
-      Link child;
-      child.parent = id;
-      child.receiver = splitReceiver ? elements.child(receiver, i) : receiver;
-      child.sender = splitSender ? elements.child(sender, j) : sender;
-      links.all.push_back(child);
-    }
-  }
-  Link& parent = links[id];
-  parent.state = LinkState::Interior;
-  parent.firstChild = first;
-  parent.childCount = static_cast<std::uint16_t>(rCount * sCount);
+  const LinkId first = links.addChildren(id, rCount * sCount);
+  for (std::size_t i = 0; i < rCount; ++i)
+    for (std::size_t j = 0; j < sCount; ++j)
+      links.setEnds(LinkId(first.index() + i * sCount + j), splitReceiver ? elements.child(receiver, i) : receiver,
+                    splitSender ? elements.child(sender, j) : sender);
   return true;
 }
 
@@ -233,13 +224,7 @@ std::vector<char> markUnsettled(const Links& links, const Judge& judge) {
 
 void makeRootLinks(Links& links, const Elements& elements) {
   if (!links.roots.empty() || !elements.sceneRoot.valid()) return;
-  const auto add = [&](ElementId sender) {
-    Link link;
-    link.receiver = elements.sceneRoot;
-    link.sender = sender;
-    links.roots.push_back(LinkId(links.size()));
-    links.all.push_back(link);
-  };
+  const auto add = [&](ElementId sender) { links.addRoot(elements.sceneRoot, sender); };
   add(elements.sceneRoot);
   if (elements.lightRoot.valid()) add(elements.lightRoot);
   for (const ElementId e : elements.distant) add(e);
@@ -288,6 +273,7 @@ RefineReport refine(Links& links, Elements& elements, const Scene& scene, const 
         report.rays += v.rays;
         const bool wasInterior = links[id].state == LinkState::Interior;
         if (!wasInterior) {
+          v.link.nextArriving = links[id].nextArriving, v.link.previousArriving = links[id].previousArriving;
           links[id] = v.link;
           report.provenClear += v.link.visibility == Visibility::Clear;
           report.provenBlocked += v.link.visibility == Visibility::Blocked;

@@ -74,7 +74,8 @@ void checkElements(const Elements& e, const Scene& scene) {
 }
 
 void checkLink(const Link& l, std::size_t links, const Elements& e) {
-  require(byteAt(l, offsetof(Link, state)) <= static_cast<unsigned>(LinkState::Averted), "link: state");
+  require(byteAt(l, offsetof(Link, state)) <= static_cast<unsigned>(LinkState::Free), "link: state");
+  if (l.state == LinkState::Free) return require(l.childCount == 0, "free link: children");
   require(byteAt(l, offsetof(Link, visibility)) <= static_cast<unsigned>(Visibility::Sampled), "link: visibility");
   require(l.receiver.index() < e.size() && l.sender.index() < e.size(), "link: ends");
   require(!l.parent.valid() || l.parent.index() < links, "link: parent");
@@ -94,6 +95,7 @@ void checkLinkTree(const Links& links) {
     require(++met <= links.size(), "link: met twice");
     const LinkId id = open.back();
     open.pop_back();
+    require(links[id].state != LinkState::Free, "link: free");
     for (std::size_t c = 0; c < links[id].childCount; ++c) {
       const LinkId child = links.child(id, c);
       require(links[child].parent == id, "link: its children know it");

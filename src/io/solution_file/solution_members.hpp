@@ -27,7 +27,7 @@ void members(auto& archive, Is<Elements> auto& e) {
               frames, sceneRoot, lightRoot, distant, sceneBox);
 }
 void members(auto& archive, Is<Links> auto& l) {
-  auto& [all, roots] = l;
+  auto& [all, roots, arriving, free] = l;  // the latter two follow from the first
   transferAll(archive, all, roots);
 }
 
