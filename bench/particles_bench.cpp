@@ -31,13 +31,14 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 std::vector<Ray> raysOf(const Particles& p) {
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < p.paths(); ++i) {
-    for (std::uint32_t v = p.vertexBegin[i]; v + 1 < p.vertexBegin[i + 1]; ++v) {
-      const Vec3f d = p.vertices[v + 1] - p.vertices[v];
+    const auto path = p.verticesOf(i);
+    for (std::size_t v = 0; v + 1 < path.size(); ++v) {
+      const Vec3f d = path[v + 1] - path[v];
       const float length = glm::length(d);
       if (!(length > 0)) continue;
       Ray ray;
       ray.direction = d / length;
-      ray.origin = p.vertices[v] + 1e-5f * length * ray.direction;
+      ray.origin = path[v] + 1e-5f * length * ray.direction;
       rays.push_back(ray);
     }
   }
@@ -57,15 +58,16 @@ double rawSeconds(const RayTracer& tracer, const std::vector<Ray>& rays) {
 RgbSum mirrorFlux(const Particles& p, const Scene& scene, const RayTracer& tracer) {
   RgbSum sum(0.0);
   for (std::size_t i = 0; i < p.paths(); ++i) {
-    if (p.senderCells[p.sender[i]].kind != SenderKind::Sun || p.impactBegin[i] == p.impactBegin[i + 1]) continue;
-    const Vec3f *v = &p.vertices[p.vertexBegin[i]], from = v[0], to = v[1];
+    if (p.senderCells[p.sender[i]].kind != SenderKind::Sun || p.range[i].impacts == 0) continue;
+    const auto v = p.verticesOf(i);
+    const Vec3f from = v[0], to = v[1];
     Ray ray;
     ray.direction = glm::normalize(from - to);
     ray.origin = to + 0.01f * ray.direction;
     ray.direction = -ray.direction;
     const Hit hit = tracer.closestHit(ray);
     if (!hit || !std::holds_alternative<Mirror>(scene.materialOf(hit.primitive).surface)) continue;
-    const std::uint32_t first = p.impactBegin[i];
+    const std::uint32_t first = p.firstImpact(i);
     if (std::abs(v[2].x) < 0.06f) sum += double(p.links[p.link[i]].scale) * RgbSum(p.throughput[first]);
   }
   return sum;
@@ -110,7 +112,7 @@ void run(int argc, char** argv) {
   const double rawOfAll = raw * all / static_cast<double>(segments);
   row("links", static_cast<double>(p.links.size()), "");
   row("samples", static_cast<double>(p.paths()), "");
-  row("particles", static_cast<double>(p.arrived), "");
+  row("particles", static_cast<double>(p.arrived()), "");
   row("landed", static_cast<double>(p.landed()), "");
   row("impacts", static_cast<double>(p.impacts()), "");
   row("rays", all, "");
@@ -118,8 +120,9 @@ void run(int argc, char** argv) {
   row("time of the rays alone", rawOfAll, "s");
   row("ratio", seconds / rawOfAll, "");
   row("memory", static_cast<double>(p.memoryBytes()) / 1048576.0, "MiB");
-  row("ended by the depth limit", static_cast<double>(p.depthLimit), "");
-  row("ledger residue of arrived flux", 100 * p.ledger.residue() / p.ledger.arrived, "%");
+  row("ended by the depth limit", static_cast<double>(p.cut()), "");
+  const ParticleLedger ledger = p.ledger();
+  row("ledger residue of the flux in it", 100 * ledger.residue() / (ledger.entered + ledger.passed), "%");
   if (argc > 4) {
     const RgbSum expected = expectedFlux(argv[4]), found = mirrorFlux(p, scene, *tracer);
     row("flux from the mirror onto the west wall", gray(found), "W");

@@ -15,12 +15,16 @@ namespace deltalux {
 /// A primitive whose material emits; radiance, sides and spot cone are the material's.
 struct AreaLight {
   PrimitiveId primitive;
+
+  bool operator==(const AreaLight&) const = default;
 };
 
 /// Isotropic point: I(w) = intensity [W/sr].
 struct PointLight {
   Vec3 position{0};
   Rgb intensity{0.0f};
+
+  bool operator==(const PointLight&) const = default;
 };
 
 /// glTF spot: I = intensity * saturate(cos * scale + offset)^2, with scale = 1 / max(0.001, cosInner - cosOuter),
@@ -30,6 +34,8 @@ struct SpotLight {
   Vec3 direction{0, 0, -1};  // unit
   Rgb intensity{0.0f};       // on axis [W/sr]
   double cosInner = 1, cosOuter = 0.70710678118654752;
+
+  bool operator==(const SpotLight&) const = default;
 };
 
 /// A Lambertian point: I = intensity * max(0, cos) about `direction` [CIE 171 case 5.2].
@@ -37,6 +43,8 @@ struct LambertPointLight {
   Vec3 position{0};
   Vec3 direction{0, 0, -1};  // unit
   Rgb intensity{0.0f};       // on axis [W/sr]
+
+  bool operator==(const LambertPointLight&) const = default;
 };
 
 /// A measured distribution, type C after conversion: candela[h * verticals.size() + v] over horizontal angles
@@ -55,6 +63,8 @@ struct PhotometricLight {
   glm::dmat3 frame{1.0};  // local to world; local aim is -z, 0 plane along +x (ies2rad's frame)
   std::shared_ptr<const Photometry> photometry;
   Rgb scale{1.0f};
+
+  bool operator==(const PhotometricLight&) const = default;
 };
 
 /// A uniform disc at infinity, such as the sun: radiance within `angularRadius` of `direction`.
@@ -62,6 +72,8 @@ struct SunLight {
   Vec3 direction{0, 0, 1};  // unit, towards the sun
   double angularRadius = 0.004654793;
   Rgb radiance{0.0f};
+
+  bool operator==(const SunLight&) const = default;
 };
 
 /// gensky's distributions [Radiance, skybright.cal] in W/(sr m2): brightness of the sky and of the ground below.
@@ -70,6 +82,8 @@ struct RadianceSky {
   Kind kind = Kind::Clear;
   double zenith = 0, ground = 0, normalization = 1;  // as gensky prints them (A2, A3, A4)
   Vec3 sunDirection{0, 0, 1};
+
+  bool operator==(const RadianceSky&) const = default;
 };
 
 /// CIE standard general sky, types 1-15 [ISO 15469; conventions.md].
@@ -78,10 +92,14 @@ struct CieSky {
   double zenith = 1;  // zenith radiance [W/(sr m2)]
   double ground = 0;  // radiance below the horizon
   Vec3 sunDirection{0, 0, 1};
+
+  bool operator==(const CieSky&) const = default;
 };
 
 struct UniformSky {
   double radiance = 1;
+
+  bool operator==(const UniformSky&) const = default;
 };
 
 /// Radiance from infinity within `halfAngle` of `axis`: scale * distribution(direction). Sky, ground, windows' worlds.
@@ -91,6 +109,8 @@ struct DomeLight {
   Rgb scale{1.0f};
   std::variant<UniformSky, RadianceSky, CieSky> distribution;
   Vec3 up{0, 0, 1};  // zenith of the distribution
+
+  bool operator==(const DomeLight&) const = default;
 };
 
 struct Light {

@@ -14,9 +14,11 @@ namespace deltalux {
 /// A specular lobe: directional-hemispherical reflectance per channel, constant over angle.
 struct SpecularLobe {
   enum class Distribution { Ward, Ggx };
-  Rgb reflectance{0.0f};  // 0: no lobe
+  Rgb reflectance{0.0f};   // 0: no lobe
   float roughness = 0.0f;  // Ward: rms slope alpha; GGX: alpha (glTF roughness squared); 0: perfect mirror
   Distribution distribution = Distribution::Ward;
+
+  bool operator==(const SpecularLobe&) const = default;
 };
 
 /// Plastic, metal, glTF metallic-roughness: reflects on both sides, transmits nothing.
@@ -24,11 +26,15 @@ struct Opaque {
   Rgb diffuse{0.0f};         // rho, Lambertian
   TextureId diffuseTexture;  // multiplies `diffuse` over mesh texture coordinates, when valid
   SpecularLobe specular;
+
+  bool operator==(const Opaque&) const = default;
 };
 
 /// Radiance `mirror`: a perfect mirror on the front, black on the back.
 struct Mirror {
   Rgb reflectance{0.0f};
+
+  bool operator==(const Mirror&) const = default;
 };
 
 /// A thin pane: no refraction offset; passes light straight through and reflects. Transmission and reflection follow
@@ -36,12 +42,16 @@ struct Mirror {
 struct ThinGlass {
   Rgb transmissivity{1.0f};
   float ior = 1.52f;
+
+  bool operator==(const ThinGlass&) const = default;
 };
 
 /// A closed refracting body. Inside (behind the front side), light is attenuated by transmission^length.
 struct Dielectric {
   Rgb transmission{1.0f};  // per unit length (scene units)
   float ior = 1.5f;        // relative to the outside
+
+  bool operator==(const Dielectric&) const = default;
 };
 
 /// Radiance `trans`: diffuse reflection and diffuse transmission, a specular reflection and a transmission lobe.
@@ -50,14 +60,18 @@ struct Trans {
   Rgb diffuseTransmittance{0.0f};
   SpecularLobe reflection;
   SpecularLobe transmission;
+
+  bool operator==(const Trans&) const = default;
 };
 
 using Surface = std::variant<Opaque, Mirror, ThinGlass, Dielectric, Trans>;
 
 /// Radiance's spotlight: emission only within the cone, E = L A cos cos' / (d + |direction|)^2. [conventions.md]
 struct SpotCone {
-  double fullAngle = kPi;   // radians
+  double fullAngle = kPi;    // radians
   Vec3 direction{0, 0, -1};  // its length is the focal offset, in scene units
+
+  bool operator==(const SpotCone&) const = default;
 };
 
 /// Diffuse emission of a surface's front side.
@@ -65,6 +79,8 @@ struct Emission {
   Rgb radiance{0.0f};  // L [W/(sr m2)]; exitance M = pi L
   bool bothSides = false;
   std::optional<SpotCone> spot;
+
+  bool operator==(const Emission&) const = default;
 };
 
 struct Material {

@@ -69,7 +69,7 @@ struct Engine::State {
     s.report.times.particles += time.seconds();
     WorkCounts& c = s.report.counts;
     c.linksDs = s.particles.links.size();
-    c.particles = s.particles.arrived;
+    c.particles = s.particles.arrived();
     c.impacts = s.particles.impacts();
     c.raysParticles += s.particles.rays + s.particles.looks;
     s.report.memory.particles = s.particles.memoryBytes();

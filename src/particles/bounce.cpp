@@ -15,14 +15,6 @@ bool takesParticles(const Material& m, bool front) {
   return !(front && std::holds_alternative<Mirror>(m.surface));
 }
 
-/// Gray share of the flux that perfect parts pass on at that angle.
-float perfectShare(const Bsdf& b, double cosine) {
-  float share = gray(mirrorReflectance(b, cosine));
-  if (b.pane) return share + gray(transmittance(*b.pane, cosine));
-  if (b.refractingIor) return 1;
-  return share + gray(b.transmission.reflectance);
-}
-
 }  // namespace
 
 EventNumbers eventNumbers(std::uint64_t key, std::uint32_t index, int depth) {
@@ -50,6 +42,7 @@ ParticleSurfaces::ParticleSurfaces(const Scene& scene) : scene_(scene) {
       sides_.push_back(s);
     }
     bodies_.push_back(std::get_if<Dielectric>(&m.surface));
+    panes_.push_back(isThinGlass(m));
   }
 }
 
@@ -64,7 +57,6 @@ std::optional<SpecularEvent> ParticleSurfaces::scatter(const SurfaceSpot& at, co
   if (first && s.bsdf.pane) {
     event.weight = mirrorReflectance(s.bsdf, wo.z);
     event.direction = Vec3f(glm::normalize(frame.toWorld({-wo.x, -wo.y, wo.z})));
-    event.passed = gray(event.weight);
     return event;
   }
   const auto sampled = sample(s.bsdf, wo, u.scatter);
@@ -72,7 +64,6 @@ std::optional<SpecularEvent> ParticleSurfaces::scatter(const SurfaceSpot& at, co
   event.weight = sampled->weight;
   event.direction = Vec3f(glm::normalize(frame.toWorld(sampled->direction)));
   event.refracted = sampled->event == ScatterEvent::Refraction;
-  event.passed = s.rough ? gray(event.weight) : perfectShare(s.bsdf, wo.z);
   return event;
 }
 

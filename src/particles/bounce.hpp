@@ -28,8 +28,7 @@ EventNumbers eventNumbers(std::uint64_t key, std::uint32_t index, int depth);
 
 struct SpecularEvent {
   Vec3f direction;
-  Rgb weight;        // of the flux
-  float passed = 0;  // gray share that this surface passes on: in the mean where that is known, else of this sample
+  Rgb weight;  // of the flux
   bool refracted = false;
 };
 
@@ -40,6 +39,7 @@ class ParticleSurfaces {
   /// Whether particles land on a side: it takes light in other than passing it on or mirroring it.
   bool takes(PrimitiveId p, bool front) const { return side(p, front).takes; }
   bool passesOn(PrimitiveId p, bool front) const { return side(p, front).passesOn; }
+  bool isPane(PrimitiveId p) const { return panes_[scene_[p].material.index()]; }
   /// Medium behind the front of a dielectric; null for all else.
   const Dielectric* body(PrimitiveId p) const { return bodies_[scene_[p].material.index()]; }
 
@@ -60,6 +60,7 @@ class ParticleSurfaces {
   const Scene& scene_;
   std::vector<Side> sides_;
   std::vector<const Dielectric*> bodies_;  // by material
+  std::vector<char> panes_;
 };
 
 }  // namespace deltalux

@@ -162,16 +162,21 @@ Hit look(const Scene& scene, const RayTracer& tracer, const Vertex& v, const Vec
 
 }  // namespace
 
-CoarseExitance coarseExitance(const Scene& scene, const RayTracer& tracer, const LightSampler& lights,
-                              const Senders& senders) {
-  CoarseExitance result;
-  result.perCell.assign(senders.cells().size(), 1.0f);
+std::vector<float> skyStrengths(const Scene& scene, const Senders& senders) {
+  std::vector<float> strengths(senders.cells().size(), 1.0f);
   for (std::uint32_t c = 0; c < senders.surfaceCells(); ++c) {
     const SenderCell& cell = senders.cells()[c];
     if (cell.kind != SenderKind::Sky) continue;
     const auto& dome = std::get<DomeLight>(scene[cell.light].emitter);
-    result.perCell[c] = std::max(gray(skyRadiance(dome, senders.direction(c, {0.5, 0.5}))), 1e-9f);
+    strengths[c] = std::max(gray(skyRadiance(dome, senders.direction(c, {0.5, 0.5}))), 1e-9f);
   }
+  return strengths;
+}
+
+CoarseExitance coarseExitance(const Scene& scene, const RayTracer& tracer, const LightSampler& lights,
+                              const Senders& senders) {
+  CoarseExitance result;
+  result.perCell = skyStrengths(scene, senders);
   const std::uint32_t first = senders.surfaceCells();
   const std::size_t count = senders.cells().size() - first;
   if (count == 0) return result;

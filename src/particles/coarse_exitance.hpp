@@ -16,6 +16,9 @@ struct CoarseExitance {
   std::uint64_t rays = 0;
 };
 
+/// Radiance of the sky's cells, 1 of all others.
+std::vector<float> skyStrengths(const Scene&, const Senders&);
+
 CoarseExitance coarseExitance(const Scene&, const RayTracer&, const LightSampler&, const Senders&);
 
 /// Adds what particles bring: `flux` by cell [W]. Light that only glass lets out, and caustics, are found by no shadow

@@ -156,7 +156,7 @@ DsLinks refineDsLinks(const Scene& scene, const RayTracer& tracer, const Particl
   while (!level.empty()) {
     struct Verdict {
       DsLink link;
-      bool split = false, averted = false;
+      bool split = false;
     };
     constexpr std::size_t kBlock = 64;
     std::vector<Verdict> verdicts(level.size());
@@ -164,9 +164,12 @@ DsLinks refineDsLinks(const Scene& scene, const RayTracer& tracer, const Particl
     parallelFor(level.size(), kBlock, [&](std::size_t i) {
       Verdict& v = verdicts[i];
       v.link.ends = level[i];
-      v.averted = emission.averted(level[i]);
-      if (v.averted) return;
       v.link.key = judge.key(level[i], settings.seed);
+      // Nothing passes, as long as neither end moves.
+      if (emission.averted(level[i])) {
+        v.link.flux = static_cast<float>(kLeast * threshold);
+        return;
+      }
       Judgement j = judge.look(level[i], v.link.key, kLooks, rays[i / kBlock]);
       const bool worth = judge.near(level[i]) || (j.uneven && j.flux > kMuch * threshold);
       v.split = judge.divisible(level[i]) && j.flux > threshold && worth;
@@ -184,7 +187,6 @@ DsLinks refineDsLinks(const Scene& scene, const RayTracer& tracer, const Particl
     links.judged += level.size();
     std::vector<LinkEnds> next;
     for (const Verdict& v : verdicts) {
-      if (v.averted) continue;
       if (!v.split) {
         if (v.link.flux > 0) links.all.push_back(v.link);
         continue;

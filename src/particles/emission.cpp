@@ -17,10 +17,12 @@ double square(double x) { return x * x; }
 
 }  // namespace
 
+double farDistance(const Scene& scene) { return 4 * coarse(std::max(bounds(scene).diagonal(), 1e-6)); }
+
 ParticleEmission::ParticleEmission(const Scene& scene, const RayTracer& tracer, const Senders& senders,
                                    const Receivers& receivers)
     : scene_(scene), tracer_(tracer), senders_(senders), receivers_(receivers) {
-  far_ = 4 * coarse(std::max(bounds(scene).diagonal(), 1e-6));
+  far_ = farDistance(scene);
 }
 
 const Emission& ParticleEmission::emission(const SenderCell& c) const {
@@ -36,6 +38,8 @@ FirstSegment ParticleEmission::sample(const LinkEnds& link, const EmissionNumber
     s.senderCell = senders_.choose(node, u.choice.x);
     share = senders_.weightOf(node) / senders_.weight(s.senderCell);
   }
+  // What was removed keeps its place among cells.
+  if (!(senders_.cells()[s.senderCell].measure > 0)) return s;
   const SenderKind kind = senders_.cells()[s.senderCell].kind;
   if (kind == SenderKind::Sun || kind == SenderKind::Sky)
     fromInfinity(link, u, share, s);
@@ -57,6 +61,7 @@ void ParticleEmission::fromInfinity(const LinkEnds& link, const EmissionNumbers&
   const std::uint32_t cell = receivers_.choose(node, u.choice.y);
   const double area = receivers_.area(cell) * receivers_.weightOf(node) / receivers_.weight(cell);
   s.receiverCell = cell;
+  if (!(area > 0)) return;
   s.atInfinity = true;
   ReceiverPoint x;
   if (receivers_.isFlat(cell)) {
@@ -134,6 +139,7 @@ void ParticleEmission::fromPlace(const LinkEnds& link, const EmissionNumbers& u,
 ParticleEmission::Aim ParticleEmission::aim(const Origin& y, std::uint32_t at, double choice, const Vec2& u) const {
   const RadixNode& node = receivers_.nodes()[at];
   const BoundingSphere& ball = receivers_.bound(at);
+  if (ball.empty()) return {};
   const bool flat = node.isLeaf() && receivers_.isFlat(node.begin);
   if (flat || glm::distance(y.position, ball.center) > kFar * ball.radius)
     return aimAtCell(y.position, node, choice, u);
@@ -154,6 +160,7 @@ ParticleEmission::Aim ParticleEmission::aim(const Origin& y, std::uint32_t at, d
 ParticleEmission::Aim ParticleEmission::aimAtCell(const Vec3& from, const RadixNode& node, double choice,
                                                   const Vec2& u) const {
   const std::uint32_t cell = node.isLeaf() ? node.begin : receivers_.choose(node, choice);
+  if (!(receivers_.area(cell) > 0)) return {};
   Aim a = receivers_.isFlat(cell) ? aimAtFlat(from, cell, u) : aimAtCurved(from, cell, u);
   if (!node.isLeaf()) a.density *= receivers_.weight(cell) / receivers_.weightOf(node);
   return a;
@@ -305,7 +312,11 @@ void ParticleEmission::arrive(std::span<const LinkEnds> links, std::span<const F
 Arrival ParticleEmission::meet(const LinkEnds& link, const FirstSegment& s, const Hit& hit) const {
   const RadixNode& node = receivers_.nodes()[link.receiver];
   const std::uint32_t cell = receivers_.cellOf(hit);
-  if (cell < node.begin || cell >= node.end) return {};
+  if (cell < node.begin || cell >= node.end) {
+    Arrival blocked;
+    blocked.position = hit.position, blocked.distance = hit.t;
+    return blocked;
+  }
   Arrival a{hit.primitive, hit.triangle, hit.position, hit.normal, s.direction, hit.t, s.flux};
   const double other = densityAtCell(Vec3(s.origin), node, cell, Vec3(hit.position), glm::normalize(Vec3(hit.normal)));
   a.flux *= static_cast<float>(s.density / (s.density + other));  // [Veach97 9.8]

@@ -45,14 +45,17 @@ struct FirstSegment {
 
 /// Where a particle first meets a receiver.
 struct Arrival {
-  PrimitiveId primitive;  // invalid: nowhere
+  PrimitiveId primitive;  // invalid: nowhere; an open segment then ends at `position`, if its distance is finite
   std::uint32_t triangle = 0;
-  Vec3f position{0.0f}, normal{0.0f}, direction{0.0f};  // normal: of the front
-  float distance = 0;                                   // infinite from suns and skies
+  Vec3f position{0.0f}, normal{0.0f}, direction{0.0f};      // normal: of the front
+  float distance = std::numeric_limits<float>::infinity();  // infinite from suns and skies
   Rgb flux{0.0f};
 
   bool front() const { return glm::dot(normal, direction) < 0; }
 };
+
+/// A distance beyond everything: in steps, so that small motions do not change it.
+double farDistance(const Scene&);
 
 class ParticleEmission {
  public:

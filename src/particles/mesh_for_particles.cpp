@@ -30,13 +30,13 @@ struct Tally {
 }  // namespace
 
 std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const Particles& p) {
-  std::vector<ElementId> leaf(p.impacts());
-  std::vector<float> weights(p.impacts());
+  std::vector<ElementId> leaf(p.impactSlots());
+  std::vector<float> weights(p.impactSlots());
   {
     const SideLocator locator(elements, scene);
     parallelFor(p.paths(), 1024, [&](std::size_t path) {
       const float power = p.links[p.link[path]].scale * p.nominal[p.sender[path]];
-      for (std::uint32_t i = p.impactBegin[path]; i < p.impactBegin[path + 1]; ++i) {
+      for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
         const ElementId side = locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
         if (side.valid()) leaf[i] = locator.leafAt(side, Vec2(p.uv[i]));
         weights[i] = power * gray(p.throughput[i]);

@@ -1,5 +1,6 @@
 #include "particles/particles.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
@@ -19,21 +20,72 @@ std::uint64_t bitsOf(float x) { return std::bit_cast<std::uint32_t>(x); }
 
 }  // namespace
 
-ParticleLedger& ParticleLedger::operator+=(const ParticleLedger& o) {
-  arrived += o.arrived, absorbed += o.absorbed, escaped += o.escaped, ended += o.ended, roulette += o.roulette;
-  return *this;
+ParticleLedger Particles::ledger() const {
+  ParticleLedger l;
+  for (std::size_t p = 0; p < paths(); ++p) {
+    const double w = weight(p);
+    const PathAccount& a = account[p];
+    l.entered += w * gray(a.entered.value()), l.passed += w * gray(a.passed.value());
+    l.absorbed += w * gray(a.absorbed.value());
+    (fate[p] & kCut ? l.cut : l.escaped) += w * gray(a.left.value());
+    for (std::uint32_t i = firstImpact(p); i < endImpact(p); ++i) l.landed += w * gray(throughput[i]);
+  }
+  return l;
+}
+
+std::uint64_t Particles::arrived() const {
+  return static_cast<std::uint64_t>(std::count_if(fate.begin(), fate.end(), [](auto f) { return f & kArrived; }));
+}
+
+std::uint64_t Particles::cut() const {
+  return static_cast<std::uint64_t>(std::count_if(fate.begin(), fate.end(), [](auto f) { return f & kCut; }));
 }
 
 std::uint64_t Particles::landed() const {
   std::uint64_t count = 0;
-  for (std::size_t p = 0; p < paths(); ++p) count += impactBegin[p + 1] > impactBegin[p];
+  for (const PathRange& r : range) count += r.impacts > 0;
   return count;
+}
+
+std::uint64_t Particles::impacts() const {
+  std::uint64_t count = 0;
+  for (const PathRange& r : range) count += r.impacts;
+  return count;
+}
+
+namespace {
+
+/// Moves the entries of all ranges, in the order of the paths, to the front of a new array.
+template <class T>
+void gather(std::vector<T>& array, const std::vector<PathRange>& ranges, std::uint32_t PathRange::*first,
+            std::uint16_t PathRange::*count) {
+  std::vector<T> dense;
+  for (const PathRange& r : ranges) {
+    const auto begin = array.begin() + static_cast<std::ptrdiff_t>(r.*first);
+    dense.insert(dense.end(), begin, begin + r.*count);
+  }
+  array = std::move(dense);
+}
+
+}  // namespace
+
+void Particles::compact() {
+  gather(vertices, range, &PathRange::vertex, &PathRange::vertices);
+  gather(primitive, range, &PathRange::impact, &PathRange::impacts);
+  gather(triangleAndSide, range, &PathRange::impact, &PathRange::impacts);
+  gather(uv, range, &PathRange::impact, &PathRange::impacts);
+  gather(throughput, range, &PathRange::impact, &PathRange::impacts);
+  std::uint32_t vertex = 0, impact = 0;
+  for (PathRange& r : range) {
+    r.vertex = vertex, r.impact = impact;
+    vertex += r.vertices, impact += r.impacts;
+  }
 }
 
 std::size_t Particles::memoryBytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return bytes(senderCells) + bytes(links) + bytes(link) + bytes(sender) + bytes(originTriangle) + bytes(vertexBegin) +
-         bytes(impactBegin) + bytes(vertices) + bytes(primitive) + bytes(triangleAndSide) + bytes(uv) +
+  return bytes(senderCells) + bytes(links) + bytes(link) + bytes(sender) + bytes(originTriangle) + bytes(range) +
+         bytes(account) + bytes(fate) + bytes(vertices) + bytes(primitive) + bytes(triangleAndSide) + bytes(uv) +
          bytes(throughput);
 }
 
@@ -41,12 +93,14 @@ std::uint64_t Particles::hash() const {
   std::uint64_t h = 0;
   const auto take = [&](std::uint64_t x) { h = mix64(h ^ x) + x; };
   for (const ParticleLink& l : links) take(l.key), take(l.paths), take(bitsOf(l.scale));
-  for (std::size_t p = 0; p < paths(); ++p) take(std::uint64_t(vertexBegin[p]) << 32 | impactBegin[p]);
-  for (const Vec3f& v : vertices) take(bitsOf(v.x) << 32 | bitsOf(v.y)), take(bitsOf(v.z));
-  for (std::size_t i = 0; i < impacts(); ++i) {
-    take(std::uint64_t(primitive[i].value) << 32 | triangleAndSide[i]);
-    take(bitsOf(uv[i].x) << 32 | bitsOf(uv[i].y));
-    take(bitsOf(throughput[i].r) << 32 | bitsOf(throughput[i].g)), take(bitsOf(throughput[i].b));
+  for (std::size_t p = 0; p < paths(); ++p) {
+    take(std::uint64_t(sender[p]) << 32 | std::uint64_t(range[p].vertices) << 16 | range[p].impacts);
+    for (const Vec3f& v : verticesOf(p)) take(bitsOf(v.x) << 32 | bitsOf(v.y)), take(bitsOf(v.z));
+    for (std::uint32_t i = firstImpact(p); i < endImpact(p); ++i) {
+      take(std::uint64_t(primitive[i].value) << 32 | triangleAndSide[i]);
+      take(bitsOf(uv[i].x) << 32 | bitsOf(uv[i].y));
+      take(bitsOf(throughput[i].r) << 32 | bitsOf(throughput[i].g)), take(bitsOf(throughput[i].b));
+    }
   }
   return h;
 }
@@ -71,8 +125,7 @@ void checkSenders(const Particles& p, const Scene& scene) {
 void checkPaths(const Particles& p, const Scene& scene) {
   const std::size_t n = p.paths();
   require(p.sender.size() == n && p.originTriangle.size() == n, n, "arrays of one length");
-  require(p.vertexBegin.size() == n + 1 && p.impactBegin.size() == n + 1, n, "ranges are kept");
-  require(p.vertexBegin[0] == 0 && p.impactBegin[0] == 0, 0, "ranges begin at nothing");
+  require(p.range.size() == n && p.account.size() == n && p.fate.size() == n, n, "ranges and accounts are kept");
   std::size_t next = 0;
   for (std::size_t l = 0; l < p.links.size(); ++l) {
     const ParticleLink& link = p.links[l];
@@ -85,15 +138,24 @@ void checkPaths(const Particles& p, const Scene& scene) {
     require(p.link[i] < p.links.size(), i, "its link is there");
     const ParticleLink& link = p.links[p.link[i]];
     require(i >= link.firstPath && i < link.firstPath + std::size_t(link.paths), i, "its link knows it");
-    require(p.vertexBegin[i] <= p.vertexBegin[i + 1] && p.impactBegin[i] <= p.impactBegin[i + 1], i, "ranges ascend");
-    require(p.impactBegin[i + 1] - p.impactBegin[i] <= p.vertexBegin[i + 1] - p.vertexBegin[i], i,
-            "it lands only where it went");
+    const PathRange& r = p.range[i];
+    require(r.vertex + std::size_t(r.vertices) <= p.vertices.size(), i, "its vertices are there");
+    require(r.impact + std::size_t(r.impacts) <= p.impactSlots(), i, "its impacts are there");
+    require(r.impacts <= r.vertices, i, "it lands only where it went");
     require(p.sender[i] < p.senderCells.size(), i, "its sender is there");
     const SenderCell& cell = p.senderCells[p.sender[i]];
-    require(cell.kind != SenderKind::Side || p.originTriangle[i] < trianglesOf(scene[cell.primitive].shape), i,
-            "its origin is on the sender");
+    require(cell.kind != SenderKind::Side || r.vertices == 0 ||
+                p.originTriangle[i] < trianglesOf(scene[cell.primitive].shape),
+            i, "its origin is on the sender");
   }
-  require(p.vertexBegin.back() == p.vertices.size() && p.impactBegin.back() == p.impacts(), n, "nothing is left over");
+}
+
+void checkImpact(const Particles& p, std::size_t i, const Scene& scene) {
+  require(p.primitive[i].index() < scene.primitives.size(), i, "it lands on a surface of the scene");
+  require(p.triangleAndSide[i] >> 1 < trianglesOf(scene[p.primitive[i]].shape), i, "it lands on a triangle of it");
+  const Rgb& t = p.throughput[i];
+  for (int c = 0; c < 3; ++c) require(std::isfinite(t[c]) && t[c] >= 0, i, "throughput is finite and not negative");
+  require(std::isfinite(p.uv[i].x) && std::isfinite(p.uv[i].y), i, "parameters are finite");
 }
 
 }  // namespace
@@ -103,15 +165,10 @@ void validate(const Particles& p, const Scene& scene) {
   checkPaths(p, scene);
   for (const Vec3f& v : p.vertices)
     require(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z), 0, "vertices are finite");
-  const std::size_t n = p.impacts();
+  const std::size_t n = p.impactSlots();
   require(p.triangleAndSide.size() == n && p.uv.size() == n && p.throughput.size() == n, n, "arrays of one length");
-  for (std::size_t i = 0; i < n; ++i) {
-    require(p.primitive[i].index() < scene.primitives.size(), i, "it lands on a surface of the scene");
-    require(p.triangleAndSide[i] >> 1 < trianglesOf(scene[p.primitive[i]].shape), i, "it lands on a triangle of it");
-    const Rgb& t = p.throughput[i];
-    for (int c = 0; c < 3; ++c) require(std::isfinite(t[c]) && t[c] >= 0, i, "throughput is finite and not negative");
-    require(std::isfinite(p.uv[i].x) && std::isfinite(p.uv[i].y), i, "parameters are finite");
-  }
+  for (std::size_t path = 0; path < p.paths(); ++path)
+    for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) checkImpact(p, i, scene);
 }
 
 }  // namespace deltalux

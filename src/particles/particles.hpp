@@ -5,9 +5,17 @@
 //
 // They are a function of scene, seed and target count alone: not of the solution, the number of threads, or the history
 // of edits. Every path keeps where it went, blocked ones too, so that an edit can find those it touches.
-// Memory: about 12 bytes a vertex, 20 a path, 32 an impact.
+//
+// What links there are, and how many paths each has, depends on the shapes as they were read (rest), not on where edits
+// have put them: a motion changes the paths that it touches and no others. (Departure: the paper's links follow every
+// edit.) Estimates stay exact in the mean, whatever moved; what moves far into the light has fewer particles than it
+// would deserve.
+// Memory: about 12 bytes a vertex, 41 a path, 32 an impact.
+#include <span>
+
 #include "particles/ds_links.hpp"
 #include "particles/impact.hpp"
+#include "particles/path_account.hpp"
 
 namespace deltalux {
 
@@ -19,17 +27,23 @@ struct ParticleLink {
   float scale = 0;  // one over the number of samples, or over the chance that there is the one
 };
 
-/// What became of particle flux, gray [W], with the coarse exitance of diffuse senders: emitted = passed on at the
-/// first surface, and so on. Sampling makes each right in the mean only.
+/// What became of particle flux, gray [W], with the nominal exitance of senders: what goes in comes out, in the mean.
 struct ParticleLedger {
-  double arrived = 0;   // at a receiver, before its first non-diffuse event
-  double absorbed = 0;  // by surfaces, of what they do not pass on; all of it, diffuse parts included
+  double entered = 0;   // from lights and diffuse surfaces, at surfaces that take no particles (mirrors, glass)
+  double passed = 0;    // passed on by surfaces that take particles (plastic, brass), of light that they have anyway
+  double landed = 0;    // on surfaces that take particles
+  double absorbed = 0;  // by mirrors, glass and media
   double escaped = 0;   // out of the scene
-  double ended = 0;     // cut by the depth limit
-  double roulette = 0;  // lost less gained in chance decisions: its mean is 0
+  double cut = 0;       // by the depth limit
 
-  double residue() const { return arrived - absorbed - escaped - ended - roulette; }
-  ParticleLedger& operator+=(const ParticleLedger&);
+  /// What chance decisions gained or lost.
+  double residue() const { return entered + passed - landed - absorbed - escaped - cut; }
+};
+
+/// Where a path's vertices and impacts stand.
+struct PathRange {
+  std::uint32_t vertex = 0, impact = 0;     // first
+  std::uint16_t vertices = 0, impacts = 0;  // how many
 };
 
 struct Particles {
@@ -43,8 +57,11 @@ struct Particles {
   std::vector<std::uint32_t> link;            // index
   std::vector<std::uint32_t> sender;          // cell
   std::vector<std::uint32_t> originTriangle;  // of a mesh
-  std::vector<std::uint32_t> vertexBegin{0};  // one more
-  std::vector<std::uint32_t> impactBegin{0};  // one more
+  std::vector<PathRange> range;
+  std::vector<PathAccount> account;
+  std::vector<std::uint8_t> fate;
+
+  // Ranges may leave gaps where paths were traced anew.
 
   // Per vertex: origin, then every surface met; a path that leaves ends at a point outside. None: never traced.
   std::vector<Vec3f> vertices;
@@ -55,18 +72,29 @@ struct Particles {
   std::vector<glm::vec2> uv;
   std::vector<Rgb> throughput;  // of its path alone; the link's scale comes on top
 
-  ParticleLedger ledger;
-  double quantum = 0;            // flux that one particle stands for, by the estimate [W]
-  std::uint64_t rays = 0;        // of the particles
-  std::uint64_t looks = 0;       // rays that decided about links and counts
-  std::uint64_t arrived = 0;     // paths that reached a receiver of their link
-  std::uint64_t depthLimit = 0;  // paths that it ended
+  double quantum = 0;       // flux that one particle stands for, by the estimate [W]
+  std::uint64_t rays = 0;   // of the particles
+  std::uint64_t looks = 0;  // rays that decided about links and counts
 
   std::size_t paths() const { return link.size(); }
-  std::size_t impacts() const { return primitive.size(); }
-  /// Paths with an impact.
+  std::uint32_t firstImpact(std::size_t path) const { return range[path].impact; }
+  std::uint32_t endImpact(std::size_t path) const { return range[path].impact + range[path].impacts; }
+  std::span<const Vec3f> verticesOf(std::size_t path) const {
+    return std::span(vertices).subspan(range[path].vertex, range[path].vertices);
+  }
+  /// Size of the arrays of impacts, with gaps.
+  std::size_t impactSlots() const { return primitive.size(); }
+  std::uint64_t impacts() const;
+  /// Paths that reached a receiver of their link; that landed somewhere; that the depth limit ended.
+  std::uint64_t arrived() const;
   std::uint64_t landed() const;
+  std::uint64_t cut() const;
+  /// Flux that one unit of a path's throughput stands for, by its nominal sender.
+  double weight(std::size_t path) const { return double(links[link[path]].scale) * nominal[sender[path]]; }
+  ParticleLedger ledger() const;
   std::size_t memoryBytes() const;
+  /// Closes the gaps.
+  void compact();
   /// Of everything that says where particles go and what they carry; equal for equal particles.
   std::uint64_t hash() const;
 };
@@ -81,7 +109,8 @@ struct ParticleSettings {
   int maxDepth = 64;  // non-diffuse events
 };
 
-/// Traces the particles of a scene. Throws nothing of its own.
+/// Traces the particles of a scene. Throws nothing of its own. A scene with edits is judged at rest, with a tracer of
+/// its own.
 Particles traceParticles(const Scene&, const RayTracer&, const ParticleSettings&);
 
 }  // namespace deltalux

@@ -26,7 +26,7 @@ void addReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles
   for (std::size_t path = 0; path < particles.paths(); ++path) {
     const double power =
         double(particles.links[particles.link[path]].scale) * particles.nominal[particles.sender[path]];
-    for (std::uint32_t i = particles.impactBegin[path]; i < particles.impactBegin[path + 1]; ++i)
+    for (std::uint32_t i = particles.firstImpact(path); i < particles.endImpact(path); ++i)
       flux[{particles.primitive[i], particles.triangleAndSide[i]}] += power * RgbSum(particles.throughput[i]);
   }
   const auto before = [](const SurfaceSide& a, const SurfaceSide& b) { return orderOf(a) < orderOf(b); };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/edit/plan.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -54,6 +56,14 @@ Rectangle frameOf(const Mesh& m, std::uint32_t triangle) {
   return {origin, a, up / height, length, height};
 }
 
+/// The rectangle around a flat surface; none for curved ones.
+std::optional<Rectangle> frameOf(const Shape& shape, std::uint32_t triangle) {
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) return frameOf(*polygon);
+  if (const auto* ring = std::get_if<Ring>(&shape)) return frameOf(*ring);
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) return frameOf(*mesh, triangle);
+  return std::nullopt;
+}
+
 }  // namespace
 
 float specularAlbedo(const Material& material) {
@@ -69,17 +79,21 @@ float specularAlbedo(const Material& material) {
 
 Receivers::Receivers(const Scene& scene) : scene_(scene), surfaceOf_(scene.primitives.size(), RadixNode::kNone) {
   double total = 0;
-  for (const Primitive& p : scene.primitives) total += deltalux::area(p.shape);
+  for (std::size_t i = 0; i < scene.primitives.size(); ++i)
+    total += deltalux::area(edits::restShape(scene, PrimitiveId(i)));
   const double limit = coarse(total) / kCellsOfScene;
   const std::vector<std::uint32_t> top = topObjects(scene);
   std::vector<std::pair<Code, Cell>> cells;
+  std::vector<double> areas;  // at rest, by surface
   for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
-    const Primitive& p = scene.primitives[i];
-    if (!isSpecular(scene[p.material]) || !(deltalux::area(p.shape) > 0)) continue;
+    const Shape& rest = edits::restShape(scene, PrimitiveId(i));
+    if (!isSpecular(scene.materialOf(PrimitiveId(i))) || !(deltalux::area(rest) > 0)) continue;
     surfaceOf_[i] = static_cast<std::uint32_t>(surfaces_.size());
-    const auto* mesh = std::get_if<Mesh>(&p.shape);
-    for (std::uint32_t t = 0; t < (mesh ? mesh->triangles.size() : 1); ++t)
-      addSurface(p, PrimitiveId(i), t, top[i], limit, cells);
+    const auto* mesh = std::get_if<Mesh>(&rest);
+    for (std::uint32_t t = 0; t < (mesh ? mesh->triangles.size() : 1); ++t) {
+      areas.push_back(addSurface(rest, PrimitiveId(i), t, top[i], limit, cells));
+      place(surfaces_.back());
+    }
   }
   if (cells.empty()) return;
   std::sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -91,52 +105,93 @@ Receivers::Receivers(const Scene& scene) : scene_(scene), surfaceOf_(scene.primi
       surfaces_[cell.surface].firstCell = static_cast<std::uint32_t>(i);
     codes.push_back(cells[i].first);
     cells_.push_back(cell);
-    cumulative_.push_back(cumulative_.back() + deltalux::weightOf(cell.area, surfaces_[cell.surface].albedo));
+    const double area = areas[cell.surface] * cell.rect.measure();
+    cumulative_.push_back(cumulative_.back() + deltalux::weightOf(area, surfaces_[cell.surface].albedo));
   }
   appendRadixTree(nodes_, codes, 0, kSeed);
   bounds_.resize(nodes_.size());
-  std::vector<Box> boxes(nodes_.size());
-  for (std::size_t n = nodes_.size(); n-- > 0;) {
-    const RadixNode& node = nodes_[n];
-    if (node.isLeaf()) {
-      bounds_[n] = boundOf(cells_[node.begin]);
-      boxes[n] = {bounds_[n].center - bounds_[n].radius, bounds_[n].center + bounds_[n].radius};
-      continue;
-    }
-    const BoundingSphere &a = bounds_[node.child[0]], &b = bounds_[node.child[1]];
-    boxes[n] = boxes[node.child[0]];
-    boxes[n].extend(boxes[node.child[1]]);
-    const Vec3 c = boxes[n].center();
-    bounds_[n] = {c, std::max(glm::distance(a.center, c) + a.radius, glm::distance(b.center, c) + b.radius)};
-  }
+  boxes_.resize(nodes_.size());
+  leaf_.resize(cells_.size());
+  for (std::size_t n = 0; n < nodes_.size(); ++n)
+    if (nodes_[n].isLeaf()) leaf_[nodes_[n].begin] = static_cast<std::uint32_t>(n);
+  for (std::uint32_t c = 0; c < cells_.size(); ++c) boundLeaf(c);
+  boundNodes();
 }
 
-void Receivers::addSurface(const Primitive& p, PrimitiveId id, std::uint32_t triangle, std::uint32_t object,
-                           double limit, std::vector<std::pair<Code, Cell>>& cells) {
+double Receivers::addSurface(const Shape& rest, PrimitiveId id, std::uint32_t triangle, std::uint32_t object,
+                             double limit, std::vector<std::pair<Code, Cell>>& cells) {
   Surface s;
   s.primitive = id, s.triangle = triangle;
-  s.albedo = specularAlbedo(scene_[p.material]);
-  s.flat = true;
-  if (const auto* polygon = std::get_if<Polygon>(&p.shape)) {
-    s.frame = frameOf(*polygon);
-    s.fills = s.frame.area() < (1 + 1e-9) * polygon->area;
-  } else if (const auto* ring = std::get_if<Ring>(&p.shape)) {
-    s.frame = frameOf(*ring);
-  } else if (const auto* mesh = std::get_if<Mesh>(&p.shape)) {
-    s.frame = frameOf(*mesh, triangle);
-  } else {
-    s.flat = false;
-  }
-  const double whole = s.flat ? s.frame.area() : deltalux::area(p.shape);
-  s.size = s.flat ? Vec2(s.frame.lengthA, s.frame.lengthB) : sampleSize(p.shape);
+  s.albedo = specularAlbedo(scene_.materialOf(id));
+  const std::optional<Rectangle> frame = frameOf(rest, triangle);
+  s.flat = frame.has_value();
+  const double whole = s.flat ? frame->area() : deltalux::area(rest);
+  s.size = s.flat ? Vec2(frame->lengthA, frame->lengthB) : sampleSize(rest);
   s.halvings = halvings(whole, limit);
   s.firstCell = RadixNode::kNone;
   const auto surface = static_cast<std::uint32_t>(surfaces_.size());
   surfaces_.push_back(s);
-  if (!(whole > 0) || !std::isfinite(whole)) return;
-  for (const UnitCell& c : cellsOf(s.size, s.halvings)) {
-    Cell cell{surface, c.rect, whole * c.rect.measure(), s.flat};
-    cells.push_back({Code{object, id.value, triangle, c.code}, cell});
+  if (!(whole > 0) || !std::isfinite(whole)) return 0;
+  for (const UnitCell& c : cellsOf(s.size, s.halvings))
+    cells.push_back({Code{object, id.value, triangle, c.code}, Cell{surface, c.rect, s.flat}});
+  return whole;
+}
+
+void Receivers::place(Surface& s) const {
+  const Shape& shape = scene_[s.primitive].shape;
+  s.whole = deltalux::area(shape);
+  if (!(s.whole > 0) || !s.flat) return;
+  s.frame = *frameOf(shape, s.triangle);
+  const auto* polygon = std::get_if<Polygon>(&shape);
+  s.fills = polygon && s.frame.area() < (1 + 1e-9) * polygon->area;
+  s.whole = s.frame.area();
+}
+
+std::vector<Receivers::Motion> Receivers::follow(std::span<const PrimitiveId> moved) {
+  std::vector<Motion> motion(nodes_.size(), Motion::None);
+  for (const PrimitiveId p : moved) {
+    std::uint32_t s = surfaceOf_[p.index()];
+    for (; s != RadixNode::kNone && s < surfaces_.size() && surfaces_[s].primitive == p; ++s) {
+      place(surfaces_[s]);
+      const std::uint32_t first = surfaces_[s].firstCell;
+      for (std::uint32_t c = first; c < cells_.size() && cells_[c].surface == s; ++c) {
+        boundLeaf(c);
+        motion[leaf_[c]] = Motion::Bound;
+      }
+    }
+  }
+  const std::vector<BoundingSphere> before = bounds_;
+  boundNodes();
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
+    if (nodes_[n].isLeaf()) continue;
+    for (const std::uint32_t child : nodes_[n].child)
+      if (motion[child] != Motion::None) motion[n] = Motion::Below;
+    if (!(bounds_[n] == before[n])) motion[n] = Motion::Bound;
+  }
+  return motion;
+}
+
+void Receivers::boundLeaf(std::uint32_t cell) {
+  const BoundingSphere b = boundOf(cells_[cell]);
+  bounds_[leaf_[cell]] = b;
+  boxes_[leaf_[cell]] = b.empty() ? Box{} : Box{b.center - b.radius, b.center + b.radius};
+}
+
+void Receivers::boundNodes() {
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
+    const RadixNode& node = nodes_[n];
+    if (node.isLeaf()) continue;
+    boxes_[n] = {};
+    bounds_[n] = {Vec3(0), -1};
+    for (const std::uint32_t child : node.child)
+      if (!bounds_[child].empty()) boxes_[n].extend(boxes_[child]);
+    if (boxes_[n].empty()) continue;
+    const Vec3 center = boxes_[n].center();
+    bounds_[n].center = center;
+    for (const std::uint32_t child : node.child) {
+      const BoundingSphere& b = bounds_[child];
+      if (!b.empty()) bounds_[n].radius = std::max(bounds_[n].radius, glm::distance(b.center, center) + b.radius);
+    }
   }
 }
 
@@ -209,6 +264,7 @@ std::uint32_t Receivers::cellOf(const Hit& hit) const {
 
 BoundingSphere Receivers::boundOf(const Cell& c) const {
   const Surface& s = surfaces_[c.surface];
+  if (!(s.whole > 0)) return {Vec3(0), -1};
   if (s.flat) {
     const Vec3 low = s.frame.at({c.rect.u0, c.rect.v0}), high = s.frame.at({c.rect.u1, c.rect.v1});
     return {0.5 * (low + high), 0.5 * glm::distance(low, high)};
@@ -234,7 +290,8 @@ BoundingSphere Receivers::boundOf(const Cell& c) const {
 std::size_t Receivers::memoryBytes() const {
   return surfaces_.capacity() * sizeof(Surface) + cells_.capacity() * sizeof(Cell) +
          nodes_.capacity() * sizeof(RadixNode) + bounds_.capacity() * sizeof(BoundingSphere) +
-         cumulative_.capacity() * 8 + surfaceOf_.capacity() * 4;
+         boxes_.capacity() * sizeof(Box) + leaf_.capacity() * 4 + cumulative_.capacity() * 8 +
+         surfaceOf_.capacity() * 4;
 }
 
 }  // namespace deltalux

@@ -3,7 +3,8 @@
 // cells, in a tree of their own. Both sides of a surface are one receiver.
 //
 // Flat surfaces have cells of their plane's rectangle (what of it the surface leaves empty is simply never met), curved
-// ones of their parameters. Cells and nodes of the tree are bounded by spheres.
+// ones of their parameters. Cells and nodes of the tree are bounded by spheres. What cells there are, and how they are
+// drawn, depends on the shapes as they were read; where they are, on where edits have put them.
 #include "particles/radix_tree.hpp"
 #include "particles/solid_angle_rectangle.hpp"
 #include "particles/surface_cells.hpp"
@@ -13,7 +14,10 @@ namespace deltalux {
 
 struct BoundingSphere {
   Vec3 center{0};
-  double radius = 0;
+  double radius = 0;  // negative: of nothing
+
+  bool empty() const { return radius < 0; }
+  bool operator==(const BoundingSphere&) const = default;
 };
 
 /// A point of a receiver with its unit front normal.
@@ -24,6 +28,9 @@ struct ReceiverPoint {
 class Receivers {
  public:
   explicit Receivers(const Scene&);
+  enum class Motion : std::uint8_t { None, Below, Bound };
+  /// Takes in where these primitives are now. Returns by node: something below it moved, and whether its bound did.
+  std::vector<Motion> follow(std::span<const PrimitiveId>);
 
   bool empty() const { return cells_.empty(); }
   std::size_t size() const { return cells_.size(); }
@@ -35,8 +42,8 @@ class Receivers {
   std::uint32_t triangle(std::uint32_t cell) const { return surfaces_[cells_[cell].surface].triangle; }
   /// Greatest specular reflectance or transmittance of the surface.
   float albedo(std::uint32_t cell) const { return surfaces_[cells_[cell].surface].albedo; }
-  /// Area of the cell: of a flat one with what the surface leaves empty of it.
-  double area(std::uint32_t cell) const { return cells_[cell].area; }
+  /// Area of the cell, 0 when the surface was removed: of a flat one with what the surface leaves empty of it.
+  double area(std::uint32_t cell) const { return surfaces_[cells_[cell].surface].whole * cells_[cell].rect.measure(); }
   /// Weight by which a cell is drawn, area times albedo.
   double weight(std::uint32_t cell) const { return cumulative_[cell + 1] - cumulative_[cell]; }
   double weightOf(const RadixNode& node) const { return cumulative_[node.end] - cumulative_[node.begin]; }
@@ -62,20 +69,24 @@ class Receivers {
     std::uint32_t firstCell = 0;
     int halvings = 0;
     float albedo = 0;
-    Vec2 size{0};
-    Rectangle frame;  // flat ones
+    Vec2 size{0};      // at rest
+    double whole = 0;  // area, of flat ones of their frame
+    Rectangle frame;   // flat ones
     bool flat = false, fills = false;
   };
   struct Cell {
     std::uint32_t surface = 0;
     UnitRect rect;
-    double area = 0;
     bool flat = false;
   };
 
-  void addSurface(const Primitive&, PrimitiveId, std::uint32_t triangle, std::uint32_t object, double limit,
-                  std::vector<std::pair<Code, Cell>>&);
+  /// Returns the area that cells are cut from.
+  double addSurface(const Shape& rest, PrimitiveId, std::uint32_t triangle, std::uint32_t object, double limit,
+                    std::vector<std::pair<Code, Cell>>&);
+  void place(Surface&) const;
   bool onSurface(const Surface&, const Vec3&) const;
+  void boundLeaf(std::uint32_t cell);
+  void boundNodes();
   BoundingSphere boundOf(const Cell&) const;
 
   const Scene& scene_;
@@ -83,6 +94,8 @@ class Receivers {
   std::vector<Cell> cells_;
   std::vector<RadixNode> nodes_;
   std::vector<BoundingSphere> bounds_;    // by node
+  std::vector<Box> boxes_;                // by node
+  std::vector<std::uint32_t> leaf_;       // by cell: its node
   std::vector<double> cumulative_;        // of weights, one more
   std::vector<std::uint32_t> surfaceOf_;  // by primitive: first surface, or none
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/random.hpp"
+#include "scene/edit/plan.hpp"
 
 namespace deltalux {
 
@@ -29,11 +30,40 @@ double rounded(double x) {
 
 Senders::Senders(const Scene& scene, const LightSampler& lights) : scene_(scene), lights_(lights) {
   double total = 0;
-  for (const Primitive& p : scene.primitives) total += area(p.shape);
+  for (std::size_t i = 0; i < scene.primitives.size(); ++i) total += area(edits::restShape(scene, PrimitiveId(i)));
   for (std::size_t i = 0; i < scene.lights.size(); ++i) addLight(LightId(i), coarse(total) / kLampsOfScene);
   lightTrees_ = roots_.size();
   surfaceCells_ = static_cast<std::uint32_t>(cells_.size());
   addSurfaces(coarse(total) / kCellsOfScene);
+  bounds_.resize(nodes_.size());
+  normals_.resize(nodes_.size());
+  leaf_.resize(cells_.size());
+  for (std::size_t n = 0; n < nodes_.size(); ++n)
+    if (nodes_[n].isLeaf()) leaf_[nodes_[n].begin] = static_cast<std::uint32_t>(n);
+  for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+    restMeasure_.push_back(cells_[c].measure);
+    place(c);
+  }
+  boundNodes();
+}
+
+void Senders::place(std::uint32_t cell) {
+  SenderCell& c = cells_[cell];
+  if (c.kind == SenderKind::Side || c.kind == SenderKind::Lamp)
+    c.measure = static_cast<float>(area(scene_[c.primitive].shape) * c.rect.measure());
+  boundLeaf(cell);
+}
+
+std::vector<char> Senders::follow(std::span<const PrimitiveId> moved) {
+  std::vector<char> moves(scene_.primitives.size(), 0), cells(cells_.size(), 0);
+  for (const PrimitiveId p : moved) moves[p.index()] = 1;
+  for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+    if (!cells_[c].primitive.valid() || !moves[cells_[c].primitive.index()]) continue;
+    place(c);
+    cells[c] = 1;
+  }
+  boundNodes();
+  return cells;
 }
 
 void Senders::addLight(LightId id, double limit) {
@@ -43,7 +73,7 @@ void Senders::addLight(LightId id, double limit) {
   c.light = id;
   if (const auto* areaLight = std::get_if<AreaLight>(&emitter)) {
     const Material& material = scene_.materialOf(areaLight->primitive);
-    const Shape& shape = scene_[areaLight->primitive].shape;
+    const Shape& shape = edits::restShape(scene_, areaLight->primitive);
     const double whole = area(shape);
     if (!material.emission || !(whole > 0)) return;
     c.kind = SenderKind::Lamp;
@@ -84,16 +114,16 @@ void Senders::addSurfaces(double limit) {
   firstCell_.assign(2 * scene_.primitives.size(), RadixNode::kNone);
   std::vector<std::pair<Code, SenderCell>> cells;
   for (std::size_t i = 0; i < scene_.primitives.size(); ++i) {
-    const Primitive& p = scene_.primitives[i];
-    const Material& material = scene_[p.material];
-    const double whole = area(p.shape);
+    const Shape& rest = edits::restShape(scene_, PrimitiveId(i));
+    const Material& material = scene_.materialOf(PrimitiveId(i));
+    const double whole = area(rest);
     if (!(whole > 0)) continue;
     for (const bool front : {true, false}) {
       if (!isDiffuse(material, front)) continue;
       SenderCell c;
       c.front = front, c.primitive = PrimitiveId(i);
       halvings_[i] = static_cast<std::uint8_t>(halvings(whole, limit));
-      for (const UnitCell& cell : cellsOf(sampleSize(p.shape), halvings_[i])) {
+      for (const UnitCell& cell : cellsOf(sampleSize(rest), halvings_[i])) {
         c.rect = cell.rect;
         c.measure = static_cast<float>(whole * cell.rect.measure());
         cells.push_back({Code{top[i], static_cast<std::uint32_t>(i), front ? 0u : 1u, cell.code}, c});
@@ -110,13 +140,12 @@ std::uint32_t Senders::cellOf(PrimitiveId p, std::uint32_t triangle, bool front,
   const std::uint32_t first = firstCell_[2 * p.index() + (front ? 0 : 1)];
   const int halves = halvings_[p.index()];
   if (first == RadixNode::kNone || halves == 0) return first;
-  const Shape& shape = scene_[p].shape;
+  const Shape& shape = edits::restShape(scene_, p);
   return first + cellAt(sampleSize(shape), halves, sampleNumbers(shape, triangle, uv));
 }
 
 void Senders::addTree(std::vector<std::pair<Code, SenderCell>> cells, std::uint64_t seed) {
   if (cells.empty()) return;
-  const std::size_t firstNode = nodes_.size();
   const auto firstLeaf = static_cast<std::uint32_t>(cells_.size());
   std::vector<Code> codes;
   for (auto& [code, cell] : cells) {
@@ -124,18 +153,12 @@ void Senders::addTree(std::vector<std::pair<Code, SenderCell>> cells, std::uint6
     cells_.push_back(std::move(cell));
   }
   roots_.push_back(appendRadixTree(nodes_, codes, firstLeaf, seed));
-  boundNodes(firstNode);
 }
 
-void Senders::boundNodes(std::size_t firstNode) {
-  bounds_.resize(nodes_.size());
-  normals_.resize(nodes_.size());
-  for (std::size_t n = nodes_.size(); n-- > firstNode;) {
+void Senders::boundNodes() {
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
     const RadixNode& node = nodes_[n];
-    if (node.isLeaf()) {
-      boundLeaf(n, cells_[node.begin]);
-      continue;
-    }
+    if (node.isLeaf()) continue;
     const std::uint32_t a = node.child[0], b = node.child[1];
     const bool sky = cells_[node.begin].kind == SenderKind::Sky;
     const BoundingSphere &s = bounds_[a], &t = bounds_[b];
@@ -150,25 +173,27 @@ void Senders::boundNodes(std::size_t firstNode) {
     }
     // The smallest sphere over two.
     const double d = glm::distance(s.center, t.center);
-    if (d + t.radius <= s.radius) {
+    if (t.empty() || d + t.radius <= s.radius) {
       bounds_[n] = s;
-    } else if (d + s.radius <= t.radius) {
+    } else if (s.empty() || d + s.radius <= t.radius) {
       bounds_[n] = t;
     } else {
       const double radius = 0.5 * (d + s.radius + t.radius);
       bounds_[n] = {s.center + (radius - s.radius) / d * (t.center - s.center), radius};
     }
     const Cone &p = normals_[a], &q = normals_[b];
+    normals_[n] = {};
     if (p.cosine > 1 - 1e-12 && q.cosine > 1 - 1e-12 && glm::dot(p.axis, q.axis) > 1 - 1e-12) normals_[n] = p;
   }
 }
 
-void Senders::boundLeaf(std::size_t n, const SenderCell& c) {
+void Senders::boundLeaf(std::uint32_t cell) {
+  const SenderCell& c = cells_[cell];
+  const std::uint32_t n = leaf_[cell];
   if (c.kind == SenderKind::Point) {
     bounds_[n] = {lights_.position(c.light), 0};
     return;
   }
-  const std::uint32_t cell = nodes_[n].begin;
   constexpr int kGrid = 4;
   if (c.kind == SenderKind::Sun || c.kind == SenderKind::Sky) {
     const Vec3 axis = direction(cell, {0.5, c.kind == SenderKind::Sun ? 0.0 : 0.5});
@@ -178,6 +203,11 @@ void Senders::boundLeaf(std::size_t n, const SenderCell& c) {
         angle = std::max(angle, std::acos(std::clamp(
                                     glm::dot(axis, direction(cell, {double(i) / kGrid, double(j) / kGrid})), -1., 1.)));
     bounds_[n] = {axis, angle};
+    return;
+  }
+  normals_[n] = {};
+  if (!(c.measure > 0)) {
+    bounds_[n] = {Vec3(0), -1};
     return;
   }
   const Shape& shape = scene_[c.primitive].shape;
@@ -195,7 +225,7 @@ void Senders::boundLeaf(std::size_t n, const SenderCell& c) {
 void Senders::weigh(std::span<const float> strength) {
   cumulative_.assign(1, 0.0);
   for (std::size_t i = 0; i < cells_.size(); ++i)
-    cumulative_.push_back(cumulative_.back() + rounded(double(cells_[i].measure) * strength[i]));
+    cumulative_.push_back(cumulative_.back() + rounded(double(restMeasure_[i]) * strength[i]));
 }
 
 std::uint32_t Senders::choose(const RadixNode& node, double u) const {
@@ -231,9 +261,9 @@ Vec3 Senders::direction(std::uint32_t cell, const Vec2& u) const {
 }
 
 std::size_t Senders::memoryBytes() const {
-  return cells_.capacity() * sizeof(SenderCell) + nodes_.capacity() * sizeof(RadixNode) +
-         bounds_.capacity() * sizeof(BoundingSphere) + normals_.capacity() * sizeof(Cone) + cumulative_.capacity() * 8 +
-         roots_.capacity() * 4;
+  return cells_.capacity() * sizeof(SenderCell) + (restMeasure_.capacity() + leaf_.capacity()) * 4 +
+         nodes_.capacity() * sizeof(RadixNode) + bounds_.capacity() * sizeof(BoundingSphere) +
+         normals_.capacity() * sizeof(Cone) + cumulative_.capacity() * 8 + roots_.capacity() * 4;
 }
 
 }  // namespace deltalux

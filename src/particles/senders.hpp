@@ -1,7 +1,7 @@
 #pragma once
 // What sends particles: lights, and the sides of diffuse surfaces, in cells, in a forest of radix trees: one tree for
-// each light and one for all surfaces. A sender's cells depend on its shape and size, not on where it stands nor on
-// what it emits.
+// each light and one for all surfaces. A sender's cells depend on its shape as it was read, not on where edits have put
+// it nor on what it emits.
 #include <span>
 
 #include "particles/radix_tree.hpp"
@@ -25,13 +25,15 @@ struct SenderCell {
   LightId light;          // all but Side
   PrimitiveId primitive;  // Side, Lamp
   UnitRect rect;          // Side, Lamp: of the numbers that sample the shape; Sky: of azimuth and height
-  float measure = 0;      // Side, Lamp: area; Sun, Sky: solid angle
+  float measure = 0;      // Side, Lamp: area, 0 when it was removed; Sun, Sky: solid angle
 };
 
 class Senders {
  public:
   /// Both must outlive this.
   Senders(const Scene&, const LightSampler&);
+  /// Takes in where these primitives are now. Returns by cell whether it moved.
+  std::vector<char> follow(std::span<const PrimitiveId>);
 
   const std::vector<SenderCell>& cells() const { return cells_; }
   const std::vector<RadixNode>& nodes() const { return nodes_; }
@@ -47,7 +49,7 @@ class Senders {
   };
   const Cone& normals(std::uint32_t node) const { return normals_[node]; }
   /// What cells send, as far as it is known before any solution, gray: exitance of surfaces, radiance of sky cells.
-  /// Cells are drawn by it times their measure.
+  /// Cells are drawn by it times their measure at rest.
   void weigh(std::span<const float> strength);
   /// A cell below the node, drawn by weight; `u` in [0,1).
   std::uint32_t choose(const RadixNode& node, double u) const;
@@ -71,12 +73,15 @@ class Senders {
   void addLight(LightId, double limit);
   void addSurfaces(double limit);
   void addTree(std::vector<std::pair<Code, SenderCell>>, std::uint64_t seed);
-  void boundNodes(std::size_t firstNode);
-  void boundLeaf(std::size_t node, const SenderCell&);
+  void place(std::uint32_t cell);
+  void boundNodes();
+  void boundLeaf(std::uint32_t cell);
 
   const Scene& scene_;
   const LightSampler& lights_;
   std::vector<SenderCell> cells_;
+  std::vector<float> restMeasure_;   // by cell
+  std::vector<std::uint32_t> leaf_;  // by cell: its node
   std::vector<RadixNode> nodes_;
   std::vector<BoundingSphere> bounds_;
   std::vector<Cone> normals_;

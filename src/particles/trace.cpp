@@ -5,7 +5,7 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
-#include "base/sobol.hpp"
+#include "base/random.hpp"
 #include "particles/bounce.hpp"
 
 namespace deltalux {
@@ -22,9 +22,15 @@ struct BlockResult {
   std::vector<std::uint32_t> triangleAndSide;
   std::vector<glm::vec2> uv;
   std::vector<Rgb> throughput;
-  std::vector<std::uint32_t> vertexCount, impactCount;  // per path
-  ParticleLedger ledger;
-  std::uint64_t rays = 0, arrived = 0, depthLimit = 0;
+  /// An account that is still open.
+  struct Account {
+    Rgb entered{0.0f}, passed{0.0f}, absorbed{0.0f}, left{0.0f};
+  };
+  // Per path.
+  std::vector<std::uint32_t> vertexCount, impactCount;
+  std::vector<Account> accounts;
+  std::vector<std::uint8_t> fate;
+  std::uint64_t rays = 0;
 
   void addVertex(std::uint32_t path, const Vec3f& p) { vertexOf.push_back(path), vertices.push_back(p); }
   void addImpact(std::uint32_t path, const Hit& hit, const glm::vec2& at, const Rgb& flux) {
@@ -56,16 +62,19 @@ std::vector<std::uint32_t> sortByPath(const std::vector<std::uint32_t>& of, std:
 class Tracing {
  public:
   Tracing(const Scene& scene, const RayTracer& tracer, const ParticleEmission& emission, Particles& particles,
-          int maxDepth)
+          int maxDepth, std::span<const std::uint32_t> only)
       : tracer_(tracer),
         emission_(emission),
         particles_(particles),
         surfaces_(scene),
         maxDepth_(maxDepth),
-        far_(static_cast<float>(4 * coarse(std::max(bounds(scene).diagonal(), 1e-6)))) {}
+        only_(only),
+        far_(static_cast<float>(farDistance(scene))) {}
 
   BlockResult trace(std::size_t begin, std::size_t end) const {
     BlockResult r;
+    r.accounts.resize(end - begin);
+    r.fate.resize(end - begin);
     std::vector<Walker> walkers = emit(begin, end, r);
     std::vector<Ray> rays;
     std::vector<Hit> hits;
@@ -97,8 +106,7 @@ class Tracing {
   struct Walker {
     std::uint32_t path = 0, index = 0;  // in the block; sample of its link
     std::uint64_t key = 0;
-    float weight = 0;  // nominal flux of unit gray throughput, for the ledger
-    float first = 0;   // brightest throughput behind the first event
+    float first = 0;  // brightest throughput behind the first event
     int depth = 0;
     Rgb throughput{0.0f};
     Vec3f direction{0.0f};
@@ -106,18 +114,21 @@ class Tracing {
     PrimitiveId medium;  // dielectric that the path is in
   };
 
+  std::size_t pathAt(std::size_t i) const { return only_.empty() ? i : only_[i]; }
+
   std::vector<Walker> emit(std::size_t begin, std::size_t end, BlockResult& r) const {
     const std::size_t count = end - begin;
     std::vector<FirstSegment> segments(count);
     std::vector<LinkEnds> ends(count);
     std::vector<Arrival> arrivals(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const ParticleLink& link = particles_.links[particles_.link[begin + i]];
-      const auto index = static_cast<std::uint32_t>(begin + i - link.firstPath);
+      const std::size_t path = pathAt(begin + i);
+      const ParticleLink& link = particles_.links[particles_.link[path]];
+      const auto index = static_cast<std::uint32_t>(path - link.firstPath);
       ends[i] = link.ends;
       segments[i] = emission_.sample(link.ends, emissionNumbers(link.key, index));
-      particles_.sender[begin + i] = segments[i].senderCell;
-      particles_.originTriangle[begin + i] = segments[i].originTriangle;
+      particles_.sender[path] = segments[i].senderCell;
+      particles_.originTriangle[path] = segments[i].originTriangle;
     }
     emission_.arrive(ends, segments, arrivals, r.rays);
     std::vector<Walker> walkers;
@@ -129,28 +140,29 @@ class Tracing {
       const Arrival& a = arrivals[i];
       r.addVertex(path, s.origin);
       if (!a.primitive.valid()) {
-        const bool aimed = s.kind == FirstSegment::Kind::Target;
-        r.addVertex(path, aimed ? Vec3f(s.target) : s.origin + far_ * s.direction);
+        if (s.kind == FirstSegment::Kind::Open) r.fate[path] = kFirstEnd;
+        r.addVertex(path, s.kind == FirstSegment::Kind::Target ? Vec3f(s.target)
+                          : std::isfinite(a.distance)          ? a.position
+                                                               : s.origin + far_ * s.direction);
         continue;
       }
       r.addVertex(path, a.position);
-      ++r.arrived;
-      walkers.push_back(begun(begin + i, path, s, a, r));
+      r.fate[path] = kArrived | kFirstEnd;
+      walkers.push_back(begun(pathAt(begin + i), path, a, r));
     }
     return walkers;
   }
 
-  Walker begun(std::size_t global, std::uint32_t path, const FirstSegment& s, const Arrival& a, BlockResult& r) const {
+  Walker begun(std::size_t global, std::uint32_t path, const Arrival& a, BlockResult& r) const {
     const ParticleLink& link = particles_.links[particles_.link[global]];
     Walker w;
     w.path = path;
     w.index = static_cast<std::uint32_t>(global - link.firstPath);
     w.key = link.key;
-    w.weight = link.scale * particles_.nominal[s.senderCell];
     w.throughput = a.flux;
     w.direction = a.direction;
     w.spot = {a.primitive, a.triangle, a.position, a.normal, a.front()};
-    r.ledger.arrived += w.weight * gray(w.throughput);
+    if (!surfaces_.takes(w.spot.primitive, w.spot.front)) r.accounts[path].entered = w.throughput;
     if (!w.spot.front && surfaces_.body(w.spot.primitive)) {
       w.medium = w.spot.primitive;
       if (std::isfinite(a.distance)) absorb(w, a.distance, r);
@@ -161,31 +173,28 @@ class Tracing {
   void absorb(Walker& w, float distance, BlockResult& r) const {
     const Rgb before = w.throughput;
     w.throughput *= glm::pow(surfaces_.body(w.medium)->transmission, Rgb(distance));
-    r.ledger.absorbed += w.weight * gray(before - w.throughput);
+    r.accounts[w.path].absorbed += before - w.throughput;
   }
 
   /// The next event at the walker's surface; false when the path ends there.
   bool bounce(Walker& w, Ray& ray, BlockResult& r) const {
-    const float before = gray(w.throughput);
+    const Rgb before = w.throughput;
     const EventNumbers u = eventNumbers(w.key, w.index, w.depth);
     const auto event = surfaces_.scatter(w.spot, w.direction, w.depth == 0, u);
-    if (!event) {
-      r.ledger.absorbed += w.weight * before;
-      return false;
-    }
-    w.throughput *= event->weight;
+    w.throughput = event ? before * event->weight : Rgb(0.0f);
+    book(w, before, r.accounts[w.path]);
+    if (!event) return false;
     w.direction = event->direction;
-    r.ledger.absorbed += w.weight * before * (1 - event->passed);
     if (event->refracted) w.medium = w.spot.front ? w.spot.primitive : PrimitiveId();
     if (w.depth == 0) {
       w.first = maxChannel(w.throughput);
-    } else if (!survives(w, u.roulette, r)) {
+    } else if (!survives(w, u.roulette)) {
       return false;
     }
     if (!(w.first > 0)) return false;
     if (++w.depth > maxDepth_) {
-      ++r.depthLimit;
-      r.ledger.ended += w.weight * gray(w.throughput);
+      r.fate[w.path] |= kCut;
+      r.accounts[w.path].left += w.throughput;
       return false;
     }
     ray.direction = w.direction;
@@ -193,19 +202,24 @@ class Tracing {
     return true;
   }
 
+  void book(const Walker& w, const Rgb& before, BlockResult::Account& account) const {
+    if (surfaces_.takes(w.spot.primitive, w.spot.front)) {
+      account.passed += w.throughput;
+    } else if (w.depth == 0 && surfaces_.isPane(w.spot.primitive)) {
+      account.entered = w.throughput;  // of a pane's light this path is what it reflects
+    } else {
+      account.absorbed += before - w.throughput;
+    }
+  }
+
   /// Russian roulette on what the path carries relative to what it began with; colours are kept. [algorithm 4]
-  bool survives(Walker& w, double u, BlockResult& r) const {
+  bool survives(Walker& w, double u) const {
     constexpr int kPatience = 8;
     constexpr double kMostSurvival = 0.9;  // so that light caught between perfect surfaces ends some day
     double chance = std::min(1.0, double(maxChannel(w.throughput)) / w.first);
     if (w.depth > kPatience) chance = std::min(chance, kMostSurvival);
-    const float before = gray(w.throughput);
-    if (!(u < chance)) {
-      r.ledger.roulette += w.weight * before;
-      return false;
-    }
+    if (!(u < chance)) return false;
     w.throughput *= static_cast<float>(1 / chance);
-    r.ledger.roulette += w.weight * (before - gray(w.throughput));
     return true;
   }
 
@@ -213,17 +227,16 @@ class Tracing {
   bool meet(Walker& w, const Hit& hit, BlockResult& r) const {
     if (!hit) {
       r.addVertex(w.path, w.spot.position + far_ * w.direction);
-      r.ledger.escaped += w.weight * gray(w.throughput);
+      r.accounts[w.path].left += w.throughput;
       return false;
     }
     if (w.medium.valid()) absorb(w, hit.t, r);
     r.addVertex(w.path, hit.position);
     w.spot = {hit.primitive, hit.triangle, hit.position, hit.normal, hit.front};
-    if (surfaces_.takes(hit.primitive, hit.front)) {
-      r.addImpact(w.path, hit, surfaces_.parameters(hit), w.throughput);
-    }
+    const bool takes = surfaces_.takes(hit.primitive, hit.front);
+    if (takes) r.addImpact(w.path, hit, surfaces_.parameters(hit), w.throughput);
     if (surfaces_.passesOn(hit.primitive, hit.front)) return true;
-    r.ledger.absorbed += w.weight * gray(w.throughput);
+    if (!takes) r.accounts[w.path].absorbed += w.throughput;
     return false;
   }
 
@@ -232,20 +245,25 @@ class Tracing {
   Particles& particles_;
   ParticleSurfaces surfaces_;
   int maxDepth_;
+  std::span<const std::uint32_t> only_;  // paths, or all of them
   float far_;
 };
 
-void join(std::vector<BlockResult>& blocks, Particles& p) {
-  std::vector<std::size_t> vertex{0}, impact{0};
+PathAccount closed(const BlockResult::Account& a, std::size_t path) {
+  const std::uint64_t chance = mix64(path);
+  const auto bits = [&](int i) { return static_cast<std::uint32_t>(chance >> 12 * i); };
+  return {{a.entered, bits(0)}, {a.passed, bits(1)}, {a.absorbed, bits(2)}, {a.left, bits(3)}};
+}
+
+/// Puts what blocks made behind what is there.
+void append(std::vector<BlockResult>& blocks, std::span<const std::uint32_t> only, Particles& p) {
+  std::vector<std::size_t> vertex{p.vertices.size()}, impact{p.impactSlots()};
   for (const BlockResult& b : blocks) {
     vertex.push_back(vertex.back() + b.vertices.size());
     impact.push_back(impact.back() + b.primitive.size());
-    p.ledger += b.ledger;
-    p.rays += b.rays, p.arrived += b.arrived, p.depthLimit += b.depthLimit;
+    p.rays += b.rays;
   }
   DELTALUX_CHECK(vertex.back() < 0x100000000ull, "fewer than 2^32 vertices of particles");
-  p.vertexBegin.resize(p.paths() + 1);
-  p.impactBegin.resize(p.paths() + 1);
   p.vertices.resize(vertex.back());
   p.primitive.resize(impact.back());
   p.triangleAndSide.resize(impact.back());
@@ -255,9 +273,12 @@ void join(std::vector<BlockResult>& blocks, Particles& p) {
     BlockResult& r = blocks[b];
     auto v = static_cast<std::uint32_t>(vertex[b]), i = static_cast<std::uint32_t>(impact[b]);
     for (std::size_t k = 0; k < r.vertexCount.size(); ++k) {
+      const std::size_t path = only.empty() ? b * kBlock + k : only[b * kBlock + k];
+      p.range[path] = {v, i, static_cast<std::uint16_t>(r.vertexCount[k]),
+                       static_cast<std::uint16_t>(r.impactCount[k])};
+      p.fate[path] = r.fate[k];
+      p.account[path] = closed(r.accounts[k], path);
       v += r.vertexCount[k], i += r.impactCount[k];
-      p.vertexBegin[b * kBlock + k + 1] = v;
-      p.impactBegin[b * kBlock + k + 1] = i;
     }
     const auto put = [](const auto& from, auto& to, std::size_t at) {
       std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(at));
@@ -271,15 +292,26 @@ void join(std::vector<BlockResult>& blocks, Particles& p) {
   });
 }
 
+void trace(const Scene& scene, const RayTracer& tracer, const ParticleEmission& emission, int maxDepth, Particles& p,
+           std::span<const std::uint32_t> only, std::size_t count) {
+  DELTALUX_CHECK(maxDepth < 0xffff, "at most 65534 events");
+  const Tracing tracing(scene, tracer, emission, p, maxDepth, only);
+  std::vector<BlockResult> blocks((count + kBlock - 1) / kBlock);
+  parallelBlocks(count, kBlock,
+                 [&](std::size_t begin, std::size_t end) { blocks[begin / kBlock] = tracing.trace(begin, end); });
+  append(blocks, only, p);
+}
+
 }  // namespace
 
 void tracePaths(const Scene& scene, const RayTracer& tracer, const ParticleEmission& emission, int maxDepth,
                 Particles& p) {
-  const Tracing tracing(scene, tracer, emission, p, maxDepth);
-  std::vector<BlockResult> blocks((p.paths() + kBlock - 1) / kBlock);
-  parallelBlocks(p.paths(), kBlock,
-                 [&](std::size_t begin, std::size_t end) { blocks[begin / kBlock] = tracing.trace(begin, end); });
-  join(blocks, p);
+  trace(scene, tracer, emission, maxDepth, p, {}, p.paths());
+}
+
+void retracePaths(const Scene& scene, const RayTracer& tracer, const ParticleEmission& emission, int maxDepth,
+                  Particles& p, std::span<const std::uint32_t> paths) {
+  if (!paths.empty()) trace(scene, tracer, emission, maxDepth, p, paths, paths.size());
 }
 
 }  // namespace deltalux

@@ -7,4 +7,8 @@ namespace deltalux {
 /// rays reach the tracer in batches. Cost: about as much as the rays alone.
 void tracePaths(const Scene&, const RayTracer&, const ParticleEmission&, int maxDepth, Particles&);
 
+/// Traces these paths (ascending) anew; what they were stays in the arrays as a gap.
+void retracePaths(const Scene&, const RayTracer&, const ParticleEmission&, int maxDepth, Particles&,
+                  std::span<const std::uint32_t> paths);
+
 }  // namespace deltalux

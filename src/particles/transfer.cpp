@@ -19,26 +19,25 @@ ParticleTransfer::ParticleTransfer(const Particles& p, const Elements& elements,
     : lights_(scene.lights.size()) {
   rowOf_.assign(elements.size(), kNone);
   begin_.push_back(0);
-  if (p.impacts() == 0) return;
+  if (p.impactSlots() == 0) return;
   const SideLocator locator(elements, scene);
-  std::vector<Landing> landings(p.impacts());
-  std::vector<float> weights(p.impacts(), 0.0f);
+  std::vector<Landing> landings(p.impactSlots());
+  std::vector<float> weights(p.impactSlots(), 0.0f);
   constexpr std::size_t kBlock = 1024;
   std::vector<double> lost((p.paths() + kBlock - 1) / kBlock, 0.0);
   parallelFor(p.paths(), kBlock, [&](std::size_t path) {
-    if (p.impactBegin[path] == p.impactBegin[path + 1]) return;
+    if (p.range[path].impacts == 0) return;
     const SenderCell& cell = p.senderCells[p.sender[path]];
     const float scale = p.links[p.link[path]].scale;
     std::uint32_t sender = kNone;
     if (cell.kind == SenderKind::Side) {
       const ElementId side = locator.side(cell.primitive, p.originTriangle[path], cell.front);
       if (side.valid())
-        sender = static_cast<std::uint32_t>(lights_) +
-                 locator.locate(side, Vec3(p.vertices[p.vertexBegin[path]])).leaf.value;
+        sender = static_cast<std::uint32_t>(lights_) + locator.locate(side, Vec3(p.verticesOf(path)[0])).leaf.value;
     } else {
       sender = cell.light.value;
     }
-    for (std::uint32_t i = p.impactBegin[path]; i < p.impactBegin[path + 1]; ++i) {
+    for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
       const ElementId side = locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
       const float weight = scale * p.nominal[p.sender[path]] * gray(p.throughput[i]);
       if (!side.valid()) {
@@ -178,22 +177,23 @@ std::size_t ParticleTransfer::memoryBytes() const {
 
 std::vector<Impact> impacts(const Particles& p, const Elements& elements, const Scene& scene) {
   const SideLocator locator(elements, scene);
-  std::vector<Impact> result(p.impacts());
+  std::vector<std::uint32_t> first(p.paths() + 1, 0);
+  for (std::size_t path = 0; path < p.paths(); ++path) first[path + 1] = first[path] + p.range[path].impacts;
+  std::vector<Impact> result(first.back());
   parallelFor(p.paths(), 1024, [&](std::size_t path) {
-    if (p.impactBegin[path] == p.impactBegin[path + 1]) return;
+    if (p.range[path].impacts == 0) return;
     const SenderCell& cell = p.senderCells[p.sender[path]];
     Rgb power(0.0f);
     if (cell.kind == SenderKind::Side) {
       const ElementId side = locator.side(cell.primitive, p.originTriangle[path], cell.front);
-      if (side.valid())
-        power = elements.radiometry[locator.locate(side, Vec3(p.vertices[p.vertexBegin[path]])).leaf.index()].B;
+      if (side.valid()) power = elements.radiometry[locator.locate(side, Vec3(p.verticesOf(path)[0])).leaf.index()].B;
     } else {
       power = scene[cell.light].scale;
     }
     power *= p.links[p.link[path]].scale;
-    for (std::uint32_t i = p.impactBegin[path]; i < p.impactBegin[path + 1]; ++i)
-      result[i] = {p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0, p.uv[i],
-                   power * p.throughput[i]};
+    for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i)
+      result[first[path] + i - p.firstImpact(path)] = {
+          p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0, p.uv[i], power * p.throughput[i]};
   });
   return result;
 }

@@ -32,10 +32,10 @@ void members(auto& archive, Is<Links> auto& l) {
 }
 
 void members(auto& archive, Is<Particles> auto& p) {
-  auto& [senderCells, nominal, links, link, sender, originTriangle, vertexBegin, impactBegin, vertices, primitive,
-         triangleAndSide, uv, throughput, ledger, quantum, rays, looks, arrived, depthLimit] = p;
-  transferAll(archive, senderCells, nominal, links, link, sender, originTriangle, vertexBegin, impactBegin, vertices,
-              primitive, triangleAndSide, uv, throughput, ledger, quantum, rays, looks, arrived, depthLimit);
+  auto& [senderCells, nominal, links, link, sender, originTriangle, range, account, fate, vertices, primitive,
+         triangleAndSide, uv, throughput, quantum, rays, looks] = p;
+  transferAll(archive, senderCells, nominal, links, link, sender, originTriangle, range, account, fate, vertices,
+              primitive, triangleAndSide, uv, throughput, quantum, rays, looks);
 }
 
 struct StoredTransfers {

@@ -1,7 +1,8 @@
 #include <algorithm>
 
+#include "base/check.hpp"
 #include "particles/count_paths.hpp"
-#include "particles/particles.hpp"
+#include "particles/plan_particles.hpp"
 #include "particles/trace.hpp"
 
 namespace deltalux {
@@ -21,7 +22,7 @@ std::vector<double> landedFlux(const Particles& p, const Senders& senders) {
   std::vector<double> flux(senders.cells().size(), 0.0);
   for (std::size_t path = 0; path < p.paths(); ++path) {
     const double power = double(p.links[p.link[path]].scale) * p.nominal[p.sender[path]];
-    for (std::uint32_t i = p.impactBegin[path]; i < p.impactBegin[path + 1]; ++i) {
+    for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
       const std::uint32_t side = p.triangleAndSide[i];
       const std::uint32_t cell = senders.cellOf(p.primitive[i], side >> 1, (side & 1) == 0, Vec2(p.uv[i]));
       if (cell != RadixNode::kNone) flux[cell] += power * gray(p.throughput[i]);
@@ -36,9 +37,8 @@ void append(DsLinks& links, const DsLinks& more) {
   links.flux += more.flux, links.rays += more.rays, links.judged += more.judged;
 }
 
-}  // namespace
-
-Particles traceParticles(const Scene& scene, const RayTracer& tracer, const ParticleSettings& settings) {
+/// Everything but the paths themselves: who sends, the links, and how many paths each gets.
+Particles plan(const Scene& scene, const RayTracer& tracer, const ParticleSettings& settings) {
   Particles p;
   const Receivers receivers(scene);
   if (receivers.empty() || settings.count == 0) return p;
@@ -66,9 +66,22 @@ Particles traceParticles(const Scene& scene, const RayTracer& tracer, const Part
 
   nameSenders(senders, exitance, p);
   countPaths(links, static_cast<double>(settings.count), p);
-  tracePaths(scene, tracer, emission, settings.maxDepth, p);
   p.looks = exitance.rays + links.rays + pilots.rays;
   return p;
+}
+
+bool moved(const Scene& scene) {
+  return std::any_of(scene.placements.begin(), scene.placements.end(),
+                     [](const Placement& p) { return !p.present || p.matrix != Mat4(1.0); });
+}
+
+}  // namespace
+
+Particles planParticles(const Scene& scene, const RayTracer& tracer, const ParticleSettings& settings) {
+  if (!moved(scene)) return plan(scene, tracer, settings);
+  Scene rest = scene;
+  for (const Placement& p : scene.placements) rest.primitives[p.primitive.index()].shape = p.rest;
+  return plan(rest, *makeEmbreeTracer(rest), settings);
 }
 
 }  // namespace deltalux

@@ -1,0 +1,76 @@
+#pragma once
+// Tracing the particles of a scene, and following its edits: a motion retraces the paths that it can touch and no
+// others, and leaves the very particles that tracing everything anew would. [GD01 4]
+//
+// A path is touched when one of its segments meets the box of a thing that moved, where that was or where it is now;
+// when it starts on the thing; and when its link's receivers have another bound, by which first directions are drawn.
+// (Departure: the paper keeps an octree whose cells know their links, and emits whole links anew. Here every segment of
+// every path is held against the boxes: some nanoseconds each, no memory, and no path is retraced for its link's sake.)
+// Dimmed lights and new diffuse colours change no path; other lights, other speculars and new things change all.
+// Cost: two nanoseconds a segment, and the rays of what is touched.
+#include <deltalux/edit.hpp>
+#include <memory>
+
+#include "particles/particles.hpp"
+
+namespace deltalux {
+
+/// A path that was traced anew, and what it was: its range still holds that, until particles are made compact.
+struct RetracedPath {
+  std::uint32_t path = 0;
+  std::uint32_t sender = 0, originTriangle = 0;
+  PathRange range;
+};
+
+struct ParticleUpdate {
+  bool all = false;  // everything was traced anew: `paths` is empty, and links, senders and ranges are others
+  std::vector<RetracedPath> paths;  // ascending
+  std::uint64_t particles = 0;      // of them, those that arrive or did before
+  std::uint64_t rays = 0;
+};
+
+class ParticleTracing {
+ public:
+  /// Both must outlive this.
+  ParticleTracing(const Scene&, const RayTracer&, const ParticleSettings&);
+
+  Particles trace();
+
+  /// Brings `particles`, which were right before, up to an edit that scene and tracer have taken in.
+  ParticleUpdate follow(Particles&, const SceneChange&);
+
+  /// Paths that a motion can touch, ascending; takes in where things are now.
+  std::vector<std::uint32_t> touchedPaths(const Particles&, std::span<const SceneChange::Moved>);
+
+ private:
+  /// What first segments are drawn from.
+  struct Ends {
+    LightSampler lights;
+    Senders senders;
+    Receivers receivers;
+    ParticleEmission emission;
+
+    Ends(const Scene&, const RayTracer&);
+  };
+  /// What particles depend on besides shapes.
+  struct Look {
+    std::vector<Material> materials;
+    std::vector<Light> lights;
+    std::size_t primitives = 0;
+    double far = 0;
+
+    explicit Look(const Scene&);
+  };
+
+  void weigh(const Particles&);
+  bool looksAsBefore(const SceneChange&) const;
+
+  const Scene& scene_;
+  const RayTracer& tracer_;
+  ParticleSettings settings_;
+  std::unique_ptr<Ends> ends_;
+  Look look_;
+  bool weighed_ = false;
+};
+
+}  // namespace deltalux

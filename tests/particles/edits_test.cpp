@@ -1,0 +1,166 @@
+// After an edit the particles that are left and those traced anew are the very set that a scene with that edit has.
+#include <gtest/gtest.h>
+
+#include <deltalux/io.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/random.hpp"
+#include "particles/particle_tracing.hpp"
+#include "particles/segment_box.hpp"
+#include "support/rooms.hpp"
+
+namespace deltalux {
+namespace {
+
+constexpr std::uint64_t kCount = 30000;
+
+Scene cornell() {
+  Scene scene = loadScene({DELTALUX_SOURCE_DIR "/scenes/cornell-caustic/cornell-caustic.rad"}).scene;
+  addAreaLights(scene);
+  return scene;
+}
+
+struct World {
+  Scene scene = cornell();
+  std::unique_ptr<RayTracer> tracer = makeEmbreeTracer(scene);
+  ParticleSettings settings = {kCount, 1, 64};
+  ParticleTracing tracing{scene, *tracer, settings};
+  Particles particles = tracing.trace();
+
+  ParticleUpdate apply(const Edit& edit) {
+    const AppliedEdit applied = applyEdit(scene, edit);
+    tracer->rebuild(GroupId(0));
+    return tracing.follow(particles, applied.change);
+  }
+  Particles fresh() const { return traceParticles(scene, *makeEmbreeTracer(scene), settings); }
+};
+
+Mat4 translation(const Vec3& v) { return glm::translate(Mat4(1.0), v); }
+Mat4 turn(double angle, const Vec3& about) {
+  return translation(about) * glm::rotate(Mat4(1.0), angle, Vec3(0, 1, 0)) * translation(-about);
+}
+
+void expectFresh(World& w) {
+  EXPECT_NO_THROW(validate(w.particles, w.scene));
+  const std::uint64_t hash = w.fresh().hash();
+  EXPECT_EQ(w.particles.hash(), hash);
+  w.particles.compact();
+  EXPECT_NO_THROW(validate(w.particles, w.scene));
+  EXPECT_EQ(w.particles.hash(), hash);
+}
+
+/// What is traced anew after an edit, as a share of all.
+double expectFollowed(World& w, const Edit& edit) {
+  const std::uint64_t before = w.particles.hash();
+  const ParticleUpdate u = w.apply(edit);
+  EXPECT_FALSE(u.all);
+  EXPECT_NE(w.particles.hash(), before);
+  expectFresh(w);
+  return double(u.paths.size()) / double(w.particles.paths());
+}
+
+// In so small a room everything stands in the way of much; but never of all.
+TEST(ParticleEdits, DiffuseBoxMoves) {
+  World w;
+  EXPECT_LT(expectFollowed(w, TransformObject{"short_block", translation({0.02, 0, 0.03})}), 0.3);
+}
+TEST(ParticleEdits, MirrorMoves) {
+  World w;
+  EXPECT_LT(expectFollowed(w, TransformObject{"tall_block", turn(0.1, {0.37, 0, 0.35})}), 0.8);
+}
+TEST(ParticleEdits, GlassBallMoves) {
+  World w;
+  EXPECT_LT(expectFollowed(w, TransformObject{"ball", translation({0.1, 0, 0.1})}), 0.35);
+}
+TEST(ParticleEdits, LampMovesWithItsLight) {
+  World w;
+  expectFollowed(w, TransformObject{"lamp", translation({0.05, 0, 0})});
+}
+TEST(ParticleEdits, ThingsGrow) {
+  World w;
+  expectFollowed(w, TransformObject{"ball", glm::scale(Mat4(1.0), Vec3(0.9))});
+}
+
+TEST(ParticleEdits, ThereAndBackIsNothing) {
+  World w;
+  const std::uint64_t hash = w.particles.hash();
+  const std::vector<Edit> edits = {TransformObject{"ball", translation({0.1, 0.05, 0})},
+                                   TransformObject{"tall_block", turn(0.3, {0.37, 0, 0.35})}, RemoveObject{"ball"}};
+  EditHistory history;
+  const auto follow = [&](const AppliedEdit& applied) {
+    w.tracer->rebuild(GroupId(0));
+    w.tracing.follow(w.particles, applied.change);
+  };
+  for (const Edit& e : edits) {
+    follow(history.apply(w.scene, e));
+    expectFresh(w);
+  }
+  while (history.canUndo()) follow(history.undo(w.scene));
+  EXPECT_EQ(w.particles.hash(), hash);
+}
+
+TEST(ParticleEdits, DimmedLampsAndNewWallsTouchNothing) {
+  World w;
+  const std::uint64_t hash = w.particles.hash();
+  for (const Edit& e : {Edit(ScaleLight{"lamp", 0.2f}), Edit(ColourLight{"lamp", Rgb(1.0f, 0.5f, 0.2f)}),
+                        Edit(SwitchLight{"lamp", false}), Edit(SetMaterial{"white", Rgb(0.3f), std::nullopt})}) {
+    const ParticleUpdate u = w.apply(e);
+    EXPECT_FALSE(u.all);
+    EXPECT_EQ(u.paths.size(), 0u);
+    EXPECT_EQ(u.rays, 0u);
+    EXPECT_EQ(w.particles.hash(), hash);
+  }
+  expectFresh(w);
+}
+
+TEST(ParticleEdits, OtherMirrorsTraceAllAnew) {
+  World w;
+  EXPECT_TRUE(w.apply(SetMaterial{"tall_block_surface", Rgb(0.5f), std::nullopt}).all);
+  expectFresh(w);
+}
+
+/// A tracer that has the moving thing in a group of its own finds the same.
+TEST(ParticleEdits, InGroupsOfTheTracer) {
+  World w;
+  const std::vector<PrimitiveId> ball = primitivesOf(w.scene, findObjects(w.scene, "ball").front());
+  const GroupId group = w.tracer->separate(ball);
+  for (const double x : {0.05, 0.05, -0.2}) {
+    const AppliedEdit applied = applyEdit(w.scene, TransformObject{"ball", translation({x, 0, 0.02})});
+    w.tracer->rebuild(group);
+    w.tracing.follow(w.particles, applied.change);
+    expectFresh(w);
+  }
+}
+
+/// What a solution file holds is enough to go on from.
+TEST(ParticleEdits, FromParticlesAlone) {
+  World w;
+  ParticleTracing other(w.scene, *w.tracer, w.settings);
+  const AppliedEdit applied = applyEdit(w.scene, TransformObject{"ball", translation({0.1, 0, 0.1})});
+  w.tracer->rebuild(GroupId(0));
+  other.follow(w.particles, applied.change);
+  expectFresh(w);
+}
+
+TEST(SegmentBox, MeetsWhatPassesThrough) {
+  Rng rng(3, 1);
+  const auto number = [&] { return static_cast<float>(4 * rng.uniform() - 2); };
+  int met = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Box box{Vec3(-0.5, -0.3, -0.1), Vec3(0.5, 0.4, 0.2)};
+    const Vec3f a(number(), number(), number()), b(number(), number(), number());
+    bool inside = false;
+    for (int k = 0; k <= 200 && !inside; ++k) inside = box.contains(Vec3(a) + k / 200.0 * Vec3(b - a));
+    const bool meets = SegmentBox(box, 0.0).meets(a, b);
+    if (inside) {
+      EXPECT_TRUE(meets);
+    } else {
+      EXPECT_FALSE(SegmentBox(box, -0.02).meets(a, b));
+    }
+    met += meets;
+  }
+  EXPECT_GT(met, 50);
+}
+
+}  // namespace
+}  // namespace deltalux
