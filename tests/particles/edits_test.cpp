@@ -5,8 +5,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/random.hpp"
+#include "hierarchy/build.hpp"
+#include "particles/mesh_for_particles.hpp"
 #include "particles/particle_tracing.hpp"
 #include "particles/segment_box.hpp"
+#include "particles/transfer.hpp"
+#include "radiosity/coarse_solution.hpp"
 #include "support/rooms.hpp"
 
 namespace deltalux {
@@ -140,6 +144,32 @@ TEST(ParticleEdits, FromParticlesAlone) {
   w.tracer->rebuild(GroupId(0));
   other.follow(w.particles, applied.change);
   expectFresh(w);
+}
+
+std::vector<Rgb> irradiances(const ParticleTransfer& transfer, Elements& elements, const Scene& scene) {
+  transfer.apply(elements, scene);
+  std::vector<Rgb> E;
+  for (const ElementLight& l : elements.radiometry) E.push_back(l.particle);
+  return E;
+}
+
+/// Transfers that follow are those made anew.
+TEST(ParticleEdits, TransferFollows) {
+  World w;
+  Elements elements = buildElements(w.scene, surfaceSides(w.scene));
+  subdivideForParticles(elements, w.scene, w.particles);
+  for (std::size_t i = 0; i < elements.size(); ++i) elements.radiometry[i].B = Rgb(0.1f + 0.01f * float(i % 7));
+  ParticleTransfer transfer(w.particles, elements, w.scene);
+  const std::vector<Rgb> before = irradiances(transfer, elements, w.scene);
+  for (const Edit& e : {Edit(TransformObject{"ball", translation({0.1, 0, 0.1})}),
+                        Edit(TransformObject{"tall_block", turn(0.1, {0.37, 0, 0.35})}), Edit(RemoveObject{"ball"})}) {
+    const ParticleUpdate u = w.apply(e);
+    transfer.follow(w.particles, u, elements, w.scene);
+    const std::vector<Rgb> E = irradiances(transfer, elements, w.scene);
+    const std::vector<Rgb> fresh = irradiances(ParticleTransfer(w.particles, elements, w.scene), elements, w.scene);
+    EXPECT_NE(E, before);
+    for (std::size_t i = 0; i < E.size(); ++i) EXPECT_NEAR(gray(E[i]), gray(fresh[i]), 1e-5 * (1 + gray(fresh[i])));
+  }
 }
 
 TEST(SegmentBox, MeetsWhatPassesThrough) {
