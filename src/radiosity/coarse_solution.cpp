@@ -126,7 +126,7 @@ class Estimator {
         if (!isBlack(direct * through)) lit_[j].store(1, std::memory_order_relaxed);
         throughput *= through * wholeReflectance(scene_, sides_[j]);
         if (isBlack(throughput)) break;
-        o.position = Vec3(o.position) + double(t) * Vec3(w);
+        o.position = Vec3(hit.position);
         o.normal = Vec3(hit.front ? hit.normal : -hit.normal);
       }
       total += sum / double(rays_);

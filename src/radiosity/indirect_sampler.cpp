@@ -12,12 +12,14 @@ namespace deltalux {
 
 namespace {
 
-constexpr float kNear = 4.0f;  // in radii of leaf and sender: nearer than this, K is taken at all nodes of the leaf
-constexpr float kLeastKernel = 0.1f;    // relative to that of a sender that faces the place with a quarter of its area
-constexpr float kUneven = 2.0f;         // rays of clusters and curved senders, whose points differ most, against others
-constexpr float kPartsShare = 2.0f;     // rays of a sender above which it is taken apart
-constexpr int kFacingTries = 16;        // more points of a sender when some face away
-constexpr std::size_t kMostRays = 128;  // for one link
+constexpr float kNear = 8.0f;         // in radii of the leaf: nearer to a sender than this, K is taken at all its nodes
+constexpr float kLeastKernel = 0.1f;  // relative to that of a sender that faces the place with a quarter of its area
+constexpr float kFaint = 0.1f;   // of the light here: radiosity that senders are credited with, so that rows hold what
+                                 // may light up later, and what is all but dark gets no few heavy samples
+constexpr float kUneven = 2.0f;  // rays of clusters and curved senders, whose points differ most, against others
+constexpr float kPartsShare = 2.0f;   // rays of a sender above which it is taken apart
+constexpr float kWholeShare = 0.25f;  // the same for senders that need no ray: their radiosity counts as even
+constexpr int kFacingTries = 16;      // more points of a sender when some face away
 
 bool carries(const Elements& elements, const Link& l) {
   return l.state == LinkState::Active && l.visibility != Visibility::Blocked && !elements.at(l.sender).emitter;
@@ -45,11 +47,17 @@ IndirectSampler::IndirectSampler(const Scene& scene, const Elements& elements, c
     : scene_(scene), elements_(elements), tracer_(tracer), links_(links) {}
 
 float IndirectSampler::strength(ElementId receiver, ElementId sender) const {
-  if (!elements_.isCluster(sender)) return gray(elements_.radiometry[sender.index()].B);
+  const ElementLight& here = elements_.radiometry[receiver.index()];
+  const float faint = kFaint * std::max(gray(here.indirect), here.tolerance);
+  if (!elements_.isCluster(sender)) {
+    const ElementLight& there = elements_.radiometry[sender.index()];
+    return isBlack(there.rho + there.tau) ? 0.0f : gray(there.B) + faint;
+  }
   const Vec3f w = elements_.shape(receiver).center - elements_.shape(sender).center;
   const DirectionalRgb& intensity = elements_.cluster(sender).intensity;
   const float mean = 0.28209479f * std::max(0.0f, gray(intensity.c[0]));
-  return glm::length(w) > 0 ? std::max(gray(intensity.at(glm::normalize(w))), 0.25f * mean) : mean;
+  const float facing = glm::length(w) > 0 ? std::max(gray(intensity.at(glm::normalize(w))), 0.25f * mean) : mean;
+  return facing + faint * elements_.shape(sender).area / (4 * float(kPi));
 }
 
 template <class KernelOf>
@@ -79,12 +87,12 @@ std::vector<IndirectSampler::Term> IndirectSampler::terms(ElementId leaf, int ra
     }
   }
   // A sender that would get several rays is taken apart instead: its parts are nearer or farther, brighter or darker.
-  const float most = kPartsShare * total / static_cast<float>(rays);
+  const float ray = total / static_cast<float>(rays);
   std::vector<Term> parts;
   while (!whole.empty()) {
     const Term t = whole.back();
     whole.pop_back();
-    if (t.weight <= most || elements_.isLeaf(t.sender)) {
+    if (t.weight <= (known(t) ? kWholeShare : kPartsShare) * ray || elements_.isLeaf(t.sender)) {
       parts.push_back(t);
       continue;
     }
@@ -98,74 +106,95 @@ std::vector<IndirectSampler::Term> IndirectSampler::terms(ElementId leaf, int ra
 
 bool IndirectSampler::exact(ElementId sender) const { return elements_.isPatch(sender) && elements_.at(sender).flat; }
 
-template <class PointAt, class Visit>
-std::size_t IndirectSampler::sample(const std::vector<Term>& terms, int rays, std::uint64_t key, const PointAt& pointAt,
-                                    const Visit& visit) const {
-  const auto known = [&](const Term& t) { return t.open >= 1.0f && exact(t.sender) && elements_.isLeaf(t.sender); };
-  float total = 0;
-  for (const Term& t : terms) total += known(t) ? 0.0f : t.weight;
+/// What a part of a sender may bring, by its centre alone.
+float IndirectSampler::guess(ElementId leaf, const PatchPoint& x, ElementId part) const {
+  const float B = strength(leaf, part);
+  if (!(B > 0)) return 0.0f;
+  const ElementGeometry& g = elements_.shape(part);
+  float K = 0;
+  if (elements_.isCluster(part)) {
+    K = static_cast<float>(kernelAtPoint(elements_, scene_, x.position, x.normal, part));
+  } else {
+    const Vec3f d = g.center - x.position;
+    const float squared = glm::dot(d, d);
+    K = static_cast<float>(pointKernel(elements_, scene_, x.position, x.normal, part, g.center, g.normal)) * g.area *
+        squared / (squared + g.area / float(kPi));
+  }
+  return std::max(K, leastKernel(elements_, x.position, part)) * B * (exact(part) ? 1.0f : kUneven);
+}
+
+ElementId IndirectSampler::descend(ElementId sender, ElementId leaf, const PatchPoint& x, double& u,
+                                   double& chance) const {
+  std::vector<float> guesses;
+  while (!elements_.isLeaf(sender)) {
+    guesses.clear();
+    double total = 0;
+    for (std::size_t i = 0; i < elements_.at(sender).childCount; ++i)
+      total += guesses.emplace_back(guess(leaf, x, elements_.child(sender, i)));
+    if (!(total > 0)) return {};
+    double rest = u * total;
+    std::size_t picked = 0;
+    while (picked + 1 < guesses.size() && (rest >= guesses[picked] || !(guesses[picked] > 0)))
+      rest -= guesses[picked++];
+    while (!(guesses[picked] > 0)) --picked;
+    u = std::clamp(rest / guesses[picked], 0.0, 0x1.fffffep-1);
+    chance *= guesses[picked] / total;
+    sender = elements_.child(sender, picked);
+  }
+  return sender;
+}
+
+template <class KernelOf, class PointAt, class Visit>
+std::size_t IndirectSampler::sample(ElementId leaf, const PatchPoint& center, int rays, const KernelOf& kernelOf,
+                                    const PointAt& pointAt, const Visit& visit) const {
+  const std::vector<Term> all = terms(leaf, rays, kernelOf);
+  double total = 0, passed = 0;
+  for (const Term& t : all) total += known(t) ? 0.0f : t.weight;
+  const double step = total / rays;
+  const std::uint64_t key = elements_.key[leaf.index()];
+  double next = toUnit(mix64(key)) * step;
   std::size_t traced = 0;
-  for (const Term& t : terms) {
+  for (const Term& t : all) {
     if (known(t)) {
       visit(t.sender, Rgb(t.K));
       continue;
     }
-    const float share = static_cast<float>(rays) * t.weight / total;
+    passed += t.weight;
     const std::uint64_t own = combineKeys(key, elements_.key[t.sender.index()]);
-    if (share < 1.0f) {
-      if (toUnit(mix64(combineKeys(own, 1))) < share) traced += sampleTerm(t, 1, 1.0f / share, own, pointAt, visit);
-      continue;
+    for (int i = 0; next < passed; ++i, next += step) {
+      auto u = stratified4(own, i);
+      double chance = t.weight / step;
+      const ElementId from = descend(t.sender, leaf, center, u[0], chance);
+      if (!from.valid()) continue;
+      const Term part = from == t.sender ? t : term(leaf, from, t.open, kernelOf);
+      if (part.K > 0)
+        traced += sampleLeaf(part, static_cast<float>(1.0 / chance), combineKeys(own, i), u, pointAt, visit);
     }
-    const auto n = std::min<std::size_t>(kMostRays, static_cast<std::size_t>(std::ceil(share)));
-    traced += sampleTerm(t, static_cast<int>(n), 1.0f, own, pointAt, visit);
   }
   return traced;
 }
 
 template <class PointAt, class Visit>
-std::size_t IndirectSampler::sampleTerm(const Term& t, int rays, float gain, std::uint64_t key, const PointAt& pointAt,
-                                        const Visit& visit) const {
+std::size_t IndirectSampler::sampleLeaf(const Term& t, float gain, std::uint64_t key, std::array<double, 4> u,
+                                        const PointAt& pointAt, const Visit& visit) const {
   const bool flat = exact(t.sender);
-  const int most = flat ? rays + kFacingTries : rays;
-  struct Seen {
-    ElementId leaf;
-    Rgb T;
-  };
-  std::array<Seen, kMostRays> seen;
-  double weights = 0;
-  int used = 0;
-  std::size_t traced = 0;
-  for (int i = 0; i < most && used < rays; ++i) {
-    const auto u = stratified4(key, i);
+  for (int tries = 0; tries < (flat ? kFacingTries : 1); ++tries) {
+    if (tries > 0) u = stratified4(key, tries);
     const SenderSample s = sampleLeafOf(elements_, scene_, pointAt(u[2], u[3]), t.sender, u[0], u[1]);
-    if (!(s.weight > 0)) {
-      if (!flat) ++used, seen[used - 1].leaf = {};
-      continue;
-    }
-    weights += s.weight;
-    Rgb V(1.0f);
-    if (t.open < 1.0f &&
-        !isBlack(elements_.radiometry[s.leaf.index()].rho + elements_.radiometry[s.leaf.index()].tau)) {
-      V = tracer_.transmittance(s.ray);
-      ++traced;
-    }
-    seen[static_cast<std::size_t>(used++)] = {s.leaf, static_cast<float>(s.weight) * V};
+    if (!(s.weight > 0)) continue;
+    const Rgb V = t.open < 1.0f ? tracer_.transmittance(s.ray) : Rgb(1.0f);
+    const float K = flat ? t.K : elements_.shape(t.sender).area * static_cast<float>(s.weight);
+    if (!isBlack(V)) visit(t.sender, gain * K * V);
+    return t.open < 1.0f ? 1 : 0;
   }
-  if (!(weights > 0)) return traced;
-  const float scale =
-      gain * (flat ? static_cast<float>(t.K / weights) : elements_.shape(t.sender).area / static_cast<float>(used));
-  for (int i = 0; i < used; ++i) {
-    const Seen& s = seen[static_cast<std::size_t>(i)];
-    if (s.leaf.valid() && !isBlack(s.T)) visit(s.leaf, scale * s.T);
-  }
-  return traced;
+  return 0;
 }
 
 std::size_t IndirectSampler::atLeaf(ElementId leaf, int rays, std::vector<LeafTransfer>& out) const {
   const ElementGeometry& g = elements_.shape(leaf);
   const ElementNodes& n = elements_.nodes[leaf.index()];
   const auto kernelOf = [&](ElementId s) {
-    const float reach = kNear * (g.radius + elements_.shape(s).radius);
+    const float reach = kNear * g.radius + elements_.shape(s).radius;
     const Vec3f d = elements_.shape(s).center - g.center;
     if (elements_.at(leaf).flat && glm::dot(d, d) > reach * reach)
       return kernelAtPoint(elements_, scene_, g.center, g.normal, s);
@@ -175,7 +204,7 @@ std::size_t IndirectSampler::atLeaf(ElementId leaf, int rays, std::vector<LeafTr
     return K;
   };
   return sample(
-      terms(leaf, rays, kernelOf), rays, elements_.key[leaf.index()],
+      leaf, {g.center, g.normal}, rays, kernelOf,
       [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); },
       [&](ElementId from, const Rgb& T) {
         out.push_back({from, T});
@@ -186,8 +215,8 @@ Rgb IndirectSampler::atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal
   const PatchPoint x{p, normal};
   RgbSum E(0.0);
   sample(
-      terms(leaf, rays, [&](ElementId s) { return kernelAtPoint(elements_, scene_, p, normal, s); }), rays,
-      elements_.key[leaf.index()], [&](double, double) { return x; },
+      leaf, x, rays, [&](ElementId s) { return kernelAtPoint(elements_, scene_, p, normal, s); },
+      [&](double, double) { return x; },
       [&](ElementId from, const Rgb& T) { E += RgbSum(T * elements_.radiometry[from.index()].B); });
   return Rgb(E);
 }

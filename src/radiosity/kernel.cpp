@@ -124,6 +124,25 @@ double pointKernel(const Elements& elements, const Scene& scene, const Vec3f& x,
   return k;
 }
 
+namespace {
+/// Transfer from a flat patch some of its radii away. The nodes sample half of its extent: together with the centre
+/// they give the mean to second order.
+double toDistantFlat(const Elements& elements, const Scene& scene, const Vec3f& x, const Vec3f& n, ElementId sender) {
+  const ElementGeometry& g = elements.shape(sender);
+  const ElementNodes& nodes = elements.nodes[sender.index()];
+  double mean = 0;
+  bool whole = true;
+  for (int j = 0; j < 4; ++j) {
+    if (nodes.weight[j] <= 0) continue;
+    const double k = pointKernel(elements, scene, x, n, sender, nodes.position[j], nodes.normal[j]);
+    whole = whole && k > 0;
+    mean += nodes.weight[j] * k;
+  }
+  if (whole) mean += (mean - pointKernel(elements, scene, x, n, sender, g.center, g.normal)) / 3;
+  return std::max(0.0, mean) * g.area;
+}
+}  // namespace
+
 double kernelAtPoint(const Elements& elements, const Scene& scene, const Vec3f& x, const Vec3f& n, ElementId sender) {
   const ElementGeometry& g = elements.shape(sender);
   const ElementNodes& nodes = elements.nodes[sender.index()];
@@ -136,6 +155,7 @@ double kernelAtPoint(const Elements& elements, const Scene& scene, const Vec3f& 
       const std::size_t count = worldOutline(elements, sender, outline);
       return formFactorToPolygon(x, n, {outline.data(), count});
     }
+    return toDistantFlat(elements, scene, x, n, sender);
   }
   double sum = 0;
   for (int j = 0; j < 4; ++j) {

@@ -17,8 +17,9 @@ namespace {
 constexpr double kOnSurface = 1e-3;  // of the scene's size: this near, a point lies on a surface
 constexpr double kFacing = 0.5;      // cosine from which a side faces the normal
 constexpr int kMaxLayers = 16;       // surfaces that are looked at around a point
-constexpr int kGatherRays = 1024;    // over the links of a surface point
-constexpr int kGatherBatch = 256;    // rays of one independent estimate in free space
+constexpr double kGatherRays = 10;   // over the links of a surface point, times the error that is asked for
+constexpr int kFewestGatherRays = 256, kMostGatherRays = 4096;
+constexpr int kGatherBatch = 256;  // rays of one independent estimate in free space
 constexpr int kFirstBatches = 4;
 constexpr double kDirectShare =
     0.7;  // of the error that direct light may have; gathered light the same: 0.7^2 + 0.7^2 = 1
@@ -42,7 +43,8 @@ class LightMeter {
         paths_(s, reconstruction_, {0, 24}),
         particles_(s),
         sampler_(s.scene, s.elements, s.links, *s.tracer),
-        size_(bounds(s.scene).diagonal()) {}
+        size_(bounds(s.scene).diagonal()),
+        gatherRays_(std::clamp(static_cast<int>(kGatherRays / settings.error), kFewestGatherRays, kMostGatherRays)) {}
 
   ProbeResult measure(const ProbePoint& point, std::uint64_t key) const {
     const auto spot = surfaceAt(point);
@@ -100,7 +102,7 @@ class LightMeter {
   }
 
   Rgb indirectAt(const LeafPoint& at, const SurfaceSpot& spot) const {
-    return sampler_.atPoint(at.leaf, Vec3f(spot.position), Vec3f(spot.normal), kGatherRays) +
+    return sampler_.atPoint(at.leaf, Vec3f(spot.position), Vec3f(spot.normal), gatherRays_) +
            particles_.at(spot.primitive, spot.front, spot.position, spot.normal);
   }
 
@@ -161,6 +163,7 @@ class LightMeter {
   ParticleField particles_;
   IndirectSampler sampler_;
   double size_;
+  int gatherRays_;
 };
 
 }  // namespace

@@ -43,7 +43,8 @@ inline Vec3f offsetOrigin(const Vec3f& p, const Vec3f& normal, const Vec3f& dire
 }
 
 /// The open segment between two surface points, for visibility. Both ends leave their surfaces by the rounding of the
-/// larger one: a ray from far away does not end more exactly because the point it ends at has small coordinates.
+/// larger one: a ray from far away does not end more exactly because the point it ends at has small coordinates. A far
+/// end without a normal (zero) is a point in space, which may sit right on a ceiling: the segment ends short of it.
 inline Ray segment(const Vec3f& from, const Vec3f& fromNormal, const Vec3f& to, const Vec3f& toNormal) {
   const Vec3f d = to - from;
   const float size = std::max(largestCoordinate(from), largestCoordinate(to));
@@ -54,7 +55,8 @@ inline Ray segment(const Vec3f& from, const Vec3f& fromNormal, const Vec3f& to, 
   Ray ray;
   ray.origin = a;
   ray.direction = length > 0.0f ? ab / length : Vec3f(0.0f, 0.0f, 1.0f);
-  ray.tFar = length;
+  const bool inSpace = toNormal.x == 0.0f && toNormal.y == 0.0f && toNormal.z == 0.0f;
+  ray.tFar = inSpace ? length * (1.0f - 1e-5f) : length;
   return ray;
 }
 

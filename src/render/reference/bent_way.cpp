@@ -6,12 +6,7 @@ namespace deltalux {
 
 Ray shadowRay(const Vec3& from, const Vec3& fromNormal, const Vec3& direction, double distance, const Vec3& toNormal) {
   const Vec3f origin(from), normal(fromNormal), d(direction);
-  if (!std::isinf(distance)) {
-    Ray ray = segment(origin, normal, Vec3f(from + distance * direction), Vec3f(toNormal));
-    // A point-like light may sit right on a ceiling, which must not hide it.
-    if (toNormal == Vec3(0)) ray.tFar *= 1.0f - 1e-5f;
-    return ray;
-  }
+  if (!std::isinf(distance)) return segment(origin, normal, Vec3f(from + distance * direction), Vec3f(toNormal));
   Ray ray;
   ray.origin = offsetOrigin(origin, normal, d);
   ray.direction = d;

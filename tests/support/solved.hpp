@@ -1,0 +1,52 @@
+#pragma once
+// Solutions of small scenes, and what is measured on them.
+#include <algorithm>
+#include <deltalux/engine.hpp>
+#include <deltalux/render.hpp>
+
+#include "solution/solution.hpp"
+#include "support/rooms.hpp"
+
+namespace deltalux::test {
+
+inline double lux(const ProbeResult& r) { return photometric(r.irradiance); }
+inline Rgb fromPhotometric(double value) { return Rgb(static_cast<float>(value / kLuminousEfficacy)); }
+
+inline Engine solved(Scene scene, double error = 0.01) {
+  SolveSettings settings;
+  settings.error = error;
+  Engine engine(std::move(scene), settings);
+  engine.solve();
+  return engine;
+}
+
+/// Shadow rays until their own error is a fraction of one per cent.
+inline std::vector<ProbeResult> measure(const Engine& engine, const std::vector<ProbePoint>& points) {
+  ProbeSettings settings;
+  settings.error = 0.002, settings.maxSamples = 1 << 16;
+  return probe(engine.solution(), points, settings);
+}
+
+/// Area mean of E over the leaves on the front of a primitive. [W/m2]
+inline double meshMean(const Engine& engine, PrimitiveId primitive) {
+  const Elements& e = engine.solution().get().elements;
+  double sum = 0, area = 0;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const ElementTopology& t = e.topology[i];
+    if (t.kind != ElementKind::Patch || t.emitter || t.childCount > 0 || !t.front) continue;
+    if (e.domain[i].primitive != primitive) continue;
+    sum += double(e.geometry[i].area) * gray(e.radiometry[i].direct + e.radiometry[i].indirect);
+    area += e.geometry[i].area;
+  }
+  return sum / area;
+}
+
+struct Spread {
+  double median, p95;
+};
+inline Spread spreadOf(std::vector<double> differences) {
+  std::sort(differences.begin(), differences.end());
+  return {differences[differences.size() / 2], differences[differences.size() * 95 / 100]};
+}
+
+}  // namespace deltalux::test
