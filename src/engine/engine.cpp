@@ -5,6 +5,7 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "engine/energy_balance.hpp"
 #include "engine/particle_count.hpp"
 #include "hierarchy/build.hpp"
 #include "particles/mesh_for_particles.hpp"
@@ -121,7 +122,6 @@ struct Engine::State {
       if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
       if (gray(unsettled) <= kSettled * gray(emitted)) break;
     }
-    balance(emitted, unsettled);
     return gray(unsettled) <= kSettled * gray(emitted);
   }
 
@@ -144,7 +144,7 @@ struct Engine::State {
       if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
       if (gray(unsettled) <= kSettled * gray(emitted)) break;
     }
-    balance(emitted, unsettled);
+    s.report.energy = energyBalance(s, unsettled);
     return gray(unsettled) <= kSettled * gray(emitted);
   }
 
@@ -154,25 +154,6 @@ struct Engine::State {
     for (std::size_t i = 0; i < e.size(); ++i)
       if (isReceivingLeaf(i)) sum += double(e.geometry[i].area) * RgbSum(e.radiometry[i].direct);
     return sum;
-  }
-
-  /// Emitted is what lights deliver to surfaces; escaped what is reflected on to no surface. [algorithm 10]
-  void balance(const RgbSum& emitted, const RgbSum& unsettled) {
-    Solution& s = *solution;
-    const Elements& e = s.elements;
-    RgbSum absorbed(0.0);
-    for (std::size_t i = 0; i < e.size(); ++i) {
-      if (!isReceivingLeaf(i)) continue;
-      const ElementLight& l = e.radiometry[i];
-      absorbed +=
-          double(e.geometry[i].area) * RgbSum((Rgb(1.0f) - l.rho - l.tau) * (l.direct + l.indirect + l.particle));
-    }
-    const double unit = s.scene.metresPerUnit * s.scene.metresPerUnit;
-    EnergyLedger& ledger = s.report.energy;
-    ledger.emittedW = unit * gray(emitted);
-    ledger.absorbedW = unit * gray(absorbed);
-    ledger.unsettledW = unit * gray(unsettled);
-    ledger.escapedW = *ledger.emittedW - *ledger.absorbedW - *ledger.unsettledW;
   }
 
   bool isReceivingLeaf(std::size_t e) const {

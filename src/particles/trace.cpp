@@ -215,8 +215,9 @@ class Tracing {
   /// Russian roulette on what the path carries relative to what it began with; colours are kept. [algorithm 4]
   bool survives(Walker& w, double u) const {
     constexpr int kPatience = 8;
+    constexpr double kWorth = 0.25;        // share of it that is still followed without a question
     constexpr double kMostSurvival = 0.9;  // so that light caught between perfect surfaces ends some day
-    double chance = std::min(1.0, double(maxChannel(w.throughput)) / w.first);
+    double chance = std::min(1.0, double(maxChannel(w.throughput)) / (kWorth * w.first));
     if (w.depth > kPatience) chance = std::min(chance, kMostSurvival);
     if (!(u < chance)) return false;
     w.throughput *= static_cast<float>(1 / chance);

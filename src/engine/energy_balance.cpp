@@ -1,0 +1,141 @@
+#include "engine/energy_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "base/sobol.hpp"
+#include "hierarchy/patch.hpp"
+#include "hierarchy/side_locator.hpp"
+#include "particles/bounce.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr std::size_t kRays = 1 << 16;
+constexpr std::size_t kBlock = 1024;
+constexpr int kPanes = 64;
+constexpr std::uint64_t kKey = 0x62616c616e63657aull;
+
+bool receives(const Elements& elements, std::size_t e) {
+  const ElementTopology& t = elements.topology[e];
+  return t.kind == ElementKind::Patch && t.childCount == 0 && !t.emitter && !t.blocker;
+}
+
+struct Surfaces {
+  RgbSum direct{0.0}, absorbed{0.0};  // [W]
+
+  Surfaces& operator+=(const Surfaces& o) { return direct += o.direct, absorbed += o.absorbed, *this; }
+};
+
+Surfaces surfacesOf(const Solution& s) {
+  const Elements& elements = s.elements;
+  const ParticleSurfaces particles(s.scene);
+  return parallelSum<Surfaces>(elements.size(), kBlock, [&](std::size_t e) {
+    // What mirrors get, particles account for.
+    if (!receives(elements, e) || !particles.takes(elements.domain[e].primitive, elements.topology[e].front))
+      return Surfaces{};
+    const ElementLight& l = elements.radiometry[e];
+    const double A = elements.geometry[e].area;
+    return Surfaces{A * RgbSum(l.direct),
+                    A * RgbSum((Rgb(1.0f) - l.rho - l.tau) * (l.direct + l.indirect + l.particle))};
+  });
+}
+
+struct Outcome {
+  RgbSum escaped{0.0}, panes{0.0};
+
+  Outcome& operator+=(const Outcome& o) { return escaped += o.escaped, panes += o.panes, *this; }
+};
+
+/// What becomes of light that diffuse surfaces send and that reaches none: rays from leaves, in proportion to the power
+/// that they send.
+Outcome diffuseLight(const Solution& s) {
+  const Elements& elements = s.elements;
+  std::vector<double> power{0.0};
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    power.push_back(power.back() + (receives(elements, e)
+                                        ? double(elements.geometry[e].area) * double(gray(elements.radiometry[e].B))
+                                        : 0.0));
+  const double total = power.back();
+  if (!(total > 0)) return {};
+  return parallelSum<Outcome>(kRays, kBlock, [&](std::size_t i) {
+    const auto index = static_cast<std::uint32_t>(i);
+    const UnitPair at = scrambledSobol(index, kKey), to = scrambledSobol(index, ~kKey);
+    const double u = (static_cast<double>(i) + 0.5) / kRays * total;
+    const auto e =
+        static_cast<std::size_t>(std::upper_bound(power.begin() + 1, power.end() - 1, u) - power.begin() - 1);
+    const Rgb B = elements.radiometry[e].B;
+    const PatchPoint x = samplePatch(elements, s.scene, ElementId(e), at.x, at.y);
+    const double r = std::sqrt(to.x), phi = 2 * kPi * to.y;
+    Ray ray;
+    ray.direction = Vec3f(Frame(Vec3(x.normal)).toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - to.x)}));
+    ray.origin = offsetOrigin(x.position, x.normal, ray.direction);
+    Outcome outcome;
+    RgbSum flux = total / kRays / double(gray(B)) * RgbSum(B);
+    for (int pane = 0; pane < kPanes; ++pane) {
+      const Hit hit = s.tracer->closestHit(ray);
+      if (!hit) {
+        outcome.escaped = flux;
+        break;
+      }
+      const auto* glass = std::get_if<ThinGlass>(&s.scene.materialOf(hit.primitive).surface);
+      if (!glass) break;
+      const double cosine = std::abs(glm::dot(Vec3(hit.normal), Vec3(ray.direction)));
+      const RgbSum passes(transmittance(*glass, cosine));
+      outcome.panes += flux * (1.0 - passes - RgbSum(reflectance(*glass, cosine)));
+      flux *= passes;
+      ray.origin = offsetOrigin(hit.position, hit.normal, ray.direction);
+    }
+    return outcome;
+  });
+}
+
+struct Specular {
+  RgbSum ofLights{0.0}, passed{0.0}, absorbed{0.0}, escaped{0.0};
+
+  Specular& operator+=(const Specular& o) {
+    return ofLights += o.ofLights, passed += o.passed, absorbed += o.absorbed, escaped += o.escaped, *this;
+  }
+};
+
+Specular specularLight(const Solution& s) {
+  const Particles& p = s.particles;
+  const SideLocator locator(s.elements, s.scene);
+  return parallelSum<Specular>(p.paths(), kBlock, [&](std::size_t path) {
+    Specular sum;
+    if (!(p.fate[path] & kArrived)) return sum;
+    const SenderCell& cell = p.senderCells[p.sender[path]];
+    RgbSum power(p.links[p.link[path]].scale);
+    if (cell.kind == SenderKind::Side) {
+      const ElementId side = locator.side(cell.primitive, p.originTriangle[path], cell.front);
+      if (!side.valid()) return sum;
+      power *= RgbSum(s.elements.radiometry[locator.locate(side, Vec3(p.verticesOf(path)[0])).leaf.index()].B);
+    } else {
+      power *= RgbSum(s.scene[cell.light].scale);
+      sum.ofLights = power * RgbSum(p.account[path].entered.value());
+    }
+    sum.passed = power * RgbSum(p.account[path].passed.value());
+    sum.absorbed = power * RgbSum(p.account[path].absorbed.value());
+    if (!(p.fate[path] & kCut)) sum.escaped = power * RgbSum(p.account[path].left.value());
+    return sum;
+  });
+}
+
+}  // namespace
+
+EnergyLedger energyBalance(const Solution& s, const RgbSum& unsettled) {
+  const Surfaces surfaces = surfacesOf(s);
+  const Outcome diffuse = diffuseLight(s);
+  const Specular specular = specularLight(s);
+  const double unit = s.scene.metresPerUnit * s.scene.metresPerUnit;
+  EnergyLedger ledger;
+  ledger.emittedW = unit * gray(surfaces.direct + specular.ofLights);
+  ledger.absorbedW = unit * gray(surfaces.absorbed - specular.passed + specular.absorbed + diffuse.panes);
+  ledger.escapedW = unit * gray(diffuse.escaped + specular.escaped);
+  ledger.unsettledW = unit * gray(unsettled);
+  return ledger;
+}
+
+}  // namespace deltalux

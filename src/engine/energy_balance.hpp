@@ -1,0 +1,20 @@
+#pragma once
+// Where the light of a solution goes, every sum made on its own: what is not accounted for is the solution's error, not
+// hidden in a difference. [algorithm 10]
+//
+//   emitted   what lights bring to surfaces, straight or, where those only pass it on (mirrors, glass), as particles
+//   absorbed  by diffuse surfaces of all that arrives, less what particles take on from there; by mirrors, glass, panes
+//   escaped   of what diffuse surfaces send: by rays from them in all directions; of what particles carry: theirs
+//
+// Light that panes keep from lights' own light is not emitted: it reaches no surface.
+// Cost: 65,000 rays, 20 nanoseconds a path.
+#include <deltalux/report.hpp>
+
+#include "solution/solution.hpp"
+
+namespace deltalux {
+
+/// Of a settled solution; `unsettled`: what its last iteration still changed [W].
+EnergyLedger energyBalance(const Solution&, const RgbSum& unsettled);
+
+}  // namespace deltalux
