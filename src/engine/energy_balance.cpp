@@ -37,7 +37,7 @@ Surfaces surfacesOf(const Solution& s) {
     if (!receives(elements, e) || !particles.takes(elements.domain[e].primitive, elements.topology[e].front))
       return Surfaces{};
     const ElementLight& l = elements.radiometry[e];
-    const double A = elements.geometry[e].area;
+    const double A = elements.geometry[e].litArea();
     return Surfaces{A * RgbSum(l.direct),
                     A * RgbSum((Rgb(1.0f) - l.rho - l.tau) * (l.direct + l.indirect + l.particle))};
   });

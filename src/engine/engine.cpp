@@ -152,7 +152,7 @@ struct Engine::State {
     const Elements& e = solution->elements;
     RgbSum sum(0.0);
     for (std::size_t i = 0; i < e.size(); ++i)
-      if (isReceivingLeaf(i)) sum += double(e.geometry[i].area) * RgbSum(e.radiometry[i].direct);
+      if (isReceivingLeaf(i)) sum += double(e.geometry[i].litArea()) * RgbSum(e.radiometry[i].direct);
     return sum;
   }
 

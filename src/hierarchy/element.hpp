@@ -44,6 +44,9 @@ struct ElementGeometry {
   Vec3f lower{0.0f}, upper{0.0f};
   float normalCone = -1.0f;   // cosine of the half angle about `normal` that holds all normals: 1 flat, -1 anything
   float meanFreePath = 0.0f;  // mean distance to what is seen from here: the local scale of the scene
+  float exposed = 1.0f;       // leaf: share of the area that light can reach, and that irradiance is the mean of
+
+  float litArea() const { return exposed * area; }
 };
 
 /// Up to four area-weighted quadrature nodes of a patch, or representative surface points of a cluster.

@@ -185,7 +185,7 @@ void ParticleTransfer::apply(Elements& elements, const Scene& scene) const {
     const ElementTopology& t = elements.topology[e];
     if (!receives(t) || t.childCount > 0) continue;
     const std::uint32_t level = level_[e];
-    elements.radiometry[e].particle = Rgb(flux[level] / std::max<double>(elements.geometry[level].area, 1e-30));
+    elements.radiometry[e].particle = Rgb(flux[level] / std::max<double>(elements.geometry[level].litArea(), 1e-30));
   }
 }
 

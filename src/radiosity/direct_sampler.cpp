@@ -31,7 +31,12 @@ struct DirectSampler::Quadrants {
 };
 
 DirectSampler::DirectSampler(const Scene& scene, const Elements& elements, const Links& links, const RayTracer& tracer)
-    : scene_(scene), elements_(elements), tracer_(tracer), senders_(elements, links, scene), lights_(scene) {}
+    : scene_(scene),
+      elements_(elements),
+      tracer_(tracer),
+      exposure_(scene, elements, tracer),
+      senders_(elements, links, scene),
+      lights_(scene) {}
 
 DirectSampler::Term DirectSampler::term(ElementId leaf, const PossibleSender& s) const {
   Term t;
@@ -91,7 +96,10 @@ DirectRow DirectSampler::at(ElementId leaf, int rays) const {
     between += n.weight[q] * (quadrants.E[q] - row.mean) * (quadrants.E[q] - row.mean);
     chance += n.weight[q] * quadrants.chance[q];
   }
-  row.variation = std::sqrt(std::max(0.0, between - chance));
+  row.exposed = exposure_.of(leaf);
+  for (LeafTransfer& t : row.lights) t.T /= row.exposed;
+  row.mean /= row.exposed;
+  row.variation = std::sqrt(std::max(0.0, between - chance)) / row.exposed;
   return row;
 }
 

@@ -11,6 +11,7 @@
 // five kernels a light, about `rays` rays.
 #include "base/random.hpp"
 #include "radiosity/direct_senders.hpp"
+#include "radiosity/exposure.hpp"
 #include "radiosity/indirect_sampler.hpp"
 #include "scene/light_sampling.hpp"
 
@@ -21,6 +22,7 @@ struct DirectRow {
   std::vector<LeafTransfer> lights;  // emitters in place of leaves
   double mean = 0;                   // irradiance, gray
   double variation = 0;              // of it over the quadrants, beyond what chance explains
+  float exposed = 1;                 // share of the leaf's area that this is the mean of (exposure.hpp)
   std::uint64_t rays = 0;
 };
 
@@ -41,6 +43,7 @@ class DirectSampler {
   const Scene& scene_;
   const Elements& elements_;
   const RayTracer& tracer_;
+  Exposure exposure_;
   DirectSenders senders_;
   LightSampler lights_;
 };

@@ -44,7 +44,7 @@ float openness(const Link& l) {
 
 IndirectSampler::IndirectSampler(const Scene& scene, const Elements& elements, const Links& links,
                                  const RayTracer& tracer)
-    : scene_(scene), elements_(elements), tracer_(tracer), links_(links) {}
+    : scene_(scene), elements_(elements), tracer_(tracer), exposure_(scene, elements, tracer), links_(links) {}
 
 float IndirectSampler::strength(ElementId receiver, ElementId sender) const {
   const ElementLight& here = elements_.radiometry[receiver.index()];
@@ -193,6 +193,7 @@ std::size_t IndirectSampler::sampleLeaf(const Term& t, float gain, std::uint64_t
 std::size_t IndirectSampler::atLeaf(ElementId leaf, int rays, std::vector<LeafTransfer>& out) const {
   const ElementGeometry& g = elements_.shape(leaf);
   const ElementNodes& n = elements_.nodes[leaf.index()];
+  const float exposed = exposure_.of(leaf);
   const auto kernelOf = [&](ElementId s) {
     const float reach = kNear * g.radius + elements_.shape(s).radius;
     const Vec3f d = elements_.shape(s).center - g.center;
@@ -207,7 +208,7 @@ std::size_t IndirectSampler::atLeaf(ElementId leaf, int rays, std::vector<LeafTr
       leaf, {g.center, g.normal}, rays, kernelOf,
       [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); },
       [&](ElementId from, const Rgb& T) {
-        out.push_back({from, T});
+        out.push_back({from, T / exposed});
       });
 }
 

@@ -19,6 +19,7 @@
 
 #include "hierarchy/link.hpp"
 #include "hierarchy/patch.hpp"
+#include "radiosity/exposure.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
@@ -69,6 +70,7 @@ class IndirectSampler {
   const Scene& scene_;
   const Elements& elements_;
   const RayTracer& tracer_;
+  Exposure exposure_;
   const Links& links_;
 };
 

@@ -88,6 +88,7 @@ LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, 
   for (const ElementId leaf : leaves_) {
     const DirectRow& row = rows[leaf.index()];
     lights_.insert(lights_.end(), row.lights.begin(), row.lights.end());
+    elements.geometry[leaf.index()].exposed = row.exposed;
     lightBegin_.push_back(static_cast<std::uint32_t>(lights_.size()));
   }
   gatherDirect(elements);

@@ -72,6 +72,20 @@ void push(Elements& elements) {
   }
 }
 
+/// The exposed share of what has parts.
+void pullExposure(Elements& elements) {
+  for (std::size_t i = elements.size(); i-- > 0;) {
+    const ElementTopology& t = elements.topology[i];
+    if (t.kind != ElementKind::Patch || t.childCount == 0) continue;
+    double lit = 0, area = 0;
+    for (std::size_t c = 0; c < t.childCount; ++c) {
+      const ElementGeometry& g = elements.geometry[t.firstChild.index() + c];
+      lit += g.litArea(), area += g.area;
+    }
+    if (area > 0) elements.geometry[i].exposed = static_cast<float>(lit / area);
+  }
+}
+
 void pullIrradiance(Elements& elements) {
   for (std::size_t i = elements.size(); i-- > 0;) {
     const ElementTopology& t = elements.topology[i];
@@ -88,7 +102,7 @@ void pullIrradiance(Elements& elements) {
     for (std::size_t c = 0; c < t.childCount; ++c) {
       const std::size_t child = t.firstChild.index() + c;
       if (elements.topology[child].blocker) continue;
-      const double a = elements.geometry[child].area;
+      const double a = elements.geometry[child].litArea();
       const ElementLight& l = elements.radiometry[child];
       direct += a * RgbSum(l.direct), indirect += a * RgbSum(l.indirect), particle += a * RgbSum(l.particle);
       inverse += a / std::max(l.tolerance, kLeast);
@@ -115,7 +129,7 @@ RgbSum reflectAndPull(Elements& elements) {
           intensity += elements.cluster(child).intensity;
         else if (elements.isPatch(child))
           intensity.addLobe(elements.moments[child.index()],
-                            elements.shape(child).area / float(kPi) * elements.radiometry[child.index()].B);
+                            elements.shape(child).litArea() / float(kPi) * elements.radiometry[child.index()].B);
         else  // a point of any distribution, as bright all round as where it is brightest
           intensity.c[0] += elements.radiometry[child.index()].B / kConstantHarmonic;
       }
@@ -123,7 +137,7 @@ RgbSum reflectAndPull(Elements& elements) {
     }
     if (t.emitter) continue;
     ElementLight& light = elements.radiometry[i];
-    const float area = elements.geometry[i].area;
+    const float area = elements.geometry[i].litArea();
     if (t.childCount == 0) {
       Rgb B = light.rho * (light.direct + light.indirect + light.particle);
       if (!isBlack(light.tau)) {
@@ -141,8 +155,8 @@ RgbSum reflectAndPull(Elements& elements) {
     double total = 0;
     for (std::size_t c = 0; c < t.childCount; ++c) {
       const std::size_t child = t.firstChild.index() + c;
-      power += double(elements.geometry[child].area) * RgbSum(elements.radiometry[child].B);
-      total += elements.geometry[child].area;
+      power += double(elements.geometry[child].litArea()) * RgbSum(elements.radiometry[child].B);
+      total += elements.geometry[child].litArea();
     }
     if (total > 0) light.B = Rgb(power / total);
   }
@@ -152,6 +166,7 @@ RgbSum reflectAndPull(Elements& elements) {
 }  // namespace
 
 RgbSum pull(Elements& elements) {
+  pullExposure(elements);
   pullIrradiance(elements);
   return reflectAndPull(elements);
 }
