@@ -24,7 +24,7 @@ constexpr std::uint64_t kLookSeed = 0x6c6f6f6b7a7a7a7aull;
 struct Judgement {
   double flux = 0;       // estimate, with hope for what no look found
   double passing = 0;    // share of looks that arrived
-  double bound = 0;      // flux if every look had arrived
+  double bound = 0;      // root mean square of looks, had they arrived
   bool arrived = false;  // any
   bool uneven = false;   // looks differ much, or only some of them passed
 };
@@ -46,10 +46,11 @@ class Judge {
     const std::vector<LinkEnds> links(looks, ends);
     std::vector<Arrival> arrivals(looks);
     const std::uint64_t own = combineKeys(key, kLookSeed);
-    double bound = 0;
+    double bound = 0, boundSquares = 0;
     for (int i = 0; i < looks; ++i) {
       segments[i] = emission_.sample(ends, emissionNumbers(own, static_cast<std::uint32_t>(i)));
-      bound += exitanceOf(segments[i].senderCell) * segments[i].bound * albedoOf(segments[i], ends);
+      const double b = exitanceOf(segments[i].senderCell) * segments[i].bound * albedoOf(segments[i], ends);
+      bound += b, boundSquares += b * b;
     }
     emission_.arrive(links, segments, arrivals, rays);
     double sum = 0, squares = 0;
@@ -63,7 +64,7 @@ class Judge {
     }
     Judgement j;
     j.flux = (sum + kHopeful * bound / looks) / (looks + 1);
-    j.bound = bound / looks;
+    j.bound = std::sqrt(boundSquares / looks);
     j.arrived = passed > 0;
     j.passing = (passed + kHopeful) / (looks + 1);
     j.uneven = squares * looks > (1 + kUneven * kUneven) * sum * sum || sum == 0;
@@ -171,15 +172,19 @@ DsLinks refineDsLinks(const Scene& scene, const RayTracer& tracer, const Particl
         return;
       }
       Judgement j = judge.look(level[i], v.link.key, kLooks, rays[i / kBlock]);
-      const bool worth = judge.near(level[i]) || (j.uneven && j.flux > kMuch * threshold);
-      v.split = judge.divisible(level[i]) && j.flux > threshold && worth;
-      if (v.split) return;
+      const bool near = judge.near(level[i]), divisible = judge.divisible(level[i]);
+      const auto splits = [&] {
+        return divisible && j.flux > threshold && (near || (j.uneven && j.flux > kMuch * threshold));
+      };
+      v.split = splits();
       // Most links of which nothing was seen to arrive are blocked: hope is worth a closer look before it gets
       // particles. The more it might carry, the closer.
-      if (!j.arrived) {
+      if (!v.split && (!j.arrived || j.bound > kLooks * threshold)) {
         const int looks = static_cast<int>(std::clamp(j.bound / threshold, double(kLooks), kMostLooks));
         j = judge.look(level[i], mix64(v.link.key), looks, rays[i / kBlock]);
+        v.split = splits();
       }
+      if (v.split) return;
       v.link.flux = static_cast<float>(std::max(j.flux, kLeast * threshold));
       v.link.passing = static_cast<float>(j.passing);
     });

@@ -31,13 +31,9 @@ const Emission& ParticleEmission::emission(const SenderCell& c) const {
 
 FirstSegment ParticleEmission::sample(const LinkEnds& link, const EmissionNumbers& u) const {
   FirstSegment s;
-  const RadixNode& node = senders_.nodes()[link.sender];
-  double share = 1;  // one over the chance of the cell
-  s.senderCell = node.begin;
-  if (!node.isLeaf()) {
-    s.senderCell = senders_.choose(node, u.choice.x);
-    share = senders_.weightOf(node) / senders_.weight(s.senderCell);
-  }
+  const Senders::Choice chosen = choose(link, u.choice.x);
+  const double share = 1 / chosen.chance;
+  s.senderCell = chosen.cell;
   // What was removed keeps its place among cells.
   if (!(senders_.cells()[s.senderCell].measure > 0)) return s;
   const SenderKind kind = senders_.cells()[s.senderCell].kind;
@@ -46,6 +42,16 @@ FirstSegment ParticleEmission::sample(const LinkEnds& link, const EmissionNumber
   else
     fromPlace(link, u, share, s);
   return s;
+}
+
+/// A cluster close to its receivers holds few cells that are much closer than the others: those are to be drawn.
+Senders::Choice ParticleEmission::choose(const LinkEnds& link, double u) const {
+  const RadixNode& node = senders_.nodes()[link.sender];
+  if (node.isLeaf()) return {node.begin, 1};
+  const SenderKind kind = senders_.cells()[node.begin].kind;
+  if (kind != SenderKind::Side && kind != SenderKind::Lamp) return senders_.choose(link.sender, u);
+  const BoundingSphere& ball = receivers_.bound(link.receiver);
+  return ball.empty() ? senders_.choose(link.sender, u) : senders_.chooseNear(link.sender, ball, u);
 }
 
 void ParticleEmission::fromInfinity(const LinkEnds& link, const EmissionNumbers& u, double share,

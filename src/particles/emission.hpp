@@ -82,6 +82,7 @@ class ParticleEmission {
     double balance = 1;
   };
 
+  Senders::Choice choose(const LinkEnds&, double u) const;
   Aim aim(const Origin&, std::uint32_t node, double choice, const Vec2& u) const;
   Aim aimAtCell(const Vec3& from, const RadixNode&, double choice, const Vec2& u) const;
   Aim aimAtFlat(const Vec3& from, std::uint32_t cell, const Vec2& u) const;

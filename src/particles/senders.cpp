@@ -40,18 +40,25 @@ Senders::Senders(const Scene& scene, const LightSampler& lights) : scene_(scene)
   leaf_.resize(cells_.size());
   for (std::size_t n = 0; n < nodes_.size(); ++n)
     if (nodes_[n].isLeaf()) leaf_[nodes_[n].begin] = static_cast<std::uint32_t>(n);
+  const auto restOf = [&](const SenderCell& c) {
+    return c.primitive.valid() ? &edits::restShape(scene, c.primitive) : nullptr;
+  };
   for (std::uint32_t c = 0; c < cells_.size(); ++c) {
     restMeasure_.push_back(cells_[c].measure);
-    place(c);
+    boundLeaf(c, restOf(cells_[c]));
   }
+  boundNodes();
+  restBounds_ = bounds_;
+  for (std::uint32_t c = 0; c < cells_.size(); ++c)
+    if (cells_[c].primitive.valid() && restOf(cells_[c]) != &scene[cells_[c].primitive].shape) place(c);
   boundNodes();
 }
 
 void Senders::place(std::uint32_t cell) {
   SenderCell& c = cells_[cell];
-  if (c.kind == SenderKind::Side || c.kind == SenderKind::Lamp)
-    c.measure = static_cast<float>(area(scene_[c.primitive].shape) * c.rect.measure());
-  boundLeaf(cell);
+  const Shape& shape = scene_[c.primitive].shape;
+  c.measure = static_cast<float>(area(shape) * c.rect.measure());
+  boundLeaf(cell, &shape);
 }
 
 std::vector<char> Senders::follow(std::span<const PrimitiveId> moved) {
@@ -187,7 +194,7 @@ void Senders::boundNodes() {
   }
 }
 
-void Senders::boundLeaf(std::uint32_t cell) {
+void Senders::boundLeaf(std::uint32_t cell, const Shape* at) {
   const SenderCell& c = cells_[cell];
   const std::uint32_t n = leaf_[cell];
   if (c.kind == SenderKind::Point) {
@@ -210,7 +217,7 @@ void Senders::boundLeaf(std::uint32_t cell) {
     bounds_[n] = {Vec3(0), -1};
     return;
   }
-  const Shape& shape = scene_[c.primitive].shape;
+  const Shape& shape = *at;
   Box box;
   for (int i = 0; i <= kGrid; ++i)
     for (int j = 0; j <= kGrid; ++j) {
@@ -219,7 +226,7 @@ void Senders::boundLeaf(std::uint32_t cell) {
     }
   bounds_[n] = {box.center(), 0.5 * box.diagonal()};
   const bool flat = std::holds_alternative<Polygon>(shape) || std::holds_alternative<Ring>(shape);
-  if (flat) normals_[n] = {point(cell, {0.5, 0.5}).normal, 1};
+  if (flat) normals_[n] = {(c.front ? 1.0 : -1.0) * samplePoint(shape, c.rect.at({0.5, 0.5})).normal, 1};
 }
 
 void Senders::weigh(std::span<const float> strength) {
@@ -228,10 +235,33 @@ void Senders::weigh(std::span<const float> strength) {
     cumulative_.push_back(cumulative_.back() + rounded(double(restMeasure_[i]) * strength[i]));
 }
 
-std::uint32_t Senders::choose(const RadixNode& node, double u) const {
+Senders::Choice Senders::choose(std::uint32_t at, double u) const {
+  const RadixNode& node = nodes_[at];
+  if (node.isLeaf()) return {node.begin, 1};
   const double target = cumulative_[node.begin] + u * weightOf(node);
   const auto first = cumulative_.begin() + node.begin + 1, last = cumulative_.begin() + node.end;
-  return static_cast<std::uint32_t>(std::upper_bound(first, last, target) - cumulative_.begin() - 1);
+  const auto cell = static_cast<std::uint32_t>(std::upper_bound(first, last, target) - cumulative_.begin() - 1);
+  return {cell, weight(cell) / weightOf(node)};
+}
+
+Senders::Choice Senders::chooseNear(std::uint32_t at, const BoundingSphere& towards, double u) const {
+  constexpr double kInside = 0.25;  // of the sphere's radius: what is within stands about so far from something there
+  const double least = kInside * kInside * towards.radius * towards.radius;
+  const auto importance = [&](std::uint32_t n) {
+    const Vec3 d = restBounds_[n].center - towards.center;
+    return weightOf(nodes_[n]) / (glm::dot(d, d) + restBounds_[n].radius * restBounds_[n].radius + least);
+  };
+  double chance = 1;
+  while (!nodes_[at].isLeaf()) {
+    const double a = importance(nodes_[at].child[0]), b = importance(nodes_[at].child[1]);
+    const double first = a / (a + b);
+    const bool second = u >= first;
+    u = second ? (u - first) / (1 - first) : u / first;
+    u = std::min(u, 0x1.fffffffffffffp-1);
+    chance *= second ? 1 - first : first;
+    at = nodes_[at].child[second ? 1 : 0];
+  }
+  return {nodes_[at].begin, chance};
 }
 
 SurfacePoint Senders::point(std::uint32_t cell, const Vec2& u) const {
@@ -262,7 +292,7 @@ Vec3 Senders::direction(std::uint32_t cell, const Vec2& u) const {
 
 std::size_t Senders::memoryBytes() const {
   return cells_.capacity() * sizeof(SenderCell) + (restMeasure_.capacity() + leaf_.capacity()) * 4 +
-         nodes_.capacity() * sizeof(RadixNode) + bounds_.capacity() * sizeof(BoundingSphere) +
+         nodes_.capacity() * sizeof(RadixNode) + 2 * bounds_.capacity() * sizeof(BoundingSphere) +
          normals_.capacity() * sizeof(Cone) + cumulative_.capacity() * 8 + roots_.capacity() * 4;
 }
 

@@ -51,8 +51,14 @@ class Senders {
   /// What cells send, as far as it is known before any solution, gray: exitance of surfaces, radiance of sky cells.
   /// Cells are drawn by it times their measure at rest.
   void weigh(std::span<const float> strength);
-  /// A cell below the node, drawn by weight; `u` in [0,1).
-  std::uint32_t choose(const RadixNode& node, double u) const;
+  /// A cell below the node, drawn by weight, and its chance; `u` in [0,1).
+  struct Choice {
+    std::uint32_t cell = 0;
+    double chance = 1;
+  };
+  Choice choose(std::uint32_t node, double u) const;
+  /// The same, but the nearer to `towards` (at rest), the sooner: of senders at a place.
+  Choice chooseNear(std::uint32_t node, const BoundingSphere& towards, double u) const;
   double weight(std::uint32_t cell) const { return cumulative_[cell + 1] - cumulative_[cell]; }
   double weightOf(const RadixNode& node) const { return cumulative_[node.end] - cumulative_[node.begin]; }
   /// The cells of surfaces are [surfaceCells(), cells().size()).
@@ -75,7 +81,7 @@ class Senders {
   void addTree(std::vector<std::pair<Code, SenderCell>>, std::uint64_t seed);
   void place(std::uint32_t cell);
   void boundNodes();
-  void boundLeaf(std::uint32_t cell);
+  void boundLeaf(std::uint32_t cell, const Shape*);
 
   const Scene& scene_;
   const LightSampler& lights_;
@@ -83,7 +89,7 @@ class Senders {
   std::vector<float> restMeasure_;   // by cell
   std::vector<std::uint32_t> leaf_;  // by cell: its node
   std::vector<RadixNode> nodes_;
-  std::vector<BoundingSphere> bounds_;
+  std::vector<BoundingSphere> bounds_, restBounds_;
   std::vector<Cone> normals_;
   std::vector<double> cumulative_;
   std::vector<std::uint32_t> roots_;

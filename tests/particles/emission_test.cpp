@@ -56,12 +56,10 @@ struct World {
   /// below the receiver.
   test::Moments fluxByShooting(const LinkEnds& ends, std::uint64_t key) const {
     test::Moments m;
-    const RadixNode& s = senders->nodes()[ends.sender];
     for (std::uint32_t i = 0; i < kSamples; ++i) {
       Rng rng(key, i);
-      const std::uint32_t cell = senders->choose(s, rng.uniform());
-      const double share = senders->weightOf(s) / senders->weight(cell);
-      m.add(share * shoot(cell, ends, rng));
+      const Senders::Choice chosen = senders->choose(ends.sender, rng.uniform());
+      m.add(shoot(chosen.cell, ends, rng) / chosen.chance);
     }
     return m;
   }
@@ -69,10 +67,9 @@ struct World {
   /// How many of some shots arrive.
   int hits(const LinkEnds& ends) const {
     int count = 0;
-    const RadixNode& s = senders->nodes()[ends.sender];
     for (std::uint32_t i = 0; i < 4000; ++i) {
       Rng rng(77, i);
-      count += shoot(senders->choose(s, rng.uniform()), ends, rng) > 0;
+      count += shoot(senders->choose(ends.sender, rng.uniform()).cell, ends, rng) > 0;
     }
     return count;
   }
