@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "engine/energy_balance.hpp"
 #include "engine/particle_count.hpp"
+#include "engine/time_budget.hpp"
 #include "hierarchy/build.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/reached_sides.hpp"
@@ -25,6 +26,7 @@ namespace {
 constexpr double kFirstError = 64.0;   // of the links, relative to the target, in the first round
 constexpr double kLastError = 20.0;    // in the last: what links leave, the leaves' own samples resolve
 constexpr double kErrorFactor = 0.35;  // from round to round
+constexpr double kHasty = 8.0;         // first round when time is limited, against the first otherwise
 constexpr double kSettled = 1e-3;      // unsettled power, relative to emitted
 constexpr int kMaxIterations = 64;
 
@@ -43,6 +45,7 @@ struct Engine::State {
   double nextError = 0;   // of the next round
   bool finished = false;  // the last round has run
   Clock clock;
+  TimeBudget budget{0};
 
   void prepare(Progress* progress) {
     Solution& s = *solution;
@@ -56,7 +59,8 @@ struct Engine::State {
     DELTALUX_VALIDATED(validate(s.elements));
     s.report.counts.raysVisibility += coarse.rays;
     s.report.times.hierarchy += time.seconds() - s.report.times.particles;
-    nextError = s.settings.error * kFirstError;
+    budget = TimeBudget(s.settings.seconds, clock.seconds());
+    nextError = s.settings.error * kFirstError * (budget.limited() ? kHasty : 1.0);
     if (progress) progress->report("hierarchy", 1.0);
   }
 
@@ -79,18 +83,10 @@ struct Engine::State {
   void round(Progress* progress) {
     Solution& s = *solution;
     OracleSettings oracle;
-    oracle.error = std::max(nextError, s.settings.error * kLastError);
-    const bool last = oracle.error <= s.settings.error * kLastError;
-    const Clock refining;
-    const RefineReport refined = refine(s.links, s.elements, s.scene, *s.tracer, oracle, [&] {
-      if (progress && progress->stopRequested()) throw Interrupted();
-      return s.settings.seconds > 0 && clock.seconds() > s.settings.seconds;
-    });
-    DELTALUX_VALIDATED(validate(s.links, s.elements));
-    s.report.times.refine += refining.seconds();
-    s.report.counts.raysVisibility += refined.rays;
-    s.report.provenClear += refined.provenClear;
-    s.report.provenBlocked += refined.provenBlocked;
+    const double least = s.settings.error * kLastError;
+    oracle.error = std::max(nextError, least);
+    const bool last = oracle.error <= least;
+    const RefineReport refined = refineLinks(oracle, progress);
 
     const Clock placing;
     subdivideForParticles(s.elements, s.scene, s.particles);
@@ -98,12 +94,38 @@ struct Engine::State {
 
     const Clock gathering;
     bool settled = settle(progress);
-    if (last || refined.stopped) settled = resolve(progress);
+    LeafTransferSettings leaves;
+    leaves.error = s.settings.error;
+    nextError = std::max(least, oracle.error * kErrorFactor);
+    bool whole = true;
+    if (budget.limited()) {
+      const double needed = leafRoundSeconds(s.elements, s.links, s.scene, *s.tracer, leaves), left = budget.left();
+      nextError = budget.reach(LinkErrors(s.links, s.elements, oracle), oracle.error, nextError, left - needed);
+      whole = needed <= left;
+      leaves = shrunk(leaves, needed, left);
+    }
+    finished = last || refined.stopped || !(nextError < oracle.error);
+    if (finished) settled = resolve(leaves, progress);
     s.report.times.gather += gathering.seconds();
     count();
-    s.report.converged = settled && !refined.stopped && last;
-    finished = refined.stopped || last;
-    nextError *= kErrorFactor;
+    s.report.converged = settled && whole && last && !refined.stopped;
+  }
+
+  RefineReport refineLinks(const OracleSettings& oracle, Progress* progress) {
+    Solution& s = *solution;
+    const double predicted = budget.limited() ? LinkErrors(s.links, s.elements, oracle).madeBy(oracle.error) : 0;
+    const Clock time;
+    const RefineReport refined = refine(s.links, s.elements, s.scene, *s.tracer, oracle, [&] {
+      if (progress && progress->stopRequested()) throw Interrupted();
+      return budget.limited() && budget.left() < 0;
+    });
+    DELTALUX_VALIDATED(validate(s.links, s.elements));
+    budget.learn(time.seconds(), predicted, static_cast<double>(refined.created));
+    s.report.times.refine += time.seconds();
+    s.report.counts.raysVisibility += refined.rays;
+    s.report.provenClear += refined.provenClear;
+    s.report.provenBlocked += refined.provenBlocked;
+    return refined;
   }
 
   /// Gathers until the light no longer changes. [algorithm 3]
@@ -126,10 +148,8 @@ struct Engine::State {
   }
 
   /// The links' transfers resolved to leaves, and settled again.
-  bool resolve(Progress* progress) {
+  bool resolve(const LeafTransferSettings& settings, Progress* progress) {
     Solution& s = *solution;
-    LeafTransferSettings settings;
-    settings.error = s.settings.error;
     const LeafTransferReport r = s.transfers.build(s.elements, s.links, s.scene, *s.tracer, settings);
     s.report.counts.raysVisibility += r.rays;
     RgbSum unsettled(0.0);

@@ -71,8 +71,9 @@ struct PlaneFrame {
   Vec3 origin{0}, edgeU{1, 0, 0}, edgeV{0, 1, 0}, normal{0, 0, 1};
 };
 
-/// Radiometry of one element. One writer per field: B, direct, indirect and tolerance by push-pull, *Gathered by
-/// gather, particle by deposit, rho and tau by the builder.
+/// Radiometry of one element. One writer per field: B and tolerance by push-pull, *Gathered by gather, direct and
+/// indirect by push-pull from those, or at leaves by rows of transfers once there are any; particle by deposit, rho and
+/// tau by the builder.
 struct ElementLight {
   Rgb B{0.0f};                                       // radiosity; for senders only: emission in their transfer's unit
   Rgb directGathered{0.0f}, indirectGathered{0.0f};  // over this element's own links

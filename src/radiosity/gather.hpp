@@ -1,5 +1,6 @@
 #pragma once
-// Gather: every element collects E += K V B over the active links at it, direct light (from the light tree and distant
+// Gather over links, while they are refined (the last round gathers over rows of leaves: leaf_transfers.hpp): every
+// element collects E += K V B over the active links at it, direct light (from the light tree and distant
 // senders) and indirect light apart [GD01 2.1]. Links are sorted by receiver once per refinement, so that each receiver
 // is summed by one thread in one order: the result does not depend on the thread count.
 #include "hierarchy/link.hpp"

@@ -7,6 +7,9 @@
 // the light of r's surroundings: light varies over distances like those to other surfaces [as in Ward & Heckbert 1992],
 // so an error on less than A_0 weighs only as much as its share of A_0. Nothing here depends on the scene's size, and
 // shadow edges end at patches of about error * A_0.
+//
+// The engine asks this of links for a multiple of the target only: they say where light comes from and which leaves
+// there are; what they leave unresolved, the leaves' own rays resolve (leaf_transfers.hpp).
 #include "hierarchy/link.hpp"
 
 namespace deltalux {

@@ -1,0 +1,42 @@
+#pragma once
+// How far refinement goes when time is limited: what rounds have cost so far says which error the next can aim at, so
+// that it and the last round over the leaves still fit. Each state between rounds is consistent and can be the last
+// but for that round, whose rays shrink to what time is left.
+#include <chrono>
+
+#include "radiosity/leaf_transfers.hpp"
+#include "radiosity/link_errors.hpp"
+
+namespace deltalux {
+
+class TimeBudget {
+ public:
+  /// `seconds` in all, of which some are spent already; 0: no limit.
+  explicit TimeBudget(double seconds, double spent = 0) : seconds_(seconds), spentBefore_(spent) {}
+
+  bool limited() const { return seconds_ > 0; }
+  double left() const {
+    return seconds_ - spentBefore_ - std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  /// What a round took that was expected to make `predicted` links and made `made`.
+  void learn(double seconds, double predicted, double made);
+  /// What a round that is predicted to make so many links takes. [s]
+  double cost(double predicted) const { return secondsPerLink_ * trust_ * predicted; }
+  /// The least error from `least` up to that a round can aim at in `seconds`; `from` when none below it can.
+  double reach(const LinkErrors&, double from, double least, double seconds) const;
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double seconds_, spentBefore_;
+  double secondsPerLink_ = 0;  // made
+  double trust_ = 1;           // links made to links predicted
+};
+
+/// Time for the leaves' round [s], measured on a few of them.
+double leafRoundSeconds(const Elements&, const Links&, const Scene&, const RayTracer&, const LeafTransferSettings&);
+
+/// The same round with as few rays as fit into `seconds`, when all take `needed`.
+LeafTransferSettings shrunk(LeafTransferSettings, double needed, double seconds);
+
+}  // namespace deltalux
