@@ -12,10 +12,11 @@ namespace {
 
 constexpr std::size_t kMostNeighbours = 400;
 constexpr double kStep = 1.25;       // between radii
-constexpr std::size_t kFewest = 6;   // impacts in the narrowest kernel
+constexpr std::size_t kFewest = 6;   // impacts within four times the least radius
 constexpr double kConfidence = 1.5;  // standard deviations of an interval [GN97, 2.3: about 2 for Gaussian noise]
 constexpr double kLift = 0.02;       // of the radius, for looking along the surface
-constexpr int kDisc = 64;
+constexpr int kDisc = 128;
+constexpr int kPasses = 3;  // with what is known at the point ever closer
 
 /// Points of the unit disc, even in area. [Vogel 1979]
 const std::array<Vec2, kDisc>& disc() {
@@ -29,8 +30,6 @@ const std::array<Vec2, kDisc>& disc() {
   }();
   return points;
 }
-
-double kernel(double squared) { return std::max(0.0, 1 - squared); }
 
 int widestAxis(const auto* first, const auto* last) {
   Vec3f low(std::numeric_limits<float>::infinity()), high(-low);
@@ -172,41 +171,115 @@ ParticleField::Surroundings ParticleField::lookAround(const Query& q) const {
   return s;
 }
 
+/// Flux, its squares and the surface's area in parts of rings around a point: by sector, out to each radius.
+struct ParticleField::Rings {
+  struct Sum {
+    RgbSum flux{0.0};
+    double gray = 0, squares = 0, area = 0;
+  };
+  std::vector<double> radii;
+  std::array<std::vector<Sum>, kSectors> out;  // out[k][j]: sector k within radii[j]
+
+  Sum whole(std::size_t j) const {
+    Sum all;
+    for (const auto& sector : out) add(all, sector[j], 1);
+    return all;
+  }
+  static void add(Sum& to, const Sum& s, double sign) {
+    to.flux += sign * s.flux, to.gray += sign * s.gray, to.squares += sign * s.squares, to.area += sign * s.area;
+  }
+};
+
+ParticleField::Rings ParticleField::ringsOf(const Query& q, const Surroundings& around) const {
+  Rings rings;
+  const std::size_t few = std::min<std::size_t>(kFewest, q.found.size());
+  double radius = std::max(0.25 * std::sqrt(double(q.found[few - 1].squared)), 1e-6 * q.radius);
+  for (; radius < q.radius; radius *= kStep) rings.radii.push_back(radius);
+  rings.radii.push_back(q.radius);
+  const std::size_t steps = rings.radii.size();
+  const Frame frame(q.normal);
+  const auto sectorOf = [](double x, double y) {
+    const int k = static_cast<int>(std::floor((std::atan2(y, x) / kPi + 1) * 0.5 * kSectors));
+    return std::clamp(k, 0, kSectors - 1);
+  };
+  for (auto& sector : rings.out) sector.resize(steps);
+  const auto stepOf = [&](double r) {
+    return static_cast<std::size_t>(std::lower_bound(rings.radii.begin(), rings.radii.end() - 1, r) -
+                                    rings.radii.begin());
+  };
+  for (const Neighbour& n : q.found) {
+    const Landing& l = landings_[n.landing];
+    const Vec3 d = Vec3(l.position) - q.position;
+    Rings::Sum& s = rings.out[sectorOf(glm::dot(d, frame.tangent), glm::dot(d, frame.bitangent))]
+                             [stepOf(std::sqrt(double(n.squared)))];
+    const double w = deltalux::gray(l.flux);
+    s.flux += RgbSum(l.flux), s.gray += w, s.squares += w * w;
+  }
+  // Of every ring's part as much is surface as of the points in it and next to it.
+  std::array<std::vector<std::array<int, 2>>, kSectors> open;
+  const bool everywhere = std::all_of(around.open.begin(), around.open.end(), [](char o) { return o; });
+  for (int k = 0; k < kSectors; ++k) open[k].assign(steps, {0, 0});
+  for (int i = 0; i < kDisc && !everywhere; ++i) {
+    const Vec2 at = disc()[i];
+    auto& cell = open[sectorOf(at.x, at.y)][stepOf(q.radius * glm::length(at))];
+    ++cell[0], cell[1] += around.open[i];
+  }
+  for (int k = 0; k < kSectors; ++k) {
+    double share = 1;  // the point itself is on the surface
+    for (std::size_t j = 0; j < steps; ++j) {
+      if (!everywhere && open[k][j][0] > 0) share = double(open[k][j][1]) / open[k][j][0];
+      const double inner = j > 0 ? rings.radii[j - 1] : 0.0, outer = rings.radii[j];
+      rings.out[k][j].area = share * kPi * (outer * outer - inner * inner) / kSectors;
+      if (j > 0) Rings::add(rings.out[k][j], rings.out[k][j - 1], 1);
+    }
+  }
+  return rings;
+}
+
 Rgb ParticleField::estimate(Query& q, const Surroundings& around) const {
   if (around.blocked)
     std::erase_if(q.found, [&](const Neighbour& n) { return !inSight(q, Vec3(landings_[n.landing].position)); });
   if (q.found.empty()) return Rgb(0.0f);
-  // The share of the disc that is surface, as a function of the radius: by the points within.
-  const auto surface = [&](double share) {
-    double open = 1, all = 1;  // the point itself is on it
-    for (int i = 0; i < kDisc; ++i) {
-      const double k = kernel(glm::dot(disc()[i], disc()[i]) / (share * share));
-      all += k, open += around.open[i] * k;
-    }
-    return open / all;
+  const Rings rings = ringsOf(q, around);
+  const std::size_t steps = rings.radii.size();
+  const Rings::Sum all = rings.whole(steps - 1);
+  if (!(all.gray > 0) || !(all.area > 0)) return Rgb(0.0f);
+  // Where few have landed the noise is that of as many as land around on average.
+  const double typical = all.squares / all.area;
+  const auto noiseOf = [&](const Rings::Sum& s) {
+    return kConfidence * std::sqrt(std::max(s.squares, typical * s.area)) / s.area;
   };
-  const std::size_t few = std::min(kFewest, q.found.size());
-  double radius = std::min(q.radius, 1.2 * std::sqrt(double(q.found[few - 1].squared)));
-  radius = std::max(radius, 1e-6 * q.radius);
-  Rgb best(0.0f);
-  double low = -kInfinity, high = kInfinity;
-  for (;; radius = std::min(q.radius, radius * kStep)) {
-    RgbSum sum(0.0);
-    double squares = 0;
-    for (const Neighbour& n : q.found) {
-      const double k = kernel(n.squared / (radius * radius));
-      if (!(k > 0)) break;
-      const Rgb& w = landings_[n.landing].flux;
-      sum += k * RgbSum(w), squares += k * k * double(gray(w)) * gray(w);
-    }
-    const double area = 0.5 * kPi * radius * radius * surface(radius / q.radius);
-    const double E = gray(sum) / area, noise = kConfidence * std::sqrt(squares) / area;
+  double low = 0, high = kInfinity;
+  for (std::size_t j = 0; j < steps; ++j) {
+    const Rings::Sum s = rings.whole(j);
+    if (!(s.area > 0)) continue;
+    const double E = s.gray / s.area, noise = noiseOf(s);
+    if (E - noise > high || E + noise < low) break;
     low = std::max(low, E - noise), high = std::min(high, E + noise);
-    if (low > high) break;
-    best = Rgb(sum / area);
-    if (radius >= q.radius) break;
   }
-  return best;
+  Rings::Sum kept;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    kept = {};
+    for (const auto& sector : rings.out) {
+      std::size_t reach = 0;
+      for (std::size_t j = 0; j < steps; ++j) {
+        Rings::Sum part = sector[j];
+        if (j >= 2) Rings::add(part, sector[j - 2], -1);
+        if (part.area > 0) {
+          const double E = part.gray / part.area, noise = noiseOf(part);
+          if (E - noise > high || E + noise < low) break;
+        }
+        reach = j + 1;
+      }
+      if (reach > 0) Rings::add(kept, sector[reach - 1], 1);
+    }
+    if (!(kept.area > 0)) return Rgb(all.flux / all.area);
+    const double E = kept.gray / kept.area;
+    const double one = all.squares / static_cast<double>(q.found.size());  // of a single impact
+    const double noise = kConfidence * std::sqrt(std::max(kept.squares, one)) / kept.area;
+    low = E - noise, high = E + noise;
+  }
+  return Rgb(kept.flux / kept.area);
 }
 
 }  // namespace deltalux

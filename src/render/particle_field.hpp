@@ -1,12 +1,13 @@
 #pragma once
-// Irradiance of particles at any point: a kernel estimate over the impacts around it on the same surface side.
+// Irradiance of particles at any point: the flux of the impacts around it on the same surface side, over the area that
+// they fell on.
 //
-//   E(p) = sum of w_i K(|x_i - p| / r) / integral of K over what of the disc is surface in sight of p,  K = 1 - s^2
-//
-// The integral in the denominator keeps edges and corners from darkening, and leaves what stands on a surface, or is
-// behind a wall on it, out of account. The radius is the largest whose estimate agrees with those of all smaller ones
-// within their noise (intersection of confidence intervals [GN97]): wide where light is even, narrow at the edge of a
-// caustic; no threshold is set in lengths.
+// The disc around the point is cut into sectors, and each reaches as far as its light agrees with that at the point
+// within their noise: all round where light is even, and only to one side at the edge of a caustic (intersection of
+// confidence intervals [GN97], by directions [Foi07]). What is known at the point comes from discs that grow from less
+// than an impact on; an empty one tells, too: it must be as large as it is by chance. No threshold is set in lengths.
+// Area is what of the disc is surface in sight of the point: edges and corners do not darken, and what stands on a
+// surface, or is behind a wall on it, is left out of account.
 // Cost: a kd-tree over the impacts; a query takes some 10 microseconds.
 #include "particles/particles.hpp"
 #include "tracing/ray_tracer.hpp"
@@ -38,9 +39,9 @@ class ParticleField {
     PrimitiveId primitive;
     Vec3 position, normal;
     std::vector<Neighbour> found;  // ascending by distance
-    double radius = 0;             // of the widest kernel
+    double radius = 0;             // of the widest disc
   };
-  /// Points of the unit disc, and how much of the kernel around the query is surface in sight.
+  /// Points of the unit disc, and which of them around the query are surface in sight.
   struct Surroundings {
     std::vector<char> open;  // by disc point
     bool blocked = false;    // something stands on the surface: neighbours must be in sight, too
@@ -50,6 +51,9 @@ class ParticleField {
   void search(std::uint32_t begin, std::uint32_t end, Query&) const;
   Surroundings lookAround(const Query&) const;
   bool inSight(const Query&, const Vec3& q) const;
+  static constexpr int kSectors = 8;
+  struct Rings;
+  Rings ringsOf(const Query&, const Surroundings&) const;
   Rgb estimate(Query&, const Surroundings&) const;
 
   const Scene& scene_;
