@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "solution_source.hpp"
 
 #include <deltalux/engine.hpp>
@@ -24,7 +26,12 @@ SolutionView SolveOptions::solve(Scene scene, Run& run, const RunOptions& option
   SolveSettings withSeed = settings;
   withSeed.seed = options.seed;
   Engine engine(std::move(scene), withSeed);
-  noteSolve(engine.solve(&progress), run.report);
+  const SolveReport report = engine.solve(&progress);
+  noteSolve(report, run.report);
+  if (report.cutParticles > 0)
+    run.say(
+        fmt::format("warning: {} of {} particles were cut after 64 reflections and refractions; their light is lost",
+                    report.cutParticles, report.counts.particles));
   return engine.solution();
 }
 

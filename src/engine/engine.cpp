@@ -76,6 +76,7 @@ struct Engine::State {
     c.linksDs = s.particles.links.size();
     c.particles = s.particles.arrived();
     c.impacts = s.particles.impacts();
+    s.report.cutParticles = s.particles.cut();
     c.raysParticles += s.particles.rays + s.particles.looks;
     s.report.memory.particles = s.particles.memoryBytes();
   }

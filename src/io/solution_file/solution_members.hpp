@@ -16,8 +16,8 @@ void members(auto& archive, Is<EnergyLedger> auto& e) {
   transferAll(archive, emitted, absorbed, escaped, unsettled);
 }
 void members(auto& archive, Is<SolveReport> auto& r) {
-  auto& [times, counts, memory, energy, activeLinks, provenClear, provenBlocked, converged] = r;
-  transferAll(archive, times, counts, memory, energy, activeLinks, provenClear, provenBlocked, converged);
+  auto& [times, counts, memory, energy, activeLinks, provenClear, provenBlocked, cutParticles, converged] = r;
+  transferAll(archive, times, counts, memory, energy, activeLinks, provenClear, provenBlocked, cutParticles, converged);
 }
 
 void members(auto& archive, Is<Elements> auto& e) {
