@@ -12,6 +12,7 @@ namespace deltalux {
 namespace {
 
 constexpr int kLooks = 8;
+constexpr int kNearLooks = 48;
 constexpr double kMostLooks = 2048;
 constexpr int kFirstLooks = 512;  // at each root, for the sum of all flux
 constexpr double kNear = 0.4;     // radii of both ends over their distance, above which they are near
@@ -177,6 +178,11 @@ DsLinks refineDsLinks(const Scene& scene, const RayTracer& tracer, const Particl
         return divisible && j.flux > threshold && (near || (j.uneven && j.flux > kMuch * threshold));
       };
       v.split = splits();
+      // Of ends close to each other few pairs of places may carry most.
+      if (!v.split && near && divisible) {
+        j = judge.look(level[i], ~v.link.key, kNearLooks, rays[i / kBlock]);
+        v.split = splits();
+      }
       // Most links of which nothing was seen to arrive are blocked: hope is worth a closer look before it gets
       // particles. The more it might carry, the closer.
       if (!v.split && (!j.arrived || j.bound > kLooks * threshold)) {

@@ -7,7 +7,7 @@
 // A link's flux is estimated by a few first segments of its own, followed over one event (other numbers than the
 // particles': deciding and measuring by the same would lose the links that they happen to underrate), its senders'
 // exitance by coarse_exitance. Refinement does not know how many particles are asked for, so more of them contain the
-// fewer. Cost: kLooks rays a node of the link tree; about 1/kShare links for each of its levels.
+// fewer. Cost: 8 rays a node of the link tree, 56 where the ends are near, up to 2048 where much may be hidden.
 #include "particles/coarse_exitance.hpp"
 #include "particles/emission.hpp"
 

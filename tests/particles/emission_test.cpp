@@ -8,6 +8,7 @@
 
 #include "base/random.hpp"
 #include "particles/ds_links.hpp"
+#include "stats/chi_square.hpp"
 #include "stats/t_test.hpp"
 #include "support/rooms.hpp"
 
@@ -260,6 +261,76 @@ TEST(ParticleEmission, Sky) {
   DomeLight dome;
   dome.distribution = CieSky{12, 2.0, 0.3, glm::normalize(Vec3(-0.6, 0.2, 0.5))};
   expectPointFluxes(dome);
+}
+
+/// Counts of what `draw` yields against the chances that it says.
+template <class Draw>
+void expectChances(std::size_t cells, std::uint32_t first, const Draw& draw) {
+  std::vector<double> observed(cells, 0.0), expected(cells, 0.0);
+  constexpr int samples = 100000;
+  Rng rng(5, 2);
+  for (int i = 0; i < samples; ++i) {
+    const Senders::Choice c = draw(rng.uniform());
+    observed[c.cell - first] += 1;
+    expected[c.cell - first] = c.chance * samples;
+  }
+  const auto result = test::chiSquare(observed, expected);
+  EXPECT_GT(result.pValue, kSignificance) << result.message;
+}
+
+TEST(ParticleEmission, CellsAreDrawnByTheirChance) {
+  DomeLight dome;
+  dome.distribution = CieSky{12, 2.0, 0.3, glm::normalize(Vec3(-0.6, 0.2, 0.5))};
+  Scene scene = receivers();
+  test::addBox(scene, test::addMaterial(scene, "room", test::lambert(0.5f)), {-2, -2, -2}, {2, 2, 2}, true);
+  test::addLight(scene, dome);
+  const World world(std::move(scene));
+  const Senders& s = *world.senders;
+  for (const auto& roots : {s.lightRoots(), s.surfaceRoots()}) {
+    for (const std::uint32_t root : roots) {
+      const RadixNode& node = s.nodes()[root];
+      expectChances(node.end - node.begin, node.begin, [&](double u) { return s.choose(root, u); });
+    }
+  }
+  const std::uint32_t root = s.surfaceRoots().front();
+  const RadixNode& node = s.nodes()[root];
+  expectChances(node.end - node.begin, node.begin, [&](double u) {
+    return s.chooseNear(root, {Vec3(0.5, 0.5, -1.5), 0.4}, u);
+  });
+}
+
+/// Directions of a sky's cells and of the sun's disc, uniform in solid angle; points of lamps, uniform by area.
+TEST(ParticleEmission, PointsAndDirectionsAreUniform) {
+  Scene scene = receivers();
+  test::addLight(scene, SunLight{glm::normalize(Vec3(-0.6, 0.2, 0.5)), 0.3, Rgb(1.0f)});
+  const MaterialId lamp = test::addMaterial(scene, "lamp", Opaque{}, Emission{Rgb(20.0f), false, {}});
+  test::addShape(scene, lamp, Sphere{{0, 0, 3}, 0.5});
+  addAreaLights(scene);
+  const World world(std::move(scene));
+  const Senders& s = *world.senders;
+  constexpr int grid = 8, samples = 40000;
+  for (std::uint32_t cell = 0; cell < s.surfaceCells(); ++cell) {
+    const SenderCell& c = s.cells()[cell];
+    if (c.kind != SenderKind::Sun && c.kind != SenderKind::Lamp) continue;
+    const Vec3 axis = c.kind == SenderKind::Sun ? s.direction(cell, {0, 0}) : Vec3(0, 0, 1);
+    const Frame frame(axis);
+    std::vector<double> observed(grid * grid, 0.0), expected(grid * grid, double(samples) / (grid * grid));
+    Rng rng(9, cell);
+    for (int i = 0; i < samples; ++i) {
+      const double u0 = rng.uniform();
+      const Vec2 u{u0, rng.uniform()};
+      // Azimuth, and the height that caps and balls are even in.
+      const Vec3 d = c.kind == SenderKind::Sun ? s.direction(cell, u) : s.point(cell, u).normal;
+      double share = (1 - glm::dot(d, axis)) / (c.kind == SenderKind::Sun ? 1 - std::cos(0.3) : 2.0);
+      if (c.kind == SenderKind::Lamp) share = (1 - share - c.rect.v0) / (c.rect.v1 - c.rect.v0);
+      double turn = std::atan2(glm::dot(d, frame.bitangent), glm::dot(d, frame.tangent)) / (2 * kPi);
+      if (c.kind == SenderKind::Lamp) turn = (std::atan2(d.y, d.x) / (2 * kPi) - c.rect.u0) / (c.rect.u1 - c.rect.u0);
+      const auto bin = [](double x) { return std::clamp(static_cast<int>(std::floor(grid * x)), 0, grid - 1); };
+      observed[grid * bin(share) + bin(turn - std::floor(turn))] += 1;
+    }
+    const auto result = test::chiSquare(observed, expected);
+    EXPECT_GT(result.pValue, kSignificance) << result.message << " cell " << cell;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <map>
 
 #include "base/parallel.hpp"
+#include "particles/count_paths.hpp"
+#include "particles/trace.hpp"
 #include "particles/transfer.hpp"
 #include "radiosity/coarse_solution.hpp"
 #include "radiosity/push_pull.hpp"
@@ -139,6 +141,38 @@ TEST(Particles, DepositKeepsTheirFlux) {
   for (const Impact& i : impacts(p, elements, scene)) landed += RgbSum(i.flux);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(deposited[c] / landed[c], 1.0, 1e-4);
   EXPECT_EQ(transfer.lost(), 0);
+}
+
+/// A path is its link's key and its number: where its link stands among the others does not matter.
+TEST(Particles, OrderOfLinksDoesNotMatter) {
+  const Scene scene = room();
+  const auto tracer = makeEmbreeTracer(scene);
+  const Particles p = trace(scene, 5000);
+  const LightSampler lights(scene);
+  Senders senders(scene, lights);
+  const Receivers receivers(scene);
+  std::vector<float> strength(p.nominal);
+  senders.weigh(strength);
+  const ParticleEmission emission(scene, *tracer, senders, receivers);
+  DsLinks links;
+  for (const ParticleLink& l : p.links) links.all.push_back({l.ends, l.key, static_cast<float>(l.paths), 1.0f});
+  const auto paths = [&] {
+    Particles q;
+    q.senderCells = senders.cells(), q.nominal = strength;
+    countPaths(links, double(p.paths()), q);
+    tracePaths(scene, *tracer, emission, 64, q);
+    std::map<std::pair<std::uint64_t, std::uint32_t>, std::vector<Vec3f>> byName;
+    for (std::size_t i = 0; i < q.paths(); ++i) {
+      const ParticleLink& l = q.links[q.link[i]];
+      const auto v = q.verticesOf(i);
+      byName[{l.key, static_cast<std::uint32_t>(i - l.firstPath)}].assign(v.begin(), v.end());
+    }
+    return byName;
+  };
+  const auto first = paths();
+  std::reverse(links.all.begin(), links.all.end());
+  EXPECT_EQ(paths(), first);
+  EXPECT_GT(first.size(), 5000u);
 }
 
 TEST(Particles, NoneWithoutSpeculars) {
