@@ -160,7 +160,7 @@ void furnace(double rho, double error) {
   const double exact = kPi / (1 - static_cast<double>(static_cast<float>(rho)));
   for (const bool mesh : {false, true}) {
     ProbeSettings probing;
-    probing.mesh = mesh, probing.error = 0.001, probing.maxSamples = 1 << 18;
+    probing.mesh = mesh, probing.error = 0.0003, probing.maxSamples = 1 << 18;
     double worst = 0, noise = 0, sum = 0;
     for (const ProbeResult& r : probe(engine.solution(), points, probing)) {
       worst = std::max(worst, std::abs(r.irradiance.g / exact - 1));

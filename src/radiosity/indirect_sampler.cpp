@@ -66,7 +66,7 @@ IndirectSampler::Term IndirectSampler::term(ElementId leaf, ElementId sender, fl
   Term t{sender, 0.0f, open, 0.0f};
   const float B = strength(leaf, sender);
   if (!(B > 0)) return t;
-  t.K = static_cast<float>(kernelOf(sender));
+  t.K = static_cast<float>(kernelOf(sender, open >= 1.0f));
   if (!exact(sender)) t.K = std::max(t.K, leastKernel(elements_, elements_.shape(leaf).center, sender));
   t.weight = t.K * B * std::sqrt(open) * (exact(sender) ? 1.0f : kUneven);
   return t;
@@ -194,10 +194,11 @@ std::size_t IndirectSampler::atLeaf(ElementId leaf, int rays, std::vector<LeafTr
   const ElementGeometry& g = elements_.shape(leaf);
   const ElementNodes& n = elements_.nodes[leaf.index()];
   const float exposed = exposure_.of(leaf);
-  const auto kernelOf = [&](ElementId s) {
+  // What is in plain view has no noise that would hide an error of K.
+  const auto kernelOf = [&](ElementId s, bool clear) {
     const float reach = kNear * g.radius + elements_.shape(s).radius;
     const Vec3f d = elements_.shape(s).center - g.center;
-    if (elements_.at(leaf).flat && glm::dot(d, d) > reach * reach)
+    if (!clear && elements_.at(leaf).flat && glm::dot(d, d) > reach * reach)
       return kernelAtPoint(elements_, scene_, g.center, g.normal, s);
     double K = 0;
     for (int i = 0; i < 4; ++i)
@@ -216,7 +217,7 @@ Rgb IndirectSampler::atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal
   const PatchPoint x{p, normal};
   RgbSum E(0.0);
   sample(
-      leaf, x, rays, [&](ElementId s) { return kernelAtPoint(elements_, scene_, p, normal, s); },
+      leaf, x, rays, [&](ElementId s, bool) { return kernelAtPoint(elements_, scene_, p, normal, s); },
       [&](double, double) { return x; },
       [&](ElementId from, const Rgb& T) { E += RgbSum(T * elements_.radiometry[from.index()].B); });
   return Rgb(E);
