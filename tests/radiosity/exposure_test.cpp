@@ -1,0 +1,85 @@
+// What stands on a patch is not part of what light reaches of it.
+#include "radiosity/exposure.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/solved.hpp"
+
+namespace deltalux {
+namespace {
+
+using namespace test;
+
+/// A floor of 4 x 3 in a lit room, with a block of 0.7 x 0.8 on it.
+Scene roomWithABlock() {
+  Scene scene;
+  const MaterialId grey = addMaterial(scene, "grey", lambert(0.6f));
+  addBox(scene, grey, {0, 0, 0}, {4, 3, 2.5}, true);
+  addBox(scene, grey, {1.53, 1.04, 0}, {2.23, 1.84, 1.1}, false);
+  addPolygon(scene, addMaterial(scene, "lamp", lambert(0), Emission{Rgb(10.0f), false, {}}),
+             {{1, 1, 2.4}, {1, 1.6, 2.4}, {1.6, 1.6, 2.4}, {1.6, 1, 2.4}});
+  return scene;
+}
+
+template <class Visit>
+void forEachLeafOf(const Solution& s, PrimitiveId primitive, const Visit& visit) {
+  for (std::size_t i = 0; i < s.elements.size(); ++i) {
+    const ElementTopology& t = s.elements.topology[i];
+    if (t.kind == ElementKind::Patch && t.childCount == 0 && t.front && s.elements.domain[i].primitive == primitive)
+      visit(s.elements.geometry[i], s.elements.radiometry[i]);
+  }
+}
+
+PrimitiveId floorOf(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+    const SurfacePoint p = pointAt(scene.primitives[i].shape, {0.5, 0.5});
+    if (p.position.z == 0 && p.normal.z > 0.5) return PrimitiveId(i);
+  }
+  return {};
+}
+
+TEST(Exposure, IsTheFloorWithoutWhatStandsOnIt) {
+  const Engine engine = solved(roomWithABlock(), 0.1);
+  const Solution& s = engine.solution().get();
+  double lit = 0, area = 0;
+  int partly = 0;
+  forEachLeafOf(s, floorOf(s.scene), [&](const ElementGeometry& g, const ElementLight&) {
+    lit += g.litArea(), area += g.area;
+    partly += g.exposed < 1;
+  });
+  EXPECT_GT(partly, 3);
+  EXPECT_NEAR(area, 12, 1e-4);
+  // Leaves that are all under the block are dark and count as exposed.
+  EXPECT_LT(lit, 12 - 0.02);
+  EXPECT_GT(lit, 12 - 0.56 - 0.05);
+}
+
+// Leaves beside the block are as bright as the floor is there, not darker by the share that the block hides.
+TEST(Exposure, WhatPeepsOutIsAsBrightAsItsSurroundings) {
+  const Scene scene = roomWithABlock();
+  const Engine engine = solved(scene, 0.05);
+  const Solution& s = engine.solution().get();
+  int compared = 0;
+  for (std::size_t i = 0; i < s.elements.size(); ++i) {
+    const ElementTopology& t = s.elements.topology[i];
+    const ElementGeometry& g = s.elements.geometry[i];
+    if (t.kind != ElementKind::Patch || t.childCount > 0 || !t.front || t.emitter || g.exposed >= 0.85f) continue;
+    if (s.elements.domain[i].primitive != floorOf(s.scene) || g.exposed < 0.15f) continue;
+    // Points of the leaf beside the block's foot.
+    std::vector<ProbePoint> points;
+    for (int k = 0; k < 64; ++k) {
+      const Vec3 p(g.lower.x + (k % 8 + 0.5) / 8 * (g.upper.x - g.lower.x),
+                   g.lower.y + (k / 8 + 0.5) / 8 * (g.upper.y - g.lower.y), 0);
+      if (!(p.x > 1.53 && p.x < 2.23 && p.y > 1.04 && p.y < 1.84)) points.push_back({p, {0, 0, 1}});
+    }
+    double mean = 0;
+    for (const ProbeResult& r : measure(engine, points)) mean += gray(r.irradiance) / double(points.size());
+    const ElementLight& l = s.elements.radiometry[i];
+    EXPECT_NEAR(gray(l.direct + l.indirect), mean, 0.3 * mean) << i << ", exposed " << g.exposed;
+    ++compared;
+  }
+  EXPECT_GT(compared, 2);
+}
+
+}  // namespace
+}  // namespace deltalux
