@@ -7,57 +7,13 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "particles/bounce.hpp"
+#include "particles/path_block.hpp"
 
 namespace deltalux {
 
 namespace {
 
 constexpr std::size_t kBlock = 2048;
-
-/// What a block of paths made; vertices and impacts in the order in which they happened, then by path.
-struct BlockResult {
-  std::vector<std::uint32_t> vertexOf, impactOf;  // path within the block
-  std::vector<Vec3f> vertices;
-  std::vector<PrimitiveId> primitive;
-  std::vector<std::uint32_t> triangleAndSide;
-  std::vector<glm::vec2> uv;
-  std::vector<Rgb> throughput;
-  /// An account that is still open.
-  struct Account {
-    Rgb entered{0.0f}, passed{0.0f}, absorbed{0.0f}, left{0.0f};
-  };
-  // Per path.
-  std::vector<std::uint32_t> vertexCount, impactCount;
-  std::vector<Account> accounts;
-  std::vector<std::uint8_t> fate;
-  std::uint64_t rays = 0;
-
-  void addVertex(std::uint32_t path, const Vec3f& p) { vertexOf.push_back(path), vertices.push_back(p); }
-  void addImpact(std::uint32_t path, const Hit& hit, const glm::vec2& at, const Rgb& flux) {
-    impactOf.push_back(path);
-    primitive.push_back(hit.primitive);
-    triangleAndSide.push_back(2 * hit.triangle + (hit.front ? 0 : 1));
-    uv.push_back(at);
-    throughput.push_back(flux);
-  }
-};
-
-/// Puts entries that belong to `of` in its order, keeping their own within.
-template <class... Arrays>
-std::vector<std::uint32_t> sortByPath(const std::vector<std::uint32_t>& of, std::size_t paths, Arrays&... arrays) {
-  std::vector<std::uint32_t> counts(paths, 0), place(of.size());
-  for (const std::uint32_t p : of) ++counts[p];
-  std::vector<std::uint32_t> next(paths, 0);
-  for (std::size_t p = 1; p < paths; ++p) next[p] = next[p - 1] + counts[p - 1];
-  for (std::size_t i = 0; i < of.size(); ++i) place[i] = next[of[i]]++;
-  const auto permute = [&](auto& array) {
-    auto sorted = array;
-    for (std::size_t i = 0; i < of.size(); ++i) sorted[place[i]] = array[i];
-    array = std::move(sorted);
-  };
-  (permute(arrays), ...);
-  return counts;
-}
 
 class Tracing {
  public:
@@ -71,8 +27,8 @@ class Tracing {
         only_(only),
         far_(static_cast<float>(farDistance(scene))) {}
 
-  BlockResult trace(std::size_t begin, std::size_t end) const {
-    BlockResult r;
+  PathBlock trace(std::size_t begin, std::size_t end) const {
+    PathBlock r;
     r.accounts.resize(end - begin);
     r.fate.resize(end - begin);
     std::vector<Walker> walkers = emit(begin, end, r);
@@ -116,7 +72,7 @@ class Tracing {
 
   std::size_t pathAt(std::size_t i) const { return only_.empty() ? i : only_[i]; }
 
-  std::vector<Walker> emit(std::size_t begin, std::size_t end, BlockResult& r) const {
+  std::vector<Walker> emit(std::size_t begin, std::size_t end, PathBlock& r) const {
     const std::size_t count = end - begin;
     std::vector<FirstSegment> segments(count);
     std::vector<LinkEnds> ends(count);
@@ -153,7 +109,7 @@ class Tracing {
     return walkers;
   }
 
-  Walker begun(std::size_t global, std::uint32_t path, const Arrival& a, BlockResult& r) const {
+  Walker begun(std::size_t global, std::uint32_t path, const Arrival& a, PathBlock& r) const {
     const ParticleLink& link = particles_.links[particles_.link[global]];
     Walker w;
     w.path = path;
@@ -170,14 +126,14 @@ class Tracing {
     return w;
   }
 
-  void absorb(Walker& w, float distance, BlockResult& r) const {
+  void absorb(Walker& w, float distance, PathBlock& r) const {
     const Rgb before = w.throughput;
     w.throughput *= glm::pow(surfaces_.body(w.medium)->transmission, Rgb(distance));
     r.accounts[w.path].absorbed += before - w.throughput;
   }
 
   /// The next event at the walker's surface; false when the path ends there.
-  bool bounce(Walker& w, Ray& ray, BlockResult& r) const {
+  bool bounce(Walker& w, Ray& ray, PathBlock& r) const {
     const Rgb before = w.throughput;
     const EventNumbers u = eventNumbers(w.key, w.index, w.depth);
     const auto event = surfaces_.scatter(w.spot, w.direction, w.depth == 0, u);
@@ -202,7 +158,7 @@ class Tracing {
     return true;
   }
 
-  void book(const Walker& w, const Rgb& before, BlockResult::Account& account) const {
+  void book(const Walker& w, const Rgb& before, PathBlock::Account& account) const {
     if (surfaces_.takes(w.spot.primitive, w.spot.front)) {
       account.passed += w.throughput;
     } else if (w.depth == 0 && surfaces_.isPane(w.spot.primitive)) {
@@ -225,7 +181,7 @@ class Tracing {
   }
 
   /// Where the walker arrives next; false when the path ends there.
-  bool meet(Walker& w, const Hit& hit, BlockResult& r) const {
+  bool meet(Walker& w, const Hit& hit, PathBlock& r) const {
     if (!hit) {
       r.addVertex(w.path, w.spot.position + far_ * w.direction);
       r.accounts[w.path].left += w.throughput;
@@ -250,16 +206,16 @@ class Tracing {
   float far_;
 };
 
-PathAccount closed(const BlockResult::Account& a, std::size_t path) {
+PathAccount closed(const PathBlock::Account& a, std::size_t path) {
   const std::uint64_t chance = mix64(path);
   const auto bits = [&](int i) { return static_cast<std::uint32_t>(chance >> 12 * i); };
   return {{a.entered, bits(0)}, {a.passed, bits(1)}, {a.absorbed, bits(2)}, {a.left, bits(3)}};
 }
 
 /// Puts what blocks made behind what is there.
-void append(std::vector<BlockResult>& blocks, std::span<const std::uint32_t> only, Particles& p) {
+void append(std::vector<PathBlock>& blocks, std::span<const std::uint32_t> only, Particles& p) {
   std::vector<std::size_t> vertex{p.vertices.size()}, impact{p.impactSlots()};
-  for (const BlockResult& b : blocks) {
+  for (const PathBlock& b : blocks) {
     vertex.push_back(vertex.back() + b.vertices.size());
     impact.push_back(impact.back() + b.primitive.size());
     p.rays += b.rays;
@@ -271,7 +227,7 @@ void append(std::vector<BlockResult>& blocks, std::span<const std::uint32_t> onl
   p.uv.resize(impact.back());
   p.throughput.resize(impact.back());
   parallelFor(blocks.size(), 1, [&](std::size_t b) {
-    BlockResult& r = blocks[b];
+    PathBlock& r = blocks[b];
     auto v = static_cast<std::uint32_t>(vertex[b]), i = static_cast<std::uint32_t>(impact[b]);
     for (std::size_t k = 0; k < r.vertexCount.size(); ++k) {
       const std::size_t path = only.empty() ? b * kBlock + k : only[b * kBlock + k];
@@ -297,7 +253,7 @@ void trace(const Scene& scene, const RayTracer& tracer, const ParticleEmission& 
            std::span<const std::uint32_t> only, std::size_t count) {
   DELTALUX_CHECK(maxDepth < 0xffff, "at most 65534 events");
   const Tracing tracing(scene, tracer, emission, p, maxDepth, only);
-  std::vector<BlockResult> blocks((count + kBlock - 1) / kBlock);
+  std::vector<PathBlock> blocks((count + kBlock - 1) / kBlock);
   parallelBlocks(count, kBlock,
                  [&](std::size_t begin, std::size_t end) { blocks[begin / kBlock] = tracing.trace(begin, end); });
   append(blocks, only, p);
