@@ -1,6 +1,8 @@
 #pragma once
 // The engine orders the passes: coarse solution, hierarchy, and then rounds of refinement and gathering with a falling
-// error, each round a consistent, converged solution.
+// error, each round a consistent, converged solution. Edits of the scene then cost what they change: updates of a
+// solved scene follow the links that what moved can touch. [GD01 5]
+#include <deltalux/edit.hpp>
 #include <deltalux/progress.hpp>
 #include <deltalux/solution.hpp>
 
@@ -10,6 +12,9 @@ class Engine {
  public:
   /// Takes the scene over. Throws std::logic_error when the scene does not validate.
   explicit Engine(Scene, SolveSettings = {});
+  /// Goes on with a solved scene, such as one from a file. The solution is taken over when nobody else holds it, and
+  /// copied otherwise.
+  explicit Engine(SolutionView);
   ~Engine();
   Engine(Engine&&) noexcept;
   Engine& operator=(Engine&&) noexcept;
@@ -19,6 +24,12 @@ class Engine {
   SolveReport step(Progress* progress = nullptr);
   /// Steps until the target is met or the time is up.
   SolveReport solve(Progress* progress = nullptr);
+
+  /// Takes an edit in, for the next update. Throws InputError (applyEdit) and is as before.
+  void apply(const Edit&);
+  /// Brings the solution to what all edits since have made of the scene: what a fresh solve would give, within the
+  /// error target's own noise. Solves first what is not solved. Things that were added make it solve the scene afresh.
+  StepReport update(Progress* progress = nullptr);
 
   SolutionView solution() const;
 

@@ -27,6 +27,7 @@ class SolutionView {
   explicit SolutionView(std::shared_ptr<const Solution> solution) : solution_(std::move(solution)) {}
 
   const Solution& get() const { return *solution_; }
+  const std::shared_ptr<const Solution>& share() const { return solution_; }
   const Scene& scene() const;
   const SolveSettings& settings() const;
   const SolveReport& report() const;

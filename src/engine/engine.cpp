@@ -1,19 +1,24 @@
 #include <deltalux/engine.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <deltalux/error.hpp>
+#include <utility>
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "engine/energy_balance.hpp"
 #include "engine/particle_count.hpp"
+#include "engine/scene_update.hpp"
 #include "engine/time_budget.hpp"
 #include "hierarchy/build.hpp"
+#include "hierarchy/input_level.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/reached_sides.hpp"
 #include "particles/transfer.hpp"
 #include "radiosity/coarse_solution.hpp"
 #include "radiosity/gather.hpp"
+#include "radiosity/line_space.hpp"
 #include "radiosity/push_pull.hpp"
 #include "radiosity/refine.hpp"
 #include "scene/diffuse_only.hpp"
@@ -28,7 +33,9 @@ constexpr double kLastError = 20.0;    // in the last: what links leave, the lea
 constexpr double kErrorFactor = 0.35;  // from round to round
 constexpr double kHasty = 8.0;         // first round when time is limited, against the first otherwise
 constexpr double kSettled = 1e-3;      // unsettled power, relative to emitted
+constexpr double kSettledRows = 1e-4;  // over rows, where an iteration costs next to nothing
 constexpr int kMaxIterations = 64;
+constexpr int kMaxRowIterations = 1024;
 
 class Clock {
  public:
@@ -46,6 +53,19 @@ struct Engine::State {
   bool finished = false;  // the last round has run
   Clock clock;
   TimeBudget budget{0};
+  SceneUpdate pending;  // edits since the last update
+
+  SolveReport step(Progress* progress) {
+    const Clock time;
+    Solution& s = *solution;
+    if (!s.elements.sceneRoot.valid() && s.elements.size() == 0) prepare(progress);
+    if (s.elements.sceneRoot.valid())
+      round(progress);
+    else
+      s.report.converged = finished = true;
+    s.report.times.total += time.seconds();
+    return s.report;
+  }
 
   void prepare(Progress* progress) {
     Solution& s = *solution;
@@ -148,25 +168,132 @@ struct Engine::State {
     return gray(unsettled) <= kSettled * gray(emitted);
   }
 
+  /// What a fresh solve would make of the edited scene, from the solution there is. [GD01 5]
+  StepReport update(Progress* progress) {
+    const Clock time;
+    StepReport step;
+    step.op = pending.op, step.object = pending.subject;
+    const SceneUpdate edits = std::exchange(pending, {});
+    if (edits.grown) {
+      solveAfresh(progress);
+      step.times.total = time.seconds();
+      return step;
+    }
+    relight(edits);
+    if (!edits.moved.empty() || !edits.movedLights.empty()) move(edits, step);
+    const Clock gathering;
+    settleRows(progress);
+    step.times.gather += gathering.seconds();
+    count();
+    step.times.total = time.seconds();
+    return step;
+  }
+
+  /// There is no place in the trees for what was not there.
+  void solveAfresh(Progress* progress) {
+    Solution& s = *solution;
+    s.tracer = makeEmbreeTracer(s.scene);
+    s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.report = {};
+    finished = false;
+    clock = {};
+    while (!finished) step(progress);
+  }
+
+  /// Emission and reflectance of what stays where it was.
+  void relight(const SceneUpdate& edits) {
+    Solution& s = *solution;
+    for (const ElementId e : elementsOf(s.elements, edits.dimmed)) setEmission(s.elements, s.scene, e);
+    std::vector<PrimitiveId> repainted;
+    for (std::size_t i = 0; i < s.scene.primitives.size(); ++i)
+      if (std::find(edits.materials.begin(), edits.materials.end(), s.scene.primitives[i].material) !=
+          edits.materials.end())
+        repainted.emplace_back(i);
+    for (const ElementId e : elementsOf(s.elements, repainted))
+      if (!s.elements.at(e).emitter) setReflectance(s.elements, s.scene, e);
+  }
+
+  void move(const SceneUpdate& edits, StepReport& step) {
+    Solution& s = *solution;
+    const Clock time;
+    std::vector<PrimitiveId> primitives;
+    SpaceChange before, after, change;
+    for (const SceneChange::Moved& m : edits.moved) {
+      primitives.push_back(m.primitive);
+      before.add(m.before), change.add(m.before);
+    }
+    for (const PrimitiveId id : primitives)
+      if (const Box box = bounds(s.scene[id].shape); !box.empty()) after.add(box), change.add(box);
+    std::vector<ElementId> inputs = elementsOf(s.elements, primitives);
+    const std::vector<ElementId> lights = elementsOf(s.elements, edits.movedLights);
+    inputs.insert(inputs.end(), lights.begin(), lights.end());
+    change.setMoved(subtrees(s.elements, inputs));
+
+    LinkMarks marks;
+    LineSpace(s.links, s.elements, s.scene, change).visit(before, false, marks);
+    reshape(s.elements, s.scene, inputs);
+    s.tracer = makeEmbreeTracer(s.scene);
+    LineSpace(s.links, s.elements, s.scene, change).visit(after, true, marks);
+    step.linksVisited = marks.visited;
+    step.times.visibility = time.seconds();
+
+    const Clock refining;
+    OracleSettings oracle;
+    oracle.error = s.settings.error * kLastError;
+    std::vector<LinkId> changed;
+    const RefineReport refined = rejudge(s.links, s.elements, s.scene, *s.tracer, oracle, marks, changed);
+    DELTALUX_VALIDATED(validate(s.links, s.elements));
+    step.linksChanged = changed.size();
+    step.times.refine = refining.seconds();
+    const Clock gathering;
+    const LeafUpdateReport rows =
+        s.transfers.update(s.elements, s.links, s.scene, *s.tracer, leafSettings(), marks, changed, change);
+    DELTALUX_VALIDATED(s.transfers.validate(s.elements, s.links));
+    s.report.counts.raysVisibility += refined.rays + rows.rays;
+    step.times.gather = gathering.seconds();
+  }
+
+  static std::vector<char> subtrees(const Elements& elements, const std::vector<ElementId>& tops) {
+    std::vector<char> in(elements.size(), 0);
+    for (const ElementId e : tops) in[e.index()] = 1;
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      const ElementTopology& t = elements.topology[i];
+      if (t.parent.valid() && t.depth > 0 && in[t.parent.index()]) in[i] = 1;
+    }
+    return in;
+  }
+
+  LeafTransferSettings leafSettings() const {
+    LeafTransferSettings settings;
+    settings.error = solution->settings.error;
+    return settings;
+  }
+
   /// The links' transfers resolved to leaves, and settled again.
   bool resolve(const LeafTransferSettings& settings, Progress* progress) {
     Solution& s = *solution;
     const LeafTransferReport r = s.transfers.build(s.elements, s.links, s.scene, *s.tracer, settings);
     s.report.counts.raysVisibility += r.rays;
+    return settleRows(progress);
+  }
+
+  /// Gathers over rows, from the light there is, until it no longer changes.
+  bool settleRows(Progress* progress) {
+    Solution& s = *solution;
     RgbSum unsettled(0.0);
     s.transfers.gatherDirect(s.elements);
+    pull(s.elements);
     const RgbSum emitted = directPower();
     const ParticleTransfer particles(s.particles, s.elements, s.scene);
-    for (int i = 0; i < kMaxIterations; ++i) {
+    for (int i = 0; i < kMaxRowIterations; ++i) {
       s.transfers.gatherIndirect(s.elements);
       particles.apply(s.elements, s.scene);
       unsettled = pull(s.elements);
       ++s.report.counts.iterations;
       if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
-      if (gray(unsettled) <= kSettled * gray(emitted)) break;
+      if (gray(unsettled) <= kSettledRows * gray(emitted)) break;
     }
     s.report.energy = energyBalance(s, unsettled);
-    return gray(unsettled) <= kSettled * gray(emitted);
+    return gray(unsettled) <= kSettledRows * gray(emitted);
   }
 
   RgbSum directPower() const {
@@ -212,22 +339,31 @@ Engine::~Engine() = default;
 Engine::Engine(Engine&&) noexcept = default;
 Engine& Engine::operator=(Engine&&) noexcept = default;
 
-SolveReport Engine::step(Progress* progress) {
-  const Clock time;
-  Solution& s = *state_->solution;
-  if (!s.elements.sceneRoot.valid() && s.elements.size() == 0) state_->prepare(progress);
-  if (s.elements.sceneRoot.valid())
-    state_->round(progress);
-  else
-    s.report.converged = state_->finished = true;
-  s.report.times.total += time.seconds();
-  return s.report;
-}
+SolveReport Engine::step(Progress* progress) { return state_->step(progress); }
 
 SolveReport Engine::solve(Progress* progress) {
   SolveReport report = step(progress);
   while (!state_->finished) report = step(progress);
   return report;
+}
+
+Engine::Engine(SolutionView view) : state_(std::make_unique<State>()) {
+  const std::shared_ptr<const Solution> held = view.share();
+  view = SolutionView(nullptr);
+  if (held.use_count() == 1) {
+    state_->solution = std::const_pointer_cast<Solution>(held);
+  } else {
+    state_->solution = std::make_shared<Solution>(*held);
+    state_->solution->tracer = makeEmbreeTracer(state_->solution->scene);
+  }
+  state_->finished = !state_->solution->transfers.empty() || state_->solution->elements.size() == 0;
+}
+
+void Engine::apply(const Edit& edit) { applyInto(state_->pending, state_->solution->scene, edit); }
+
+StepReport Engine::update(Progress* progress) {
+  if (!state_->finished) solve(progress);
+  return state_->update(progress);
 }
 
 SolutionView Engine::solution() const { return SolutionView(state_->solution); }

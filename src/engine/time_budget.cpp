@@ -5,6 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "radiosity/direct_sampler.hpp"
+#include "radiosity/indirect_sampler.hpp"
 
 namespace deltalux {
 
@@ -46,9 +47,9 @@ double leafRoundSeconds(const Elements& elements, const Links& links, const Scen
   const auto start = std::chrono::steady_clock::now();
   parallelFor(n, 4, [&](std::size_t i) {
     const ElementId leaf = leaves[i * leaves.size() / n];
-    std::vector<LeafTransfer> row;
     direct.at(leaf, settings.shadowRays);
-    indirect.atLeaf(leaf, settings.gatherRays, row);
+    std::uint64_t traced = 0;
+    indirect.atLeaf(leaf, settings.gatherRays, traced);
   });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return kSplitting * seconds * static_cast<double>(leaves.size()) / static_cast<double>(n);

@@ -7,7 +7,9 @@
 
 #include "base/check.hpp"
 #include "base/random.hpp"
+#include "hierarchy/input_level.hpp"
 #include "hierarchy/patch.hpp"
+#include "scene/edit/plan.hpp"
 
 namespace deltalux {
 
@@ -30,13 +32,10 @@ struct Node {
   std::vector<Group> groups;
 };
 
-/// Glass has no diffuse side: it blocks or attenuates, and hands on specular light.
-bool passesStraight(const Material& material) {
-  return isThinGlass(material) || std::holds_alternative<Dielectric>(material.surface);
-}
-
+/// Where the surface is at rest: edits move things within the clusters that they were built into, and a scene that was
+/// edited gets the same ones.
 Box boundsOf(const Scene& scene, PrimitiveId primitive, std::uint32_t triangle) {
-  const Shape& shape = scene[primitive].shape;
+  const Shape& shape = edits::restShape(scene, primitive);
   const auto* mesh = std::get_if<Mesh>(&shape);
   if (!mesh) return bounds(shape);
   Box box;
@@ -151,47 +150,22 @@ class Builder {
   void shapeInput(ElementId e, const SurfaceSide& side, bool emitter) {
     ElementTopology& t = elements_.topology[e.index()];
     PatchDomain& d = elements_.domain[e.index()];
-    const Primitive& primitive = scene_[side.primitive];
     t.front = side.front;
     d.primitive = side.primitive, d.triangle = side.triangle;
     elements_.key[e.index()] =
         combineKeys(combineKeys(side.primitive.value, side.triangle), (side.front ? 4u : 8u) + emitter);
-    std::vector<Vec2> outline;
-    if (const auto* polygon = std::get_if<Polygon>(&primitive.shape)) {
-      outline.reserve(polygon->vertices.size());
-      for (const Vec3& p : polygon->vertices) outline.push_back(parameterAt(primitive.shape, p));
-      elements_.frames.push_back({polygon->origin, polygon->edgeU, polygon->edgeV, polygon->normal});
-      t.flat = true;
-    } else if (const auto* mesh = std::get_if<Mesh>(&primitive.shape)) {
-      const auto& triangle = mesh->triangles[side.triangle];
-      const Vec3 p0 = mesh->positions[triangle[0]], e1 = mesh->positions[triangle[1]] - p0,
-                 e2 = mesh->positions[triangle[2]] - p0;
-      outline = {{0, 0}, {1, 0}, {0, 1}};
-      const Vec3 n = glm::cross(e1, e2);
-      const double length = glm::length(n);
-      elements_.frames.push_back({p0, e1, e2, length > 0 ? n / length : Vec3(0, 0, 1)});
-      t.flat = true;
-    }
-    if (t.flat) {
-      d.frame = static_cast<std::uint32_t>(elements_.frames.size() - 1);
-      d.outline = static_cast<std::uint32_t>(elements_.outlines.size());
-      d.outlineSize = static_cast<std::uint32_t>(outline.size());
-      elements_.outlines.insert(elements_.outlines.end(), outline.begin(), outline.end());
-    }
+    addPlane(elements_, scene_, e);
     shapePatch(elements_, scene_, e);
     // In a slot (a lamp just below the ceiling) the surface's own size is the scale that matters.
     ElementGeometry& g = elements_.geometry[e.index()];
     g.meanFreePath = std::max(side.meanFreePath, std::sqrt(g.area));
-    const Material& material = scene_.materialOf(side.primitive);
     ElementLight& r = elements_.radiometry[e.index()];
     if (emitter) {
       elements_.light[e.index()] = lightOf(side.primitive);
-      r.B = float(kPi) * material.emission->radiance * scene_[elements_.light[e.index()]].scale;
+      setEmission(elements_, scene_, e);
       return;
     }
-    t.blocker = passesStraight(material);
-    r.rho = diffuseReflectance(material, side.front);
-    r.tau = diffuseTransmittance(material);
+    setReflectance(elements_, scene_, e);
     r.indirect = side.irradiance;
     r.B = r.rho * side.irradiance;
     r.tolerance = r.typical = side.typicalIrradiance;
@@ -200,25 +174,7 @@ class Builder {
   void shapePoint(ElementId e, LightId light) {
     elements_.light[e.index()] = light;
     elements_.key[e.index()] = combineKeys(light.value, 16);
-    const Light& l = scene_[light];
-    ElementGeometry& g = elements_.geometry[e.index()];
-    std::visit(
-        [&](const auto& emitter) {
-          using T = std::decay_t<decltype(emitter)>;
-          if constexpr (requires { emitter.position; }) {
-            g.center = Vec3f(emitter.position);
-            if constexpr (std::is_same_v<T, PhotometricLight>)
-              elements_.radiometry[e.index()].B = emitter.scale * l.scale;
-            else
-              elements_.radiometry[e.index()].B = emitter.intensity * l.scale;
-          }
-        },
-        l.emitter);
-    g.lower = g.upper = g.center;
-    for (int q = 0; q < 4; ++q) {
-      elements_.nodes[e.index()].position[q] = g.center;
-      elements_.nodes[e.index()].weight[q] = 0.25f;
-    }
+    shapePointLight(elements_, scene_, e);
   }
 
   LightId lightOf(PrimitiveId primitive) {
@@ -233,54 +189,17 @@ class Builder {
     return light;
   }
 
-  /// Extent of a cluster from its children: boxes, areas, and four surface points at even steps of area.
   void pull(ElementId e) {
     if (!elements_.isCluster(e)) return;
-    Box box;
-    double area = 0, path = 0;
-    Vec3 center(0.0);
+    for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) pull(elements_.child(e, i));
+    shapeCluster(elements_, e);
+    ElementGeometry& g = elements_.geometry[e.index()];
+    double path = 0;
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) {
       const ElementId c = elements_.child(e, i);
-      pull(c);
-      const ElementGeometry& g = elements_.shape(c);
-      box.extend(elements_.box(c));
-      if (elements_.at(c).blocker) continue;
-      area += g.area;
-      path += double(g.area) * g.meanFreePath;
-      center += double(g.area) * Vec3(g.center);
+      if (!elements_.at(c).blocker) path += double(elements_.shape(c).area) * elements_.shape(c).meanFreePath;
     }
-    ElementGeometry& g = elements_.geometry[e.index()];
-    g.lower = Vec3f(box.lower), g.upper = Vec3f(box.upper);
-    g.area = static_cast<float>(area);
-    g.center = Vec3f(area > 0 ? center / area : box.center());
-    g.meanFreePath = area > 0 ? static_cast<float>(path / area) : 0.0f;
-    g.radius = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3f p{corner & 1 ? g.lower.x : g.upper.x, corner & 2 ? g.lower.y : g.upper.y,
-                    corner & 4 ? g.lower.z : g.upper.z};
-      g.radius = std::max(g.radius, glm::length(p - g.center));
-    }
-    for (int q = 0; q < 4; ++q) {
-      double rest = (q + 0.5) / 4 * area;
-      ElementId c = e;
-      while (elements_.isCluster(c)) {
-        ElementId next = elements_.child(c, elements_.at(c).childCount - 1u);
-        for (std::size_t i = 0; i < elements_.at(c).childCount; ++i) {
-          const ElementId candidate = elements_.child(c, i);
-          const double part = elements_.at(candidate).blocker ? 0.0 : double(elements_.shape(candidate).area);
-          if (rest < part) {
-            next = candidate;
-            break;
-          }
-          rest -= part;
-        }
-        c = next;
-      }
-      ElementNodes& n = elements_.nodes[e.index()];
-      n.position[q] = elements_.nodes[c.index()].position[q];
-      n.normal[q] = elements_.nodes[c.index()].normal[q];
-      n.weight[q] = 0.25f;
-    }
+    g.meanFreePath = g.area > 0 ? static_cast<float>(path / g.area) : 0.0f;
   }
 
   /// In a slot (between a frame and its wall) light varies over little, but what surrounds the slot sets the scale on

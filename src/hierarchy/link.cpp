@@ -2,9 +2,10 @@
 
 namespace deltalux {
 
-LinkId Links::addRoot(ElementId receiver, ElementId sender) {
+LinkId Links::addRoot(ElementId receiver, ElementId sender, bool fromLight) {
   const LinkId id(all.size());
   all.emplace_back();
+  all.back().fromLight = fromLight;
   roots.push_back(id);
   setEnds(id, receiver, sender);
   return id;
@@ -22,7 +23,9 @@ LinkId Links::addChildren(LinkId parent, std::size_t count) {
     Link& child = all[firstChild.index() + i];
     child = {};
     child.parent = parent;
+    child.fromLight = all[parent.index()].fromLight;
   }
+  unlist(parent);
   Link& above = all[parent.index()];
   above.state = LinkState::Interior;
   above.firstChild = firstChild;
@@ -32,30 +35,45 @@ LinkId Links::addChildren(LinkId parent, std::size_t count) {
 
 void Links::setEnds(LinkId id, ElementId receiver, ElementId sender) {
   all[id.index()].receiver = receiver, all[id.index()].sender = sender;
-  addArriving(id);
 }
 
-void Links::addArriving(LinkId id) {
+void Links::judged(LinkId id, const Link& as) {
   Link& l = all[id.index()];
-  if (l.receiver.index() >= arriving.size()) arriving.resize(l.receiver.index() + 1);
-  LinkId& head = arriving[l.receiver.index()];
-  l.nextArriving = head, l.previousArriving = {};
-  if (head.valid()) all[head.index()].previousArriving = id;
-  head = id;
+  l.K = as.K, l.V = as.V;
+  l.receiverSpread = as.receiverSpread, l.senderSpread = as.senderSpread, l.visibilitySpread = as.visibilitySpread;
+  l.sampleMask = as.sampleMask, l.samples = as.samples, l.visibility = as.visibility;
+  if (l.state != LinkState::Interior) l.state = as.state;
+  if (l.carries() && !l.listed) list(id);
+  if (!l.carries() && l.listed) unlist(id);
+}
+
+void Links::list(LinkId id) {
+  Link& l = all[id.index()];
+  const std::size_t at = 2 * l.receiver.index() + l.fromLight;
+  if (at >= arriving.size()) arriving.resize(at + 1);
+  l.nextArriving = arriving[at], l.previousArriving = {};
+  if (arriving[at].valid()) all[arriving[at].index()].previousArriving = id;
+  arriving[at] = id;
+  l.listed = true;
+}
+
+void Links::unlist(LinkId id) {
+  Link& l = all[id.index()];
+  if (!l.listed) return;
+  if (l.nextArriving.valid()) all[l.nextArriving.index()].previousArriving = l.previousArriving;
+  LinkId& before = l.previousArriving.valid() ? all[l.previousArriving.index()].nextArriving
+                                              : arriving[2 * l.receiver.index() + l.fromLight];
+  before = l.nextArriving;
+  l.nextArriving = l.previousArriving = {};
+  l.listed = false;
 }
 
 void Links::listArriving() {
   arriving.clear();
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i].state != LinkState::Free) addArriving(LinkId(i));
-}
-
-void Links::removeArriving(LinkId id) {
-  const Link& l = all[id.index()];
-  if (l.nextArriving.valid()) all[l.nextArriving.index()].previousArriving = l.previousArriving;
-  LinkId& before =
-      l.previousArriving.valid() ? all[l.previousArriving.index()].nextArriving : arriving[l.receiver.index()];
-  before = l.nextArriving;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].listed = false;
+    if (all[i].state != LinkState::Free && all[i].carries()) list(LinkId(i));
+  }
 }
 
 void Links::collapse(LinkId id, const std::function<void(LinkId)>& gone) {
@@ -64,7 +82,7 @@ void Links::collapse(LinkId id, const std::function<void(LinkId)>& gone) {
   for (std::size_t i = 0; i < count; ++i) {
     const LinkId c(firstChild.index() + i);
     if (all[c.index()].childCount > 0) collapse(c, gone);
-    removeArriving(c);
+    unlist(c);
     if (gone) gone(c);
     all[c.index()] = {};
     all[c.index()].state = LinkState::Free;
@@ -73,6 +91,7 @@ void Links::collapse(LinkId id, const std::function<void(LinkId)>& gone) {
   free[count].push_back(firstChild);
   Link& l = all[id.index()];
   l.state = LinkState::Active, l.childCount = 0, l.firstChild = {};
+  if (l.carries()) list(id);
 }
 
 std::size_t Links::memoryBytes() const { return all.capacity() * sizeof(Link) + arriving.capacity() * sizeof(LinkId); }

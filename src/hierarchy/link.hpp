@@ -35,7 +35,12 @@ struct Link {
   std::uint8_t samples = 0;
   LinkState state = LinkState::Active;
   Visibility visibility = Visibility::Unknown;
-  std::uint8_t unused[3] = {0, 0, 0};  // whole words: files hold the record as it is
+  bool fromLight = false;   // the sender is an emitter
+  bool listed = false;      // among those that arrive at its receiver
+  std::uint8_t unused = 0;  // whole words: files hold the record as it is
+
+  /// Whether it can bring its receiver light.
+  bool carries() const { return state == LinkState::Active && visibility != Visibility::Blocked; }
 };
 
 class Links {
@@ -51,25 +56,29 @@ class Links {
   LinkId child(LinkId id, std::size_t i) const {
     return LinkId(all[id.index()].firstChild.value + static_cast<std::uint32_t>(i));
   }
-  /// All links of a receiver, whatever their state, last made first: for (id = first(e); id.valid(); id = next).
-  LinkId first(ElementId receiver) const {
-    return receiver.index() < arriving.size() ? arriving[receiver.index()] : LinkId();
+  /// The links that carry light to a receiver from surfaces, or from lights, last made first:
+  /// for (id = first(e, lights); id.valid(); id = links[id].nextArriving).
+  LinkId first(ElementId receiver, bool fromLights) const {
+    const std::size_t at = 2 * receiver.index() + fromLights;
+    return at < arriving.size() ? arriving[at] : LinkId();
   }
 
   /// A link without a parent.
-  LinkId addRoot(ElementId receiver, ElementId sender);
+  LinkId addRoot(ElementId receiver, ElementId sender, bool fromLight);
   /// `count` contiguous links below `parent`, which becomes Interior. The caller sets their ends by setEnds.
   LinkId addChildren(LinkId parent, std::size_t count);
   void setEnds(LinkId, ElementId receiver, ElementId sender);
+  /// Gives a link what it was judged to be; its place in the tree stays. The one way to change links.
+  void judged(LinkId, const Link&);
   /// Frees all links below an interior link, which becomes Active. Calls `gone` with each.
   void collapse(LinkId, const std::function<void(LinkId)>& gone = {});
-  /// Makes the lists of arriving links anew, in the order of the links.
+  /// Makes the lists of links that arrive anew, in the order of the links.
   void listArriving();
   std::size_t memoryBytes() const;
 
  private:
-  void addArriving(LinkId);
-  void removeArriving(LinkId);
+  void list(LinkId);
+  void unlist(LinkId);
 };
 
 /// Checks the tree: children cover exactly the pairs of their parent, transfers are finite and not negative, leaves

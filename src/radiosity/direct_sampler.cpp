@@ -12,12 +12,15 @@ namespace deltalux {
 
 namespace {
 
+constexpr int kMostRays = 128;        // for one light
+constexpr int kFacingTries = 8;       // more points of a light when some face away
 constexpr int kFewestCurved = 8;      // rays of a curved light: they measure K too
 constexpr float kUnseenShare = 0.5f;  // most rays of one light that the links never saw, against all that they saw
 
 }  // namespace
 
 struct DirectSampler::Term {
+  LinkId link;
   ElementId sender;
   bool curved = false, clear = false, seen = false;
   float K = 0;
@@ -40,7 +43,7 @@ DirectSampler::DirectSampler(const Scene& scene, const Elements& elements, const
 
 DirectSampler::Term DirectSampler::term(ElementId leaf, const PossibleSender& s) const {
   Term t;
-  t.sender = s.sender;
+  t.link = s.link, t.sender = s.sender;
   t.clear = s.rays == 0 && s.open >= 1.0f;
   t.seen = s.open > 0;
   t.curved = elements_.isPatch(s.sender) && !elements_.at(s.sender).flat;
@@ -75,7 +78,8 @@ DirectRow DirectSampler::at(ElementId leaf, int rays) const {
   for (const Term& t : terms) {
     const std::uint64_t key = combineKeys(place, elements_.key[t.sender.index()]);
     if (t.clear && !t.curved) {
-      row.lights.push_back({t.sender, Rgb(t.K)});
+      row.row.terms.push_back({t.link, t.sender, 1.0f, 0, 1, true});
+      row.row.transfers.push_back({t.sender, Rgb(t.K)});
       const double B = gray(elements_.radiometry[t.sender.index()].B);
       for (std::size_t q = 0; q < 4; ++q) quadrants.E[q] += B * t.at[q];
       continue;
@@ -85,7 +89,7 @@ DirectRow DirectSampler::at(ElementId leaf, int rays) const {
       if (toUnit(mix64(combineKeys(key, 1))) < share) sample(leaf, t, 1, 1.0f / share, key, row, quadrants);
       continue;
     }
-    const int n = std::max(static_cast<int>(std::ceil(share)), t.curved ? kFewestCurved : 1);
+    const int n = std::clamp(static_cast<int>(std::ceil(share)), t.curved ? kFewestCurved : 1, kMostRays);
     sample(leaf, t, n, 1.0f, key, row, quadrants);
   }
   const ElementNodes& n = elements_.nodes[leaf.index()];
@@ -97,63 +101,100 @@ DirectRow DirectSampler::at(ElementId leaf, int rays) const {
     chance += n.weight[q] * quadrants.chance[q];
   }
   row.exposed = exposure_.of(leaf);
-  for (LeafTransfer& t : row.lights) t.T /= row.exposed;
   row.mean /= row.exposed;
   row.variation = std::sqrt(std::max(0.0, between - chance)) / row.exposed;
   return row;
 }
 
+/// One shadow ray. A light that is sampled by solid angle brings its radiance times cosine over density.
+struct DirectSampler::Shot {
+  Ray ray;
+  double weight = 0;  // not above 0: light and place do not face each other
+  Rgb radiance{0.0f};
+  std::size_t quadrant = 0;
+};
+
+bool DirectSampler::sampledByAngle(ElementId sender) const {
+  const ElementTopology& t = elements_.at(sender);
+  return t.kind == ElementKind::Patch && !t.flat && t.depth == 0;
+}
+
+DirectSampler::Shot DirectSampler::shoot(ElementId leaf, ElementId sender, std::uint64_t key, int i) const {
+  const auto u = stratified4(key, i);
+  const PatchPoint x = samplePatch(elements_, scene_, leaf, u[2], u[3]);
+  Shot shot;
+  shot.quadrant = (u[2] < 0.5 ? 0u : 1u) + (u[3] < 0.5 ? 0u : 2u);
+  if (sampledByAngle(sender)) {
+    const auto s = lights_.sample(elements_.light[sender.index()], Vec3(x.position), {u[0], u[1]});
+    const double cosine = s ? glm::dot(s->direction, Vec3(x.normal)) : 0.0;
+    if (!(cosine > 0) || !(s->pdf > 0)) return shot;
+    shot.radiance = static_cast<float>(cosine / s->pdf) * s->radiance;
+    shot.ray = segment(x.position, x.normal, x.position + Vec3f(s->distance * s->direction), Vec3f(s->normal));
+    shot.weight = 1;
+  } else if (elements_.isDistant(sender)) {
+    const Vec3f w = directionOf(elements_, scene_, sender, u[0], u[1]);
+    shot.weight = pointKernel(elements_, scene_, x.position, x.normal, sender, w, Vec3f(0.0f));
+    shot.ray.origin = offsetOrigin(x.position, x.normal, w);
+    shot.ray.direction = w;
+  } else {
+    const PatchPoint y = samplePoint(elements_, scene_, sender, u[0], u[1]);
+    shot.weight = pointKernel(elements_, scene_, x.position, x.normal, sender, y.position, y.normal);
+    shot.ray = segment(x.position, x.normal, y.position, y.normal);
+  }
+  return shot;
+}
+
+bool DirectSampler::mustRenew(ElementId leaf, const TransferRow& row, const LinkChanges& links,
+                              const SpaceChange& space) const {
+  const ElementGeometry& r = elements_.shape(leaf);
+  if (space.meets(r.center, r.radius, r.center, r.radius)) return true;  // what covers the leaf
+  const std::uint64_t place = combineKeys(elements_.key[leaf.index()], 5);
+  for (const RowTerm& t : row.terms) {
+    const LinkChange change = changeOf(links, t.link);
+    if (change == LinkChange::Changed || space.moved(t.sender)) return true;
+    if (change == LinkChange::None || t.clear) continue;
+    const ElementGeometry& s = elements_.shape(t.sender);
+    if (!elements_.isDistant(t.sender) && !space.meets(r.center, r.radius, s.center, s.radius)) continue;
+    const std::uint64_t key = combineKeys(place, elements_.key[t.sender.index()]);
+    const bool byAngle = sampledByAngle(t.sender);
+    int used = 0;
+    for (int i = 0; i < t.index + (byAngle ? 0 : kFacingTries) && used < t.index; ++i) {
+      const Shot shot = shoot(leaf, t.sender, key, i);
+      if (shot.weight > 0 && space.meets(shot.ray)) return true;
+      used += byAngle || shot.weight > 0;
+    }
+  }
+  return false;
+}
+
 void DirectSampler::sample(ElementId leaf, const Term& t, int rays, float gain, std::uint64_t key, DirectRow& row,
                            Quadrants& quadrants) const {
   const Rgb B = elements_.radiometry[t.sender.index()].B;
+  const bool byAngle = sampledByAngle(t.sender);
   RgbSum passed(0.0);
   double weights = 0;
   std::array<double, 4> seen{}, all{};
   std::array<int, 4> count{};
-  const int tries = t.curved ? rays : rays + 8;
   int used = 0;
-  for (int i = 0; i < tries && used < rays; ++i) {
-    const auto u = stratified4(key, i);
-    const PatchPoint x = samplePatch(elements_, scene_, leaf, u[2], u[3]);
-    double weight = 0;
-    Ray ray;
-    Rgb radiance(0.0f);  // of a curved light's sample: cos L / p
-    if (t.curved && elements_.at(t.sender).depth == 0) {
-      ++used;
-      const auto s = lights_.sample(elements_.light[t.sender.index()], Vec3(x.position), {u[0], u[1]});
-      const double cosine = s ? glm::dot(s->direction, Vec3(x.normal)) : 0.0;
-      if (!(cosine > 0) || !(s->pdf > 0)) continue;
-      radiance = static_cast<float>(cosine / s->pdf) * s->radiance;
-      ray = segment(x.position, x.normal, x.position + Vec3f(s->distance * s->direction), Vec3f(s->normal));
-      weight = 1;
-    } else if (elements_.isDistant(t.sender)) {
-      const Vec3f w = directionOf(elements_, scene_, t.sender, u[0], u[1]);
-      weight = pointKernel(elements_, scene_, x.position, x.normal, t.sender, w, Vec3f(0.0f));
-      ray.origin = offsetOrigin(x.position, x.normal, w);
-      ray.direction = w;
-    } else {
-      const PatchPoint y = samplePoint(elements_, scene_, t.sender, u[0], u[1]);
-      weight = pointKernel(elements_, scene_, x.position, x.normal, t.sender, y.position, y.normal);
-      ray = segment(x.position, x.normal, y.position, y.normal);
-    }
-    if (!(weight > 0)) continue;
-    if (!t.curved || elements_.at(t.sender).depth > 0) ++used;
-    const Rgb V = t.clear ? Rgb(1.0f) : tracer_.transmittance(ray);
-    row.rays += !t.clear;
-    const std::size_t q = (u[2] < 0.5 ? 0u : 1u) + (u[3] < 0.5 ? 0u : 2u);
-    const bool measured = !isBlack(radiance);
-    passed += weight * (measured ? RgbSum(V * radiance) : RgbSum(V));
-    weights += weight;
-    seen[q] += weight * gray(measured ? V * radiance : V), all[q] += weight;
-    ++count[q];
+  for (int i = 0; i < rays + (byAngle ? 0 : kFacingTries) && used < rays; ++i) {
+    const Shot shot = shoot(leaf, t.sender, key, i);
+    used += byAngle || shot.weight > 0;
+    if (!(shot.weight > 0)) continue;
+    Rgb V(1.0f);
+    if (!t.clear) V = tracer_.transmittance(shot.ray), ++row.rays;
+    if (byAngle) V *= shot.radiance;
+    passed += shot.weight * RgbSum(V);
+    weights += shot.weight;
+    seen[shot.quadrant] += shot.weight * gray(V), all[shot.quadrant] += shot.weight;
+    ++count[shot.quadrant];
   }
+  row.row.terms.push_back({t.link, t.sender, gain, static_cast<std::uint8_t>(rays), 0, t.clear});
   if (!(weights > 0)) return;
-  const bool measured = t.curved && elements_.at(t.sender).depth == 0;
   const double n = used;
-  Rgb T = measured ? Rgb(passed / n) : Rgb(double(t.K) * passed / weights);
+  Rgb T = byAngle ? Rgb(passed / n) : Rgb(double(t.K) * passed / weights);
   const double p = std::clamp((seen[0] + seen[1] + seen[2] + seen[3]) / weights, 0.0, 1.0);
   for (std::size_t q = 0; q < 4; ++q) {
-    if (measured) {
+    if (byAngle) {
       quadrants.E[q] += gain * (count[q] > 0 ? seen[q] / count[q] : gray(T));
       continue;
     }
@@ -163,9 +204,11 @@ void DirectSampler::sample(ElementId leaf, const Term& t, int rays, float gain, 
     quadrants.E[q] += E * V;
     quadrants.chance[q] += E * E * q1 * (1 - q1) / known;
   }
-  if (measured)
+  if (byAngle)
     for (int c = 0; c < 3; ++c) T[c] = B[c] > 0 ? T[c] / B[c] : 0.0f;
-  if (!isBlack(T)) row.lights.push_back({t.sender, gain * T});
+  if (isBlack(T)) return;
+  row.row.terms.back().count = 1;
+  row.row.transfers.push_back({t.sender, gain * T});
 }
 
 }  // namespace deltalux

@@ -12,17 +12,19 @@
 #include "base/random.hpp"
 #include "radiosity/direct_senders.hpp"
 #include "radiosity/exposure.hpp"
-#include "radiosity/indirect_sampler.hpp"
+#include "radiosity/leaf_row.hpp"
+#include "radiosity/space_change.hpp"
 #include "scene/light_sampling.hpp"
+#include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
 
 /// The row of one leaf.
 struct DirectRow {
-  std::vector<LeafTransfer> lights;  // emitters in place of leaves
-  double mean = 0;                   // irradiance, gray
-  double variation = 0;              // of it over the quadrants, beyond what chance explains
-  float exposed = 1;                 // share of the leaf's area that this is the mean of (exposure.hpp)
+  TransferRow row;       // emitters in place of leaves; over the whole leaf
+  double mean = 0;       // irradiance, gray
+  double variation = 0;  // of it over the quadrants, beyond what chance explains
+  float exposed = 1;     // share of the leaf's area that this is the mean of (exposure.hpp)
   std::uint64_t rays = 0;
 };
 
@@ -33,11 +35,16 @@ class DirectSampler {
 
   /// By about `rays` shadow rays.
   DirectRow at(ElementId leaf, int rays) const;
+  /// Whether a ray of the leaf's row meets what has moved, or samples a link that is another.
+  bool mustRenew(ElementId leaf, const TransferRow&, const LinkChanges&, const SpaceChange&) const;
 
  private:
   struct Term;
   struct Quadrants;
   Term term(ElementId leaf, const PossibleSender&) const;
+  struct Shot;
+  bool sampledByAngle(ElementId sender) const;
+  Shot shoot(ElementId leaf, ElementId sender, std::uint64_t key, int i) const;
   void sample(ElementId leaf, const Term&, int rays, float gain, std::uint64_t key, DirectRow&, Quadrants&) const;
 
   const Scene& scene_;

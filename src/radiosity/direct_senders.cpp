@@ -11,10 +11,6 @@ constexpr std::uint32_t kFewLights = 4096;  // clusters of no more than these ar
 constexpr float kLeastCosine = 0.1f;        // credited to senders only part of which rises above the horizon
 constexpr float kLeastKernel = 0.02f;  // of the sender's solid angle: its few nodes may all face away, or lie below
 
-bool mayCarry(const Elements& elements, const Link& l) {
-  return elements.at(l.sender).emitter && l.state == LinkState::Active && l.visibility != Visibility::Blocked;
-}
-
 /// Transfer that a sender of unknown orientation is credited with.
 float leastKernel(const Elements& elements, const Vec3f& x, ElementId sender) {
   const ElementGeometry& g = elements.shape(sender);
@@ -62,9 +58,8 @@ std::vector<PossibleSender> DirectSenders::at(ElementId leaf) const {
   const ElementGeometry& g = elements_.shape(leaf);
   for (ElementId e = leaf; e.valid(); e = elements_.at(e).parent) {
     const bool cluster = elements_.isCluster(e);
-    for (LinkId id = links_.first(e); id.valid(); id = links_[id].nextArriving) {
+    for (LinkId id = links_.first(e, true); id.valid(); id = links_[id].nextArriving) {
       const Link& l = links_[id];
-      if (!mayCarry(elements_, l)) continue;
       const bool sampled = l.visibility == Visibility::Sampled;
       PossibleSender a{id, l.sender, 0.0f, sampled ? maxChannel(l.V) : 1.0f, sampled ? l.samples : std::uint8_t{0}};
       if (elements_.isCluster(l.sender) && lightCount_[l.sender.index()] <= kFewLights) {

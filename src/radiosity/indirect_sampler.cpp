@@ -19,11 +19,8 @@ constexpr float kFaint = 0.1f;   // of the light here: radiosity that senders ar
 constexpr float kUneven = 2.0f;  // rays of clusters and curved senders, whose points differ most, against others
 constexpr float kPartsShare = 2.0f;   // rays of a sender above which it is taken apart
 constexpr float kWholeShare = 0.25f;  // the same for senders that need no ray: their radiosity counts as even
+constexpr float kMostRays = 128;      // of what is made anew in a row
 constexpr int kFacingTries = 16;      // more points of a sender when some face away
-
-bool carries(const Elements& elements, const Link& l) {
-  return l.state == LinkState::Active && l.visibility != Visibility::Blocked && !elements.at(l.sender).emitter;
-}
 
 /// Transfer that clusters and curved senders are credited with: their nodes may all face away where some part does not.
 float leastKernel(const Elements& elements, const Vec3f& x, ElementId sender) {
@@ -31,6 +28,12 @@ float leastKernel(const Elements& elements, const Vec3f& x, ElementId sender) {
   const Vec3f d = g.center - x;
   const float squared = std::max(glm::dot(d, d), g.radius * g.radius);
   return kLeastKernel * (elements.isCluster(sender) ? 1.0f : g.area / float(kPi)) / squared;
+}
+
+/// Whether `leaf` is `e` or below it.
+bool holds(const Elements& elements, ElementId e, ElementId leaf) {
+  while (leaf.valid() && leaf != e) leaf = elements.at(leaf).parent;
+  return leaf.valid();
 }
 
 /// Chance that light passes, as the link's rays leave it: one that saw nothing may still be open. 1: it surely passes.
@@ -44,7 +47,7 @@ float openness(const Link& l) {
 
 IndirectSampler::IndirectSampler(const Scene& scene, const Elements& elements, const Links& links,
                                  const RayTracer& tracer)
-    : scene_(scene), elements_(elements), tracer_(tracer), exposure_(scene, elements, tracer), links_(links) {}
+    : scene_(scene), elements_(elements), tracer_(tracer), links_(links) {}
 
 float IndirectSampler::strength(ElementId receiver, ElementId sender) const {
   const ElementLight& here = elements_.radiometry[receiver.index()];
@@ -60,10 +63,12 @@ float IndirectSampler::strength(ElementId receiver, ElementId sender) const {
   return facing + faint * elements_.shape(sender).area / (4 * float(kPi));
 }
 
+bool IndirectSampler::exact(ElementId sender) const { return elements_.isPatch(sender) && elements_.at(sender).flat; }
+
 template <class KernelOf>
-IndirectSampler::Term IndirectSampler::term(ElementId leaf, ElementId sender, float open,
+IndirectSampler::Term IndirectSampler::term(ElementId leaf, LinkId link, ElementId sender, float open,
                                             const KernelOf& kernelOf) const {
-  Term t{sender, 0.0f, open, 0.0f};
+  Term t{link, sender, 0.0f, open, 0.0f};
   const float B = strength(leaf, sender);
   if (!(B > 0)) return t;
   t.K = static_cast<float>(kernelOf(sender, open >= 1.0f));
@@ -73,21 +78,24 @@ IndirectSampler::Term IndirectSampler::term(ElementId leaf, ElementId sender, fl
 }
 
 template <class KernelOf>
-std::vector<IndirectSampler::Term> IndirectSampler::terms(ElementId leaf, int rays, const KernelOf& kernelOf) const {
-  std::vector<Term> whole;
-  float total = 0;
-  for (ElementId r = leaf; r.valid(); r = elements_.at(r).parent) {
-    for (LinkId id = links_.first(r); id.valid(); id = links_[id].nextArriving) {
-      const Link& l = links_[id];
-      if (!carries(elements_, l)) continue;
-      const Term t = term(leaf, l.sender, openness(l), kernelOf);
-      if (!(t.weight > 0)) continue;
-      whole.push_back(t);
-      total += t.weight;
-    }
-  }
-  // A sender that would get several rays is taken apart instead: its parts are nearer or farther, brighter or darker.
-  const float ray = total / static_cast<float>(rays);
+void IndirectSampler::add(ElementId leaf, LinkId id, const KernelOf& kernelOf, std::vector<Term>& out) const {
+  const Link& l = links_[id];
+  if (!l.carries() || l.fromLight) return;
+  const Term t = term(leaf, id, l.sender, openness(l), kernelOf);
+  if (t.weight > 0) out.push_back(t);
+}
+
+template <class KernelOf>
+std::vector<IndirectSampler::Term> IndirectSampler::allTerms(ElementId leaf, const KernelOf& kernelOf) const {
+  std::vector<Term> all;
+  for (ElementId r = leaf; r.valid(); r = elements_.at(r).parent)
+    for (LinkId id = links_.first(r, false); id.valid(); id = links_[id].nextArriving) add(leaf, id, kernelOf, all);
+  return all;
+}
+
+template <class KernelOf>
+std::vector<IndirectSampler::Term> IndirectSampler::apart(ElementId leaf, std::vector<Term> whole, float ray,
+                                                          const KernelOf& kernelOf) const {
   std::vector<Term> parts;
   while (!whole.empty()) {
     const Term t = whole.back();
@@ -97,14 +105,12 @@ std::vector<IndirectSampler::Term> IndirectSampler::terms(ElementId leaf, int ra
       continue;
     }
     for (std::size_t i = elements_.at(t.sender).childCount; i-- > 0;) {
-      const Term part = term(leaf, elements_.child(t.sender, i), t.open, kernelOf);
+      const Term part = term(leaf, t.link, elements_.child(t.sender, i), t.open, kernelOf);
       if (part.weight > 0) whole.push_back(part);
     }
   }
   return parts;
 }
-
-bool IndirectSampler::exact(ElementId sender) const { return elements_.isPatch(sender) && elements_.at(sender).flat; }
 
 /// What a part of a sender may bring, by its centre alone.
 float IndirectSampler::guess(ElementId leaf, const PatchPoint& x, ElementId part) const {
@@ -123,7 +129,7 @@ float IndirectSampler::guess(ElementId leaf, const PatchPoint& x, ElementId part
   return std::max(K, leastKernel(elements_, x.position, part)) * B * (exact(part) ? 1.0f : kUneven);
 }
 
-ElementId IndirectSampler::descend(ElementId sender, ElementId leaf, const PatchPoint& x, double& u,
+ElementId IndirectSampler::descend(ElementId sender, ElementId leaf, const PatchPoint& x, double u,
                                    double& chance) const {
   std::vector<float> guesses;
   while (!elements_.isLeaf(sender)) {
@@ -144,82 +150,180 @@ ElementId IndirectSampler::descend(ElementId sender, ElementId leaf, const Patch
   return sender;
 }
 
-template <class KernelOf, class PointAt, class Visit>
-std::size_t IndirectSampler::sample(ElementId leaf, const PatchPoint& center, int rays, const KernelOf& kernelOf,
-                                    const PointAt& pointAt, const Visit& visit) const {
-  const std::vector<Term> all = terms(leaf, rays, kernelOf);
-  double total = 0, passed = 0;
-  for (const Term& t : all) total += known(t) ? 0.0f : t.weight;
-  const double step = total / rays;
-  const std::uint64_t key = elements_.key[leaf.index()];
-  double next = toUnit(mix64(key)) * step;
-  std::size_t traced = 0;
-  for (const Term& t : all) {
+template <class KernelOf, class Visit>
+void IndirectSampler::deal(ElementId leaf, const PatchPoint& center, const std::vector<Term>& terms, double step,
+                           std::uint64_t key, const KernelOf& kernelOf, const Visit& visit) const {
+  double next = toUnit(mix64(key)) * step, passed = 0;
+  for (const Term& t : terms) {
     if (known(t)) {
-      visit(t.sender, Rgb(t.K));
+      visit(Dealt{t, 1.0f, 0});
       continue;
     }
     passed += t.weight;
-    const std::uint64_t own = combineKeys(key, elements_.key[t.sender.index()]);
+    const std::uint64_t own = combineKeys(elements_.key[leaf.index()], elements_.key[t.sender.index()]);
     for (int i = 0; next < passed; ++i, next += step) {
-      auto u = stratified4(own, i);
       double chance = t.weight / step;
-      const ElementId from = descend(t.sender, leaf, center, u[0], chance);
+      const ElementId from = descend(t.sender, leaf, center, stratified4(own, i)[0], chance);
       if (!from.valid()) continue;
-      const Term part = from == t.sender ? t : term(leaf, from, t.open, kernelOf);
-      if (part.K > 0)
-        traced += sampleLeaf(part, static_cast<float>(1.0 / chance), combineKeys(own, i), u, pointAt, visit);
+      const Term part = from == t.sender ? t : term(leaf, t.link, from, t.open, kernelOf);
+      if (part.K > 0) visit(Dealt{part, static_cast<float>(1.0 / chance), i});
     }
   }
-  return traced;
 }
 
-template <class PointAt, class Visit>
-std::size_t IndirectSampler::sampleLeaf(const Term& t, float gain, std::uint64_t key, std::array<double, 4> u,
-                                        const PointAt& pointAt, const Visit& visit) const {
-  const bool flat = exact(t.sender);
+template <class PointAt>
+SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index, const PointAt& pointAt) const {
+  const bool flat = exact(sender);
+  const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
+  SenderSample s;
   for (int tries = 0; tries < (flat ? kFacingTries : 1); ++tries) {
-    if (tries > 0) u = stratified4(key, tries);
-    const SenderSample s = sampleLeafOf(elements_, scene_, pointAt(u[2], u[3]), t.sender, u[0], u[1]);
-    if (!(s.weight > 0)) continue;
-    const Rgb V = t.open < 1.0f ? tracer_.transmittance(s.ray) : Rgb(1.0f);
-    const float K = flat ? t.K : elements_.shape(t.sender).area * static_cast<float>(s.weight);
-    if (!isBlack(V)) visit(t.sender, gain * K * V);
-    return t.open < 1.0f ? 1 : 0;
+    const auto u = stratified4(combineKeys(key, tries), index);
+    s = sampleLeafOf(elements_, scene_, pointAt(u[2], u[3]), sender, u[0], u[1]);
+    if (s.weight > 0) return s;
   }
-  return 0;
+  s.leaf = {};
+  return s;
 }
 
-std::size_t IndirectSampler::atLeaf(ElementId leaf, int rays, std::vector<LeafTransfer>& out) const {
+template <class PointAt>
+Rgb IndirectSampler::transfer(ElementId leaf, const Dealt& d, const PointAt& pointAt, std::uint64_t& traced) const {
+  const SenderSample s = shoot(leaf, d.term.sender, d.index, pointAt);
+  if (!s.leaf.valid()) return Rgb(0.0f);
+  const float K = exact(d.term.sender) ? d.term.K : elements_.shape(d.term.sender).area * static_cast<float>(s.weight);
+  if (d.term.open >= 1.0f) return Rgb(d.gain * K);
+  ++traced;
+  return d.gain * K * tracer_.transmittance(s.ray);
+}
+
+/// What is in plain view has no noise that would hide an error of K: then at all nodes.
+float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const {
   const ElementGeometry& g = elements_.shape(leaf);
   const ElementNodes& n = elements_.nodes[leaf.index()];
-  const float exposed = exposure_.of(leaf);
-  // What is in plain view has no noise that would hide an error of K.
-  const auto kernelOf = [&](ElementId s, bool clear) {
-    const float reach = kNear * g.radius + elements_.shape(s).radius;
-    const Vec3f d = elements_.shape(s).center - g.center;
-    if (!clear && elements_.at(leaf).flat && glm::dot(d, d) > reach * reach)
-      return kernelAtPoint(elements_, scene_, g.center, g.normal, s);
-    double K = 0;
-    for (int i = 0; i < 4; ++i)
-      if (n.weight[i] > 0) K += n.weight[i] * kernelAtPoint(elements_, scene_, n.position[i], n.normal[i], s);
-    return K;
-  };
-  return sample(
-      leaf, {g.center, g.normal}, rays, kernelOf,
-      [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); },
-      [&](ElementId from, const Rgb& T) {
-        out.push_back({from, T / exposed});
-      });
+  const float reach = kNear * g.radius + elements_.shape(sender).radius;
+  const Vec3f d = elements_.shape(sender).center - g.center;
+  if (!clear && elements_.at(leaf).flat && glm::dot(d, d) > reach * reach)
+    return static_cast<float>(kernelAtPoint(elements_, scene_, g.center, g.normal, sender));
+  double K = 0;
+  for (int i = 0; i < 4; ++i)
+    if (n.weight[i] > 0) K += n.weight[i] * kernelAtPoint(elements_, scene_, n.position[i], n.normal[i], sender);
+  return static_cast<float>(K);
+}
+
+void IndirectSampler::append(ElementId leaf, const Dealt& d, TransferRow& row, std::uint64_t& traced) const {
+  const bool clear = known(d.term);
+  const Rgb T =
+      clear ? Rgb(d.term.K)
+            : transfer(
+                  leaf, d, [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); }, traced);
+  const bool some = !isBlack(T);
+  row.terms.push_back(
+      {d.term.link, d.term.sender, d.gain, static_cast<std::uint8_t>(d.index), some, d.term.open >= 1.0f});
+  if (some) row.transfers.push_back({d.term.sender, T});
+}
+
+TransferRow IndirectSampler::atLeaf(ElementId leaf, int rays, std::uint64_t& traced) const {
+  const auto kernelOf = [&](ElementId s, bool clear) { return kernelAtLeaf(leaf, s, clear); };
+  std::vector<Term> whole = allTerms(leaf, kernelOf);
+  float sum = 0;
+  for (const Term& t : whole) sum += t.weight;
+  const auto terms = apart(leaf, std::move(whole), sum / static_cast<float>(rays), kernelOf);
+  double total = 0;
+  for (const Term& t : terms) total += known(t) ? 0.0f : t.weight;
+  TransferRow row;
+  row.weightPerRay = static_cast<float>((total > 0 ? total : sum) / rays);
+  const PatchPoint center{elements_.shape(leaf).center, elements_.shape(leaf).normal};
+  deal(leaf, center, terms, row.weightPerRay, elements_.key[leaf.index()], kernelOf,
+       [&](const Dealt& d) { append(leaf, d, row, traced); });
+  row.terms.shrink_to_fit();
+  row.transfers.shrink_to_fit();
+  return row;
+}
+
+bool IndirectSampler::meets(ElementId leaf, const RowTerm& t, const SpaceChange& space) const {
+  if (space.moved(t.sender)) return true;
+  if (t.clear) return false;
+  const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(t.sender);
+  if (!space.meets(r.center, r.radius, s.center, s.radius)) return false;
+  const SenderSample sample =
+      shoot(leaf, t.sender, t.index, [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); });
+  return sample.leaf.valid() && space.meets(sample.ray);
+}
+
+bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed,
+                             const SpaceChange& space, TransferRow& row, std::uint64_t& traced) const {
+  std::vector<char> anew(row.terms.size(), 0);
+  bool any = !changed.empty();
+  for (std::size_t i = 0; i < row.terms.size(); ++i) {
+    const LinkChange change = changeOf(links, row.terms[i].link);
+    anew[i] = change == LinkChange::Changed || (change == LinkChange::Touched && meets(leaf, row.terms[i], space));
+    any |= anew[i] != 0;
+  }
+  if (!any) return false;
+  const auto kernelOf = [&](ElementId s, bool clear) { return kernelAtLeaf(leaf, s, clear); };
+  TransferRow next;
+  next.weightPerRay = row.weightPerRay;
+  next.terms.reserve(row.terms.size()), next.transfers.reserve(row.transfers.size());
+  auto at = row.transfers.begin();
+  for (std::size_t i = 0; i < row.terms.size(); ++i) {
+    const RowTerm& t = row.terms[i];
+    const auto begin = at;
+    at += t.count;
+    if (!anew[i]) {
+      next.terms.push_back(t);
+      next.transfers.insert(next.transfers.end(), begin, at);
+    } else if (changeOf(links, t.link) == LinkChange::Touched) {
+      const float K = exact(t.sender) ? kernelAtLeaf(leaf, t.sender, t.clear) : 0.0f;
+      append(leaf, {{t.link, t.sender, K, t.clear ? 1.0f : 0.0f, 0.0f}, t.gain, t.index}, next, traced);
+    }
+  }
+  std::vector<LinkId> active;
+  for (const LinkId top : changed) collect(top, leaf, active);
+  std::vector<Term> whole;
+  for (const LinkId id : active) add(leaf, id, kernelOf, whole);
+  const PatchPoint center{elements_.shape(leaf).center, elements_.shape(leaf).normal};
+  // As many rays for a weight as the row has, and no more than a row has.
+  float sum = 0;
+  for (const Term& t : whole) sum += t.weight;
+  const float step = std::max(row.weightPerRay, sum / kMostRays);
+  const auto terms = apart(leaf, std::move(whole), step, kernelOf);
+  if (step > 0)
+    deal(leaf, center, terms, step, elements_.key[leaf.index()], kernelOf,
+         [&](const Dealt& d) { append(leaf, d, next, traced); });
+  row = std::move(next);
+  return true;
+}
+
+void IndirectSampler::collect(LinkId link, ElementId leaf, std::vector<LinkId>& out) const {
+  const Link& l = links_[link];
+  if (l.state != LinkState::Interior) {
+    out.push_back(link);
+    return;
+  }
+  for (std::size_t i = 0; i < l.childCount; ++i) {
+    const LinkId child = links_.child(link, i);
+    if (holds(elements_, links_[child].receiver, leaf)) collect(child, leaf, out);
+  }
 }
 
 Rgb IndirectSampler::atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const {
   const PatchPoint x{p, normal};
+  const auto kernelOf = [&](ElementId s, bool) {
+    return static_cast<float>(kernelAtPoint(elements_, scene_, p, normal, s));
+  };
+  std::vector<Term> whole = allTerms(leaf, kernelOf);
+  float sum = 0;
+  for (const Term& t : whole) sum += t.weight;
+  const auto terms = apart(leaf, std::move(whole), sum / static_cast<float>(rays), kernelOf);
+  double total = 0;
+  for (const Term& t : terms) total += known(t) ? 0.0f : t.weight;
   RgbSum E(0.0);
-  sample(
-      leaf, x, rays, [&](ElementId s, bool) { return kernelAtPoint(elements_, scene_, p, normal, s); },
-      [&](double, double) { return x; },
-      [&](ElementId from, const Rgb& T) { E += RgbSum(T * elements_.radiometry[from.index()].B); });
+  std::uint64_t traced = 0;
+  deal(leaf, x, terms, total / rays, elements_.key[leaf.index()], kernelOf, [&](const Dealt& d) {
+    const Rgb T = known(d.term) ? Rgb(d.term.K)
+                                : transfer(
+                                      leaf, d, [&](double, double) { return x; }, traced);
+    E += RgbSum(T * elements_.radiometry[d.term.sender.index()].B);
+  });
   return Rgb(E);
 }
 

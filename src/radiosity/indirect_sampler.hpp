@@ -11,57 +11,78 @@
 // with p the chance of the leaf, K its exact kernel, w the kernel between two points, V whether the ray passes. One
 // stratified number deals the rays out over all links (systematic sampling), so that a closed room's row sums to one
 // but for what V leaves to chance. Flat senders that the links prove clear take K and no ray, in parts so small that
-// their radiosity counts as even. Everything that may send has a chance, also what is dark at present. Samples depend
-// on the keys of place and sender. Cost: about 15 kernels' time a link, one ray and some 15 kernels a sample.
+// their radiosity counts as even. Everything that may send has a chance, also what is dark at present. A ray depends on
+// the keys of place and leaf alone, so that it can be traced again. Cost: about 15 kernels' time a link, one ray and
+// some 15 kernels a sample.
 #include <array>
 #include <span>
 #include <vector>
 
-#include "hierarchy/link.hpp"
 #include "hierarchy/patch.hpp"
-#include "radiosity/exposure.hpp"
+#include "radiosity/leaf_row.hpp"
+#include "radiosity/sender_sampling.hpp"
+#include "radiosity/space_change.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
-
-/// E += T * B(leaf).
-struct LeafTransfer {
-  ElementId leaf;
-  Rgb T{0.0f};
-};
 
 class IndirectSampler {
  public:
   /// All must outlive this.
   IndirectSampler(const Scene&, const Elements&, const Links&, const RayTracer&);
 
-  /// Appends the transfers to a leaf patch as a whole, by at most `rays` rays. Returns the rays traced.
-  std::size_t atLeaf(ElementId leaf, int rays, std::vector<LeafTransfer>& out) const;
+  /// The transfers to a leaf patch as a whole, by at most `rays` rays. Adds the rays traced to `traced`.
+  TransferRow atLeaf(ElementId leaf, int rays, std::uint64_t& traced) const;
+  /// Makes those terms anew whose link is another by now, whose sender moved, or whose ray meets what moved; the others
+  /// stay. `changed`: the topmost changed links that arrive at the leaf or above it. Returns whether it did.
+  bool update(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed, const SpaceChange&,
+              TransferRow&, std::uint64_t& traced) const;
   /// Irradiance at a point of a leaf patch (unit normal) from the leaves' radiosities.
   Rgb atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const;
 
  private:
   struct Term {
+    LinkId link;
     ElementId sender;
     float K;
     float open;    // chance that light passes
     float weight;  // what it may bring, gray
   };
+  /// One ray that the deal has given to a leaf, or a sender in plain view that needs none.
+  struct Dealt {
+    Term term;
+    float gain = 1;
+    int index = 0;  // of the ray, among those of its term
+  };
   template <class KernelOf>
-  Term term(ElementId leaf, ElementId sender, float open, const KernelOf&) const;
-  /// The senders that cover all of what the leaf sees, fine enough for `rays` rays.
+  Term term(ElementId leaf, LinkId, ElementId sender, float open, const KernelOf&) const;
+  /// Appends a link's term when it may carry light.
   template <class KernelOf>
-  std::vector<Term> terms(ElementId leaf, int rays, const KernelOf&) const;
+  void add(ElementId leaf, LinkId, const KernelOf&, std::vector<Term>& out) const;
+  template <class KernelOf>
+  std::vector<Term> allTerms(ElementId leaf, const KernelOf&) const;
+  /// Takes terms apart until none weighs more than some rays' worth.
+  template <class KernelOf>
+  std::vector<Term> apart(ElementId leaf, std::vector<Term> whole, float ray, const KernelOf&) const;
   float guess(ElementId leaf, const PatchPoint& x, ElementId part) const;
-  /// The leaf below a sender that the number `u` picks, in proportion to what each may bring to `x`; `u` is used up in
-  /// part, `chance` multiplied by that of the leaf.
-  ElementId descend(ElementId sender, ElementId leaf, const PatchPoint& x, double& u, double& chance) const;
-  template <class KernelOf, class PointAt, class Visit>
-  std::size_t sample(ElementId leaf, const PatchPoint& center, int rays, const KernelOf&, const PointAt&,
-                     const Visit&) const;
-  template <class PointAt, class Visit>
-  std::size_t sampleLeaf(const Term&, float gain, std::uint64_t key, std::array<double, 4> u, const PointAt&,
-                         const Visit&) const;
+  /// The leaf below a sender that the number `u` picks, in proportion to what each may bring to `x`; `chance` is
+  /// multiplied by that of the leaf.
+  ElementId descend(ElementId sender, ElementId leaf, const PatchPoint& x, double u, double& chance) const;
+  /// Deals rays out over terms, one for every `step` of weight: visit(Dealt).
+  template <class KernelOf, class Visit>
+  void deal(ElementId leaf, const PatchPoint& center, const std::vector<Term>&, double step, std::uint64_t key,
+            const KernelOf&, const Visit&) const;
+  /// The ray of a dealt term; no leaf where its points do not face each other.
+  template <class PointAt>
+  SenderSample shoot(ElementId leaf, ElementId sender, int index, const PointAt&) const;
+  /// T of a dealt term; black where it brings nothing.
+  template <class PointAt>
+  Rgb transfer(ElementId leaf, const Dealt&, const PointAt&, std::uint64_t& traced) const;
+  void append(ElementId leaf, const Dealt&, TransferRow&, std::uint64_t& traced) const;
+  /// Active links below `link` that arrive at the leaf or above it.
+  void collect(LinkId link, ElementId leaf, std::vector<LinkId>& out) const;
+  bool meets(ElementId leaf, const RowTerm&, const SpaceChange&) const;
+  float kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const;
   bool exact(ElementId sender) const;
   /// Whether a term needs no ray.
   bool known(const Term& t) const { return t.open >= 1.0f && exact(t.sender); }
@@ -70,7 +91,6 @@ class IndirectSampler {
   const Scene& scene_;
   const Elements& elements_;
   const RayTracer& tracer_;
-  Exposure exposure_;
   const Links& links_;
 };
 

@@ -17,6 +17,8 @@ constexpr int kFewSamples = 4, kSomeSamples = 8, kManySamples = 16;
 constexpr float kFineCell = 0.2f;     // radians: sky cells larger than this are split before the surface they light
 constexpr float kFinestCell = 0.06f;  // radians: smaller ones are not split
 
+enum class Mark : char { None, Path, Anew };
+
 enum class Split : std::uint8_t { None, Receiver, Sender, Both };
 
 /// A range of blocker candidates in the arena of a level.
@@ -27,6 +29,7 @@ struct ListRef {
 struct Task {
   LinkId link;
   ListRef candidates;  // in the arena of the parent level
+  Mark mark = Mark::Path;
 };
 
 struct Verdict {
@@ -41,8 +44,9 @@ class Judge {
   Judge(const Elements& elements, const Scene& scene, const RayTracer& tracer, const OracleSettings& settings)
       : elements_(elements), scene_(scene), tracer_(tracer), oracle_(elements, settings) {}
 
-  /// `candidates` are the parent's blockers; the link's own are appended to `arena`.
-  Verdict judge(Link link, const ElementId* candidates, std::size_t count, Blockers& arena) const {
+  /// `candidates` are the parent's blockers; the link's own are appended to `arena`. Visibility is sampled by `least`
+  /// rays at least, when it is.
+  Verdict judge(Link link, int least, const ElementId* candidates, std::size_t count, Blockers& arena) const {
     Verdict v;
     const bool leaf = link.state != LinkState::Interior;
     const Kernel k = kernel(elements_, scene_, link.receiver, link.sender);
@@ -85,7 +89,7 @@ class Judge {
         link.visibilitySpread = 0;
       }
     }
-    if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) look(link, v);
+    if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) look(link, least, v);
     v.split = choose(link);
     v.link = link;
     return v;
@@ -113,7 +117,7 @@ class Judge {
   }
 
   /// Few rays, and more when the kernel alone does not already demand a split.
-  void look(Link& link, Verdict& v) const {
+  void look(Link& link, int least, Verdict& v) const {
     const auto take = [&](int samples) {
       if (samples <= link.samples) return;
       const VisibilityEstimate e = sampleVisibility(elements_, scene_, tracer_, link.receiver, link.sender, samples);
@@ -121,7 +125,7 @@ class Judge {
       link.V = e.V, link.sampleMask = e.mask, link.visibilitySpread = e.spread, link.samples = e.samples;
       link.visibility = Visibility::Sampled;
     };
-    const int wanted = wantedSamples(link, oracle_.judge(link));
+    const int wanted = std::max(least, wantedSamples(link, oracle_.judge(link)));
     take(std::min(wanted, kFewSamples));
     const LinkError e = oracle_.judge(link);
     if (wanted > kFewSamples && !(e.receiver + e.sender > e.budget)) take(wanted);
@@ -208,99 +212,197 @@ bool splitLink(Links& links, Elements& elements, const Scene& scene, LinkId id, 
   return true;
 }
 
-/// Links that lead to an active link worth another look, marked with all their ancestors.
-std::vector<char> markUnsettled(const Links& links, const Judge& judge) {
-  std::vector<char> marked(links.size(), 0);
-  parallelFor(links.size(), 4096, [&](std::size_t i) { marked[i] = judge.unsettled(links.all[i]); });
-  for (std::size_t i = links.size(); i-- > 0;) {
-    // Children stand behind their parents, so one backward pass reaches the roots.
-    const LinkId parent = links.all[i].parent;
-    if (marked[i] && parent.valid()) marked[parent.index()] = 1;
-  }
-  return marked;
-}
-
 }  // namespace
 
 void makeRootLinks(Links& links, const Elements& elements) {
   if (!links.roots.empty() || !elements.sceneRoot.valid()) return;
-  const auto add = [&](ElementId sender) { links.addRoot(elements.sceneRoot, sender); };
+  const auto add = [&](ElementId sender) { links.addRoot(elements.sceneRoot, sender, elements.at(sender).emitter); };
   add(elements.sceneRoot);
   if (elements.lightRoot.valid()) add(elements.lightRoot);
   for (const ElementId e : elements.distant) add(e);
 }
 
+namespace {
+
+/// Marks the links above the marked ones.
+void markPaths(const Links& links, std::vector<Mark>& marks, LinkId id) {
+  for (LinkId up = links[id].parent; up.valid() && marks[up.index()] == Mark::None; up = links[up].parent)
+    marks[up.index()] = Mark::Path;
+}
+
+constexpr float kSameKernel = 0.05f;   // relative difference that only weighs: rows know the kernel of their own terms
+constexpr float kSameOpenness = 2.0f;  // factor within which rays are still well shared out
+
+/// Chance that light passes, with what few samples leave open.
+float openness(const Link& l) {
+  const auto n = static_cast<float>(l.samples);
+  return l.visibility == Visibility::Sampled ? (maxChannel(l.V) * n + 0.5f) / (n + 1.0f) : maxChannel(l.V);
+}
+
+/// Whether a second look has found what the first did. Light changes all the while; a move is no reason to refine for
+/// it.
+bool sameTransfer(const Link& before, const Link& after) {
+  return std::abs(before.K - after.K) <= kSameKernel * before.K && before.V == after.V &&
+         before.visibility == after.visibility &&
+         (before.state == LinkState::Averted) == (after.state == LinkState::Averted);
+}
+
+/// Whether rows that sample `before` may stand, but for rays that meet what moved.
+bool samePlan(const Link& before, const Link& after) {
+  if (before.state != after.state) return false;
+  if (before.visibility != after.visibility &&
+      (before.visibility != Visibility::Sampled || after.visibility == Visibility::Unknown))
+    return false;  // no ray was traced through what was proven
+  if (std::abs(before.K - after.K) > kSameKernel * before.K) return false;
+  const float a = openness(before), b = openness(after);
+  return a <= kSameOpenness * b && b <= kSameOpenness * a;
+}
+
+/// One descent over marked links, level by level.
+class Descent {
+ public:
+  Descent(Links& links, Elements& elements, const Scene& scene, const RayTracer& tracer, const OracleSettings& settings,
+          std::vector<Mark> marks)
+      : links_(links),
+        elements_(elements),
+        scene_(scene),
+        tracer_(tracer),
+        settings_(settings),
+        marks_(std::move(marks)) {}
+
+  /// Told of every link that is freed or made, and of every one whose transfer or children are others than before.
+  std::function<void(LinkId)> renewed = [](LinkId) {}, changed = [](LinkId) {};
+  std::function<bool()> stop;
+
+  RefineReport run() {
+    Blockers arena(1, elements_.sceneRoot);
+    std::vector<Task> tasks;
+    for (const LinkId root : links_.roots)
+      if (marks_[root.index()] != Mark::None) tasks.push_back({root, {0, 1}, marks_[root.index()]});
+    while (!tasks.empty()) {
+      std::vector<Verdict> verdicts(tasks.size());
+      std::vector<Blockers> blocks((tasks.size() + kBlock - 1) / kBlock);
+      const Judge judge(elements_, scene_, tracer_, settings_);
+      parallelBlocks(tasks.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const Task& t = tasks[i];
+          Link link = links_[t.link];
+          if (t.mark == Mark::Anew)
+            link.state = LinkState::Active, link.visibility = Visibility::Unknown, link.samples = 0;
+          const int least = t.mark == Mark::Anew ? links_[t.link].samples : 0;
+          verdicts[i] =
+              judge.judge(link, least, arena.data() + t.candidates.begin, t.candidates.count, blocks[begin / kBlock]);
+        }
+      });
+      report_.judged += tasks.size();
+      Blockers nextArena;
+      std::vector<Task> next;
+      const bool stopping = stop && stop();
+      for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const auto base = static_cast<std::uint32_t>(nextArena.size());
+        nextArena.insert(nextArena.end(), blocks[b].begin(), blocks[b].end());
+        for (std::size_t i = b * kBlock; i < std::min(tasks.size(), (b + 1) * kBlock); ++i) {
+          verdicts[i].blockers.begin += base;
+          commit(tasks[i], verdicts[i], stopping, next);
+        }
+      }
+      arena = std::move(nextArena);
+      tasks = std::move(next);
+    }
+    return report_;
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 256;
+
+  void commit(const Task& task, Verdict& v, bool stopping, std::vector<Task>& next) {
+    const LinkId id = task.link;
+    report_.rays += v.rays;
+    if (task.mark == Mark::Anew && sameTransfer(links_[id], v.link)) {
+      if (links_[id].state == LinkState::Interior) descend(task, v, next, false);
+      return;
+    }
+    if (links_[id].state == LinkState::Interior && (task.mark != Mark::Anew || v.split != Split::None)) {
+      if (task.mark == Mark::Anew) links_.judged(id, v.link);
+      descend(task, v, next, false);
+      return;
+    }
+    if (links_[id].state == LinkState::Interior) {
+      links_.collapse(id, renewed);
+      ++report_.collapsed;
+      changed(id);
+    } else if (!samePlan(links_[id], v.link)) {
+      changed(id);
+    }
+    links_.judged(id, v.link);
+    report_.provenClear += v.link.visibility == Visibility::Clear;
+    report_.provenBlocked += v.link.visibility == Visibility::Blocked;
+    if (v.split == Split::None) return;
+    const bool optional = v.link.receiver != v.link.sender && v.link.K >= 0 && v.link.visibility != Visibility::Unknown;
+    if (stopping && optional) {
+      report_.stopped = true;
+      return;
+    }
+    if (!splitLink(links_, elements_, scene_, id, v.split)) return;
+    changed(id);
+    ++report_.split;
+    report_.created += links_[id].childCount;
+    descend(task, v, next, true);
+  }
+
+  void descend(const Task& task, const Verdict& v, std::vector<Task>& next, bool fresh) {
+    for (std::size_t c = 0; c < links_[task.link].childCount; ++c) {
+      const LinkId child = links_.child(task.link, c);
+      if (fresh) renewed(child);
+      const Mark mark = fresh ? Mark::Path : marks_[child.index()];
+      if (mark != Mark::None) next.push_back({child, v.blockers, mark});
+    }
+  }
+
+  Links& links_;
+  Elements& elements_;
+  const Scene& scene_;
+  const RayTracer& tracer_;
+  const OracleSettings& settings_;
+  std::vector<Mark> marks_;
+  RefineReport report_;
+};
+
+}  // namespace
+
 RefineReport refine(Links& links, Elements& elements, const Scene& scene, const RayTracer& tracer,
                     const OracleSettings& settings, const std::function<bool()>& stop) {
-  RefineReport report;
   makeRootLinks(links, elements);
-  std::vector<char> marked;
-  {
-    const Judge judge(elements, scene, tracer, settings);
-    marked = markUnsettled(links, judge);
-  }
+  std::vector<Mark> marks(links.size(), Mark::None);
+  const Judge judge(elements, scene, tracer, settings);
+  parallelFor(links.size(), 4096, [&](std::size_t i) {
+    if (judge.unsettled(links.all[i])) marks[i] = Mark::Path;
+  });
+  for (std::size_t i = 0; i < links.size(); ++i)
+    if (links.all[i].state != LinkState::Interior && marks[i] != Mark::None) markPaths(links, marks, LinkId(i));
+  Descent descent(links, elements, scene, tracer, settings, std::move(marks));
+  descent.stop = stop;
+  return descent.run();
+}
+
+RefineReport rejudge(Links& links, Elements& elements, const Scene& scene, const RayTracer& tracer,
+                     const OracleSettings& settings, LinkMarks& marked, std::vector<LinkId>& changed) {
+  std::vector<Mark> marks(links.size(), Mark::None);
+  for (const LinkId id : marked.anew) marks[id.index()] = Mark::Anew;
+  for (const LinkId id : marked.anew) markPaths(links, marks, id);
+  Descent descent(links, elements, scene, tracer, settings, std::move(marks));
   const std::size_t known = links.size();
-
-  Blockers arena(1, elements.sceneRoot);
-  std::vector<Task> tasks;
-  for (const LinkId root : links.roots)
-    if (marked[root.index()]) tasks.push_back({root, {0, 1}});
-
-  while (!tasks.empty()) {
-    constexpr std::size_t kBlock = 256;
-    const Judge judge(elements, scene, tracer, settings);
-    std::vector<Verdict> verdicts(tasks.size());
-    std::vector<Blockers> blocks((tasks.size() + kBlock - 1) / kBlock);
-    parallelBlocks(tasks.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-      Blockers& own = blocks[begin / kBlock];
-      for (std::size_t i = begin; i < end; ++i) {
-        const Task& t = tasks[i];
-        verdicts[i] = judge.judge(links[t.link], arena.data() + t.candidates.begin, t.candidates.count, own);
-      }
-    });
-    report.judged += tasks.size();
-
-    Blockers nextArena;
-    std::vector<Task> next;
-    const bool stopping = stop && stop();
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      const auto base = static_cast<std::uint32_t>(nextArena.size());
-      nextArena.insert(nextArena.end(), blocks[b].begin(), blocks[b].end());
-      for (std::size_t i = b * kBlock; i < std::min(tasks.size(), (b + 1) * kBlock); ++i) {
-        Verdict& v = verdicts[i];
-        const LinkId id = tasks[i].link;
-        v.blockers.begin += base;
-        report.rays += v.rays;
-        const bool wasInterior = links[id].state == LinkState::Interior;
-        if (!wasInterior) {
-          v.link.nextArriving = links[id].nextArriving, v.link.previousArriving = links[id].previousArriving;
-          links[id] = v.link;
-          report.provenClear += v.link.visibility == Visibility::Clear;
-          report.provenBlocked += v.link.visibility == Visibility::Blocked;
-        }
-        const bool mustSplit = v.split != Split::None && !wasInterior;
-        const bool optional =
-            v.link.receiver != v.link.sender && v.link.K >= 0 && v.link.visibility != Visibility::Unknown;
-        if (mustSplit && stopping && optional) {
-          report.stopped = true;
-          continue;
-        }
-        if (mustSplit) {
-          if (!splitLink(links, elements, scene, id, v.split)) continue;
-          ++report.split;
-          report.created += links[id].childCount;
-        } else if (!wasInterior) {
-          continue;
-        }
-        for (std::size_t c = 0; c < links[id].childCount; ++c) {
-          const LinkId child = links.child(id, c);
-          if (child.index() >= known || marked[child.index()]) next.push_back({child, v.blockers});
-        }
-      }
-    }
-    arena = std::move(nextArena);
-    tasks = std::move(next);
-  }
+  descent.renewed = [&](LinkId id) {
+    if (id.index() < known) marked.changes[id.index()] = LinkChange::Changed;
+  };
+  descent.changed = [&](LinkId id) {
+    if (id.index() >= known || marked.changes[id.index()] == LinkChange::Changed) return;
+    marked.changes[id.index()] = LinkChange::Changed;
+    changed.push_back(id);
+  };
+  const RefineReport report = descent.run();
+  for (const LinkId id : marked.lit)
+    if (links[id].state == LinkState::Active) descent.changed(id);
   return report;
 }
 

@@ -10,18 +10,25 @@
 #include <functional>
 
 #include "hierarchy/link.hpp"
+#include "radiosity/line_space.hpp"
 #include "radiosity/oracle.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
 
 struct RefineReport {
-  std::uint64_t judged = 0, created = 0, split = 0, rays = 0, provenClear = 0, provenBlocked = 0;
+  std::uint64_t judged = 0, created = 0, split = 0, collapsed = 0, rays = 0, provenClear = 0, provenBlocked = 0;
   bool stopped = false;  // ended early; the tree is consistent, some links err by more than their budget
 };
 
 /// Makes the root links of `elements` if there are none yet.
 void makeRootLinks(Links&, const Elements&);
+
+/// Judges the marked links anew after a move: active ones whose ends or visibility changed, interior ones that may no
+/// longer need to be refined, which collapse. Sets `marks.changes` to Changed where a link is another than before, and
+/// returns the topmost of those in `changed`.
+RefineReport rejudge(Links&, Elements&, const Scene&, const RayTracer&, const OracleSettings&, LinkMarks& marks,
+                     std::vector<LinkId>& changed);
 
 /// `stop` is asked between levels; true ends refinement with a consistent tree.
 RefineReport refine(Links&, Elements&, const Scene&, const RayTracer&, const OracleSettings&,

@@ -11,6 +11,53 @@
 
 namespace deltalux {
 
+namespace {
+
+struct Sample {
+  Ray ray;
+  double weight = 0;         // not above 0: the points do not face each other
+  std::size_t quadrant = 0;  // of the receiver
+};
+
+/// Sample i of a link whose keys make up `key`.
+Sample sampleOf(const Elements& elements, const Scene& scene, ElementId receiver, ElementId sender, std::uint64_t key,
+                int i) {
+  const auto u = stratified4(key, i);
+  const PatchPoint x = samplePoint(elements, scene, receiver, u[0], u[1]);
+  Sample s;
+  s.quadrant = (u[0] < 0.5 ? 0u : 1u) + (u[1] < 0.5 ? 0u : 2u);
+  if (elements.isDistant(sender)) {
+    const Vec3f w = directionOf(elements, scene, sender, u[2], u[3]);
+    s.weight = pointKernel(elements, scene, x.position, x.normal, sender, w, Vec3f(0.0f));
+    s.ray.origin = offsetOrigin(x.position, x.normal, w);
+    s.ray.direction = w;
+    return s;
+  }
+  const PatchPoint y = samplePoint(elements, scene, sender, u[2], u[3]);
+  s.weight = elements.isPoint(sender) || elements.isPatch(sender)
+                 ? pointKernel(elements, scene, x.position, x.normal, sender, y.position, y.normal)
+                 : std::max(0.0f, glm::dot(x.normal, y.position - x.position)) *
+                       std::max(0.0f, glm::dot(y.normal, x.position - y.position));
+  if (elements.isCluster(sender)) {
+    const Vec3f between = y.position - x.position;
+    const double squared = glm::dot(between, between);
+    s.weight = squared > 0 ? s.weight / (squared * squared) : 0.0;
+  }
+  if (s.weight > 0) s.ray = segment(x.position, x.normal, y.position, y.normal);
+  return s;
+}
+
+}  // namespace
+
+bool samplesMeet(const Elements& elements, const Scene& scene, const Link& link, const SpaceChange& space) {
+  const std::uint64_t key = combineKeys(elements.key[link.receiver.index()], elements.key[link.sender.index()]);
+  for (int i = 0; i < link.samples; ++i) {
+    const Sample s = sampleOf(elements, scene, link.receiver, link.sender, key, i);
+    if (s.weight > 0 && space.meets(s.ray)) return true;
+  }
+  return false;
+}
+
 VisibilityEstimate sampleVisibility(const Elements& elements, const Scene& scene, const RayTracer& tracer,
                                     ElementId receiver, ElementId sender, int samples) {
   VisibilityEstimate result;
@@ -19,28 +66,7 @@ VisibilityEstimate sampleVisibility(const Elements& elements, const Scene& scene
   double weights = 0, squares = 0, clearWeight = 0;
   std::array<double, 4> quadrantClear{}, quadrantWeight{};
   for (int i = 0; i < samples; ++i) {
-    const auto u = stratified4(key, i);
-    const PatchPoint x = samplePoint(elements, scene, receiver, u[0], u[1]);
-    Ray ray;
-    double weight = 0;
-    if (elements.isDistant(sender)) {
-      const Vec3f w = directionOf(elements, scene, sender, u[2], u[3]);
-      weight = pointKernel(elements, scene, x.position, x.normal, sender, w, Vec3f(0.0f));
-      ray.origin = offsetOrigin(x.position, x.normal, w);
-      ray.direction = w;
-    } else {
-      const PatchPoint y = samplePoint(elements, scene, sender, u[2], u[3]);
-      weight = elements.isPoint(sender) || elements.isPatch(sender)
-                   ? pointKernel(elements, scene, x.position, x.normal, sender, y.position, y.normal)
-                   : std::max(0.0f, glm::dot(x.normal, y.position - x.position)) *
-                         std::max(0.0f, glm::dot(y.normal, x.position - y.position));
-      if (elements.isCluster(sender)) {
-        const Vec3f between = y.position - x.position;
-        const double squared = glm::dot(between, between);
-        weight = squared > 0 ? weight / (squared * squared) : 0.0;
-      }
-      if (weight > 0) ray = segment(x.position, x.normal, y.position, y.normal);
-    }
+    const auto [ray, weight, quadrant] = sampleOf(elements, scene, receiver, sender, key, i);
     if (!(weight > 0)) continue;
     const Rgb through = tracer.transmittance(ray);
     const double seen = maxChannel(through) > 0 ? weight : 0.0;
@@ -49,7 +75,6 @@ VisibilityEstimate sampleVisibility(const Elements& elements, const Scene& scene
     weights += weight;
     squares += weight * weight;
     // Where on the receiver the sample lies tells how visibility varies over it.
-    const std::size_t quadrant = (u[0] < 0.5 ? 0u : 1u) + (u[1] < 0.5 ? 0u : 2u);
     clearWeight += seen;
     quadrantClear[quadrant] += seen;
     quadrantWeight[quadrant] += weight;

@@ -3,6 +3,7 @@
 // points of their surfaces, so that what a cluster hides of itself counts. The samples depend on the link's stable key
 // alone, and more samples extend the same sequence.
 #include "hierarchy/link.hpp"
+#include "radiosity/space_change.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
@@ -19,5 +20,8 @@ struct VisibilityEstimate {
 /// `samples` in 1..kMaxSamples rays.
 VisibilityEstimate sampleVisibility(const Elements&, const Scene&, const RayTracer&, ElementId receiver,
                                     ElementId sender, int samples);
+
+/// Whether a ray that the link's visibility was sampled by meets what has moved.
+bool samplesMeet(const Elements&, const Scene&, const Link&, const SpaceChange&);
 
 }  // namespace deltalux

@@ -187,6 +187,15 @@ std::optional<Shape> transformed(const Polygon& p, const ShapeMap& map) {
   if (map.mirrors) std::reverse(vertices.begin(), vertices.end());
   auto fresh = makePolygon(std::move(vertices));
   if (!fresh) return std::nullopt;
+  if (!map.mirrors && fresh->vertices.size() == p.vertices.size()) {
+    // Its parameters move along, so that what is known by them (patches, textures) stays where it was on the surface.
+    fresh->origin = map.point(p.origin);
+    fresh->edgeU = map.point(p.origin + p.edgeU) - fresh->origin;
+    fresh->edgeV = map.point(p.origin + p.edgeV) - fresh->origin;
+    fresh->triangles = p.triangles;
+    fresh->fillsFrame = p.fillsFrame;
+    fillTables(*fresh);
+  }
   return Shape(std::move(*fresh));
 }
 

@@ -48,7 +48,7 @@ TEST(TimeBudget, WhatStandsWhenTimeIsUpHoldsTogether) {
   EXPECT_NO_THROW(validate(s.elements));
   EXPECT_NO_THROW(validate(s.links, s.elements));
   EXPECT_FALSE(s.transfers.empty());
-  EXPECT_NO_THROW(s.transfers.validate(s.elements));
+  EXPECT_NO_THROW(s.transfers.validate(s.elements, s.links));
   EXPECT_LT(*report.energy.unsettledW, 1e-2 * *report.energy.emittedW);
 }
 

@@ -70,7 +70,6 @@ void expectSameProbes(const SolutionView& a, const SolutionView& b) {
 /// The rows of transfers bring every leaf the same, to the bit.
 void expectSameGathering(const Solution& a, const Solution& b) {
   ASSERT_FALSE(a.transfers.empty());
-  ASSERT_EQ(a.transfers.size(), b.transfers.size());
   Elements before = a.elements, after = b.elements;
   for (auto& [transfers, elements] : {std::pair(&a.transfers, &before), std::pair(&b.transfers, &after)}) {
     for (ElementLight& l : elements->radiometry) l.direct = l.indirect = Rgb(0.0f);
@@ -225,8 +224,8 @@ TEST(SolutionFile, IndicesOutOfRangeAreRefused) {
   EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(3, 12 + offsetof(Link, receiver), far))), "does not hold together"));
   EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(2, 12 + offsetof(ElementTopology, firstChild), far))),
                        "does not hold together"));
-  // The leaf of the first row of transfers, behind a count and a record size.
-  EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(5, 12, far))), "does not hold together"));
+  // The leaf of the first row of transfers, behind a count.
+  EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(5, 8, far))), "does not hold together"));
   EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(2, 8, "\x7f"))), "another version of deltalux"));
   std::vector<fuzz::StoredSection> fewer = sections;
   fewer.pop_back();

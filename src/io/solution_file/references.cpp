@@ -113,7 +113,7 @@ void checkReferences(const Solution& s) {
   for (const Link& l : s.links.all) checkLink(l, s.links.size(), s.elements);
   checkLinkTree(s.links);
   validate(s.particles, s.scene);
-  s.transfers.validate(s.elements);
+  s.transfers.validate(s.elements, s.links);
 }
 
 }  // namespace deltalux

@@ -38,10 +38,18 @@ void members(auto& archive, Is<Particles> auto& p) {
               primitive, triangleAndSide, uv, throughput, quantum, rays, looks);
 }
 
+void members(auto& archive, Is<TransferRow> auto& r) {
+  auto& [terms, transfers, weightPerRay] = r;
+  transferAll(archive, terms, transfers, weightPerRay);
+}
+void members(auto& archive, Is<LeafRow> auto& r) {
+  auto& [leaf, direct, indirect] = r;
+  transferAll(archive, leaf, direct, indirect);
+}
 struct StoredTransfers {
   static void transfer(auto& archive, auto& t) {
-    auto& [leaves, lightBegin, lights, begin, transfers] = t;
-    transferAll(archive, leaves, lightBegin, lights, begin, transfers);
+    auto& [rows] = t;
+    transferAll(archive, rows);
   }
 };
 void members(auto& archive, Is<LeafTransfers> auto& t) { StoredTransfers::transfer(archive, t); }

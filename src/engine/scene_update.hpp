@@ -1,0 +1,22 @@
+#pragma once
+// What edits since the last update come to, for the solution: surfaces and lights that moved, with their bounds before;
+// lights and materials that are otherwise where they were.
+#include <deltalux/edit.hpp>
+
+namespace deltalux {
+
+struct SceneUpdate {
+  std::vector<SceneChange::Moved> moved;
+  std::vector<LightId> movedLights;  // stand or aim elsewhere
+  std::vector<LightId> dimmed;       // send another power
+  std::vector<MaterialId> materials;
+  bool grown = false;  // there are surfaces that no element stands for
+  std::string op, subject;
+
+  bool empty() const { return moved.empty() && movedLights.empty() && dimmed.empty() && materials.empty() && !grown; }
+};
+
+/// Applies the edit and adds what it did.
+void applyInto(SceneUpdate&, Scene&, const Edit&);
+
+}  // namespace deltalux

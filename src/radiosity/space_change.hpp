@@ -1,0 +1,51 @@
+#pragma once
+// Where a scene has changed: the bounds of what moved, before and after, and what that does to the links.
+#include <deltalux/math.hpp>
+#include <unordered_map>
+#include <vector>
+
+#include "hierarchy/link.hpp"
+#include "radiosity/shaft.hpp"
+#include "tracing/ray.hpp"
+
+namespace deltalux {
+
+/// Bounds of all that moved, appeared or went, each where it was and where it is.
+class SpaceChange {
+ public:
+  void add(const Box&);
+  /// By element: whether it is what moved, or part of it.
+  void setMoved(std::vector<char> moved) { moved_ = std::move(moved); }
+
+  bool moved(ElementId e) const { return e.index() < moved_.size() && moved_[e.index()]; }
+
+  bool empty() const { return parts_.empty(); }
+  /// Conservative: never false when what moved is met.
+  bool meets(const Shaft&) const;
+  bool meets(const Ray&) const;
+  /// Of the convex hull of two balls.
+  bool meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const;
+
+ private:
+  struct Part {
+    Vec3f lower, upper;
+  };
+  Part all_{Vec3f(std::numeric_limits<float>::infinity()), Vec3f(-std::numeric_limits<float>::infinity())};
+  std::vector<Part> parts_;
+  std::vector<char> moved_;
+};
+
+/// What a link has come to, by its index.
+enum class LinkChange : std::uint8_t {
+  None,
+  Touched,  // what moved is in its shaft: rays through it may tell otherwise
+  Changed,  // its transfer, its visibility or its place in the tree is another
+};
+
+using LinkChanges = std::vector<LinkChange>;  // links beyond its end are new: Changed
+
+inline LinkChange changeOf(const LinkChanges& changes, LinkId id) {
+  return id.index() < changes.size() ? changes[id.index()] : LinkChange::Changed;
+}
+
+}  // namespace deltalux

@@ -1,0 +1,143 @@
+// Updates: after an edit, what a fresh solve of the edited scene gives, for the work of what changed.
+#include <gtest/gtest.h>
+#include <deltalux/error.hpp>
+
+#include "base/random.hpp"
+#include "hierarchy/side_locator.hpp"
+#include "support/solved.hpp"
+
+namespace deltalux {
+namespace {
+
+Scene roomWithBox() {
+  Scene scene;
+  const MaterialId white = test::addMaterial(scene, "white", test::lambert(0.6f));
+  const MaterialId lamp = test::addMaterial(scene, "lamp", test::lambert(0.0f), Emission{Rgb(20.0f), false, {}});
+  test::addBox(scene, white, {0, 0, 0}, {3, 4, 2.5}, true);
+  test::addBox(scene, white, {1.0, 1.2, 0.3}, {1.5, 1.8, 0.9}, false);
+  test::addPolygon(scene, lamp, {{1.2, 1.7, 2.4}, {1.2, 2.3, 2.4}, {1.8, 2.3, 2.4}, {1.8, 1.7, 2.4}});
+  const ObjectId walls = internObject(scene, "walls", '.'), box = internObject(scene, "box", '.');
+  for (std::size_t i = 0; i < scene.primitives.size(); ++i) scene.primitives[i].object = i >= 6 && i < 12 ? box : walls;
+  addAreaLights(scene);
+  return scene;
+}
+
+Edit moveBox(const Vec3& by) {
+  Mat4 matrix(1.0);
+  matrix[3] = glm::dvec4(by, 1.0);
+  return TransformObject{"box", matrix};
+}
+
+/// Area-weighted relative difference of E between the leaves of two solutions of one scene, at the leaves of the first.
+test::Spread difference(const Engine& a, const Engine& b) {
+  const Solution &s = a.solution().get(), &t = b.solution().get();
+  const SideLocator locator(t.elements, t.scene);
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < s.elements.size(); ++i) {
+    const ElementTopology& topology = s.elements.topology[i];
+    if (topology.kind != ElementKind::Patch || topology.emitter || topology.childCount > 0) continue;
+    const PatchDomain& d = s.elements.domain[i];
+    const ElementId side = locator.side(d.primitive, d.triangle, topology.front);
+    if (!side.valid()) continue;
+    const Vec3f center = s.elements.geometry[i].center;
+    const ElementLight &x = s.elements.radiometry[i],
+                       &y = t.elements.radiometry[locator.locate(side, Vec3(center)).leaf.index()];
+    const double E = gray(y.direct + y.indirect);
+    if (E > 0.01) differences.push_back(std::abs(gray(x.direct + x.indirect) - E) / E);
+  }
+  return test::spreadOf(std::move(differences));
+}
+
+TEST(Update, MovingABoxIsSolvingTheMovedScene) {
+  Engine engine = test::solved(roomWithBox(), 0.05);
+  engine.apply(moveBox({0.15, 0.1, 0}));
+  const StepReport step = engine.update();
+  EXPECT_EQ(step.op, "transform");
+  EXPECT_GT(step.linksVisited, 0u);
+  const Solution& s = engine.solution().get();
+  EXPECT_NO_THROW(validate(s.elements));
+  EXPECT_NO_THROW(validate(s.links, s.elements));
+  EXPECT_NO_THROW(s.transfers.validate(s.elements, s.links));
+  const Engine fresh = test::solved(s.scene, 0.05);
+  const test::Spread between = difference(engine, fresh);
+  EXPECT_LT(between.median, 0.02);
+  EXPECT_LT(between.p95, 0.12);
+  for (std::size_t wall = 0; wall < 6; ++wall)
+    EXPECT_NEAR(test::meshMean(engine, PrimitiveId(wall)) / test::meshMean(fresh, PrimitiveId(wall)), 1.0, 0.01);
+}
+
+TEST(Update, OutAndBackIsWhereItWas) {
+  Engine engine = test::solved(roomWithBox(), 0.05);
+  const Engine before = test::solved(roomWithBox(), 0.05);
+  engine.apply(moveBox({0.3, 0.4, 0.2}));
+  engine.update();
+  engine.apply(moveBox({-0.3, -0.4, -0.2}));
+  engine.update();
+  const test::Spread between = difference(engine, before);
+  EXPECT_LT(between.median, 0.02);
+  EXPECT_LT(between.p95, 0.12);
+}
+
+TEST(Update, DimmingTracesNoRayAndScalesTheLight) {
+  Engine engine = test::solved(roomWithBox(), 0.05);
+  const std::uint64_t rays = engine.solution().report().counts.raysVisibility;
+  const double before = test::meshMean(engine, PrimitiveId(std::size_t{0}));
+  const std::string lamp = engine.solution().scene().lights[0].name;
+  engine.apply(ScaleLight{lamp, 0.25f});
+  const StepReport step = engine.update();
+  EXPECT_EQ(step.linksVisited, 0u);
+  EXPECT_EQ(engine.solution().report().counts.raysVisibility, rays);
+  EXPECT_NEAR(test::meshMean(engine, PrimitiveId(std::size_t{0})) / before, 0.25, 1e-3);
+  engine.apply(SwitchLight{lamp, false});
+  engine.update();
+  EXPECT_LT(test::meshMean(engine, PrimitiveId(std::size_t{0})), 1e-3 * before);
+}
+
+TEST(Update, RepaintingTracesNoRayAndIsSolvingTheRepaintedScene) {
+  Engine engine = test::solved(roomWithBox(), 0.05);
+  const std::uint64_t rays = engine.solution().report().counts.raysVisibility;
+  engine.apply(SetMaterial{"white", Rgb(0.3f), {}});
+  engine.update();
+  EXPECT_EQ(engine.solution().report().counts.raysVisibility, rays);
+  const Engine fresh = test::solved(engine.solution().scene(), 0.05);
+  for (std::size_t wall = 0; wall < 6; ++wall)
+    EXPECT_NEAR(test::meshMean(engine, PrimitiveId(wall)) / test::meshMean(fresh, PrimitiveId(wall)), 1.0, 0.01);
+}
+
+TEST(Update, RemovingAndComingBack) {
+  Engine engine = test::solved(roomWithBox(), 0.05);
+  engine.apply(RemoveObject{"box"});
+  engine.update();
+  EXPECT_NO_THROW(validate(engine.solution().get().elements));
+  const Engine fresh = test::solved(engine.solution().scene(), 0.05);
+  for (std::size_t wall = 0; wall < 6; ++wall)
+    EXPECT_NEAR(test::meshMean(engine, PrimitiveId(wall)) / test::meshMean(fresh, PrimitiveId(wall)), 1.0, 0.01);
+}
+
+TEST(Update, ManyRandomMovesHoldTogetherAndEndWhereAFreshSolveDoes) {
+  Engine engine = test::solved(roomWithBox(), 0.05);
+  Rng rng(17);
+  Vec3 at(0.0);
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 to(rng.uniform() * 1.2 - 0.8, rng.uniform() * 1.8 - 0.9, rng.uniform() * 0.8 - 0.2);
+    engine.apply(moveBox(to - at));
+    at = to;
+    engine.update();
+    const Solution& s = engine.solution().get();
+    ASSERT_NO_THROW(validate(s.elements));
+    ASSERT_NO_THROW(validate(s.links, s.elements));
+    ASSERT_NO_THROW(s.transfers.validate(s.elements, s.links));
+  }
+  const Engine fresh = test::solved(engine.solution().scene(), 0.05);
+  for (std::size_t wall = 0; wall < 6; ++wall)
+    EXPECT_NEAR(test::meshMean(engine, PrimitiveId(wall)) / test::meshMean(fresh, PrimitiveId(wall)), 1.0, 0.025);
+}
+
+TEST(Update, AnUnknownNameLeavesEverythingAsItWas) {
+  Engine engine = test::solved(roomWithBox(), 0.1);
+  EXPECT_THROW(engine.apply(RemoveObject{"boks"}), InputError);
+  EXPECT_EQ(engine.update().linksVisited, 0u);
+}
+
+}  // namespace
+}  // namespace deltalux
