@@ -8,6 +8,8 @@ namespace deltalux::cli {
 
 void addInfoCommand(CLI::App&);
 void addSolveCommand(CLI::App&);
+void addUpdateCommand(CLI::App&);
+void addReplayCommand(CLI::App&);
 void addProbeCommand(CLI::App&);
 void addRenderCommand(CLI::App&);
 void addReferenceCommand(CLI::App&);
@@ -16,6 +18,8 @@ void addReferenceCommand(CLI::App&);
 inline void addCommands(CLI::App& app) {
   addInfoCommand(app);
   addSolveCommand(app);
+  addUpdateCommand(app);
+  addReplayCommand(app);
   addProbeCommand(app);
   addRenderCommand(app);
   addReferenceCommand(app);

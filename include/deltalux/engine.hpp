@@ -25,8 +25,9 @@ class Engine {
   /// Steps until the target is met or the time is up.
   SolveReport solve(Progress* progress = nullptr);
 
-  /// Takes an edit in, for the next update. Throws InputError (applyEdit) and is as before.
-  void apply(const Edit&);
+  /// Takes an edit in, for the next update, and returns what undoes it exactly. Throws InputError (applyEdit) and is as
+  /// before.
+  Restore apply(const Edit&);
   /// Brings the solution to what all edits since have made of the scene: what a fresh solve would give, within the
   /// error target's own noise. Solves first what is not solved. Things that were added make it solve the scene afresh.
   StepReport update(Progress* progress = nullptr);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <deltalux/error.hpp>
+#include <optional>
 #include <utility>
 
 #include "base/check.hpp"
@@ -14,6 +15,7 @@
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
 #include "particles/mesh_for_particles.hpp"
+#include "particles/particle_tracing.hpp"
 #include "particles/reached_sides.hpp"
 #include "particles/transfer.hpp"
 #include "radiosity/coarse_solution.hpp"
@@ -53,7 +55,9 @@ struct Engine::State {
   bool finished = false;  // the last round has run
   Clock clock;
   TimeBudget budget{0};
-  SceneUpdate pending;  // edits since the last update
+  SceneUpdate pending;                       // edits since the last update
+  std::optional<ParticleTracing> tracing;    // knows the scene that the particles are of
+  std::optional<ParticleTransfer> transfer;  // of the particles, on the mesh of the rows
 
   SolveReport step(Progress* progress) {
     const Clock time;
@@ -89,15 +93,21 @@ struct Engine::State {
     Solution& s = *solution;
     if (s.settings.diffuseOnly) return;
     const Clock time;
-    s.particles = traceParticles(s.scene, *s.tracer, {particleCount(s.settings), s.settings.seed});
+    tracing.emplace(s.scene, *s.tracer, ParticleSettings{particleCount(s.settings), s.settings.seed});
+    s.particles = tracing->trace();
     DELTALUX_VALIDATED(validate(s.particles, s.scene));
     s.report.times.particles += time.seconds();
+    countParticles();
+  }
+
+  void countParticles() {
+    Solution& s = *solution;
     WorkCounts& c = s.report.counts;
     c.linksDs = s.particles.links.size();
     c.particles = s.particles.arrived();
     c.impacts = s.particles.impacts();
     s.report.cutParticles = s.particles.cut();
-    c.raysParticles += s.particles.rays + s.particles.looks;
+    c.raysParticles = s.particles.rays + s.particles.looks;
     s.report.memory.particles = s.particles.memoryBytes();
   }
 
@@ -154,11 +164,11 @@ struct Engine::State {
     Solution& s = *solution;
     const GatherPlan plan(s.links, s.elements);
     plan.gatherDirect(s.elements);
-    const ParticleTransfer transfer(s.particles, s.elements, s.scene);
+    const ParticleTransfer onMesh(s.particles, s.elements, s.scene);
     RgbSum unsettled(0.0), emitted(0.0);
     for (int i = 0; i < kMaxIterations; ++i) {
       plan.gatherIndirect(s.elements);
-      transfer.apply(s.elements, s.scene);
+      onMesh.apply(s.elements, s.scene);
       unsettled = pushPull(s.elements);
       ++s.report.counts.iterations;
       emitted = directPower();
@@ -181,6 +191,7 @@ struct Engine::State {
     }
     relight(edits);
     if (!edits.moved.empty() || !edits.movedLights.empty()) move(edits, step);
+    followWithParticles(edits, step);
     const Clock gathering;
     settleRows(progress);
     step.times.gather += gathering.seconds();
@@ -189,10 +200,35 @@ struct Engine::State {
     return step;
   }
 
+  /// Retraces the particles that the edits can touch. [GD01 4]
+  void followWithParticles(const SceneUpdate& edits, StepReport& step) {
+    Solution& s = *solution;
+    if (!tracing) return;
+    const Clock time;
+    const ParticleUpdate followed = tracing->follow(s.particles, edits.whole);
+    DELTALUX_VALIDATED(validate(s.particles, s.scene));
+    if (followed.all)
+      transfer.reset();
+    else if (transfer)
+      transfer->follow(s.particles, followed, s.elements, s.scene);
+    countParticles();
+    step.particlesRetraced = followed.all ? s.particles.arrived() : followed.particles;
+    step.particlesTotal = s.particles.arrived();
+    step.times.particles += time.seconds();
+  }
+
+  Restore apply(const Edit& edit) {
+    Solution& s = *solution;
+    if (!tracing && !s.settings.diffuseOnly && finished)  // while the scene is still what the particles are of
+      tracing.emplace(s.scene, *s.tracer, ParticleSettings{particleCount(s.settings), s.settings.seed});
+    return applyInto(pending, s.scene, edit);
+  }
+
   /// There is no place in the trees for what was not there.
   void solveAfresh(Progress* progress) {
     Solution& s = *solution;
     s.tracer = makeEmbreeTracer(s.scene);
+    tracing.reset(), transfer.reset();
     s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.report = {};
     finished = false;
     clock = {};
@@ -231,7 +267,8 @@ struct Engine::State {
     LinkMarks marks;
     LineSpace(s.links, s.elements, s.scene, change).visit(before, false, marks);
     reshape(s.elements, s.scene, inputs);
-    s.tracer = makeEmbreeTracer(s.scene);
+    // Nobody traces now, and who holds the solution holds the engine's tracer.
+    std::const_pointer_cast<RayTracer>(s.tracer)->rebuild(GroupId(std::size_t{0}));
     LineSpace(s.links, s.elements, s.scene, change).visit(after, true, marks);
     step.linksVisited = marks.visited;
     step.times.visibility = time.seconds();
@@ -271,6 +308,7 @@ struct Engine::State {
   /// The links' transfers resolved to leaves, and settled again.
   bool resolve(const LeafTransferSettings& settings, Progress* progress) {
     Solution& s = *solution;
+    transfer.reset();
     const LeafTransferReport r = s.transfers.build(s.elements, s.links, s.scene, *s.tracer, settings);
     s.report.counts.raysVisibility += r.rays;
     return settleRows(progress);
@@ -283,10 +321,10 @@ struct Engine::State {
     s.transfers.gatherDirect(s.elements);
     pull(s.elements);
     const RgbSum emitted = directPower();
-    const ParticleTransfer particles(s.particles, s.elements, s.scene);
+    if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
     for (int i = 0; i < kMaxRowIterations; ++i) {
       s.transfers.gatherIndirect(s.elements);
-      particles.apply(s.elements, s.scene);
+      transfer->apply(s.elements, s.scene);
       unsettled = pull(s.elements);
       ++s.report.counts.iterations;
       if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
@@ -359,7 +397,7 @@ Engine::Engine(SolutionView view) : state_(std::make_unique<State>()) {
   state_->finished = !state_->solution->transfers.empty() || state_->solution->elements.size() == 0;
 }
 
-void Engine::apply(const Edit& edit) { applyInto(state_->pending, state_->solution->scene, edit); }
+Restore Engine::apply(const Edit& edit) { return state_->apply(edit); }
 
 StepReport Engine::update(Progress* progress) {
   if (!state_->finished) solve(progress);

@@ -28,10 +28,14 @@ bool alike(const A&, const B&) {
 
 }  // namespace
 
-void applyInto(SceneUpdate& update, Scene& scene, const Edit& edit) {
+Restore applyInto(SceneUpdate& update, Scene& scene, const Edit& edit) {
   const std::vector<Light> before = scene.lights;
   const std::size_t primitives = scene.primitives.size();
   const AppliedEdit applied = applyEdit(scene, edit);
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(update.whole.moved, applied.change.moved);
+  append(update.whole.lights, applied.change.lights);
+  append(update.whole.materials, applied.change.materials);
   update.grown |= scene.primitives.size() > primitives;
   for (const SceneChange::Moved& m : applied.change.moved) {
     update.moved.push_back(m);
@@ -47,6 +51,7 @@ void applyInto(SceneUpdate& update, Scene& scene, const Edit& edit) {
   update.materials.insert(update.materials.end(), applied.change.materials.begin(), applied.change.materials.end());
   update.op = editOperation(edit);
   update.subject = editSubject(edit);
+  return applied.inverse;
 }
 
 }  // namespace deltalux

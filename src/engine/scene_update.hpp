@@ -6,6 +6,7 @@
 namespace deltalux {
 
 struct SceneUpdate {
+  SceneChange whole;  // of all edits, one after the other
   std::vector<SceneChange::Moved> moved;
   std::vector<LightId> movedLights;  // stand or aim elsewhere
   std::vector<LightId> dimmed;       // send another power
@@ -16,7 +17,7 @@ struct SceneUpdate {
   bool empty() const { return moved.empty() && movedLights.empty() && dimmed.empty() && materials.empty() && !grown; }
 };
 
-/// Applies the edit and adds what it did.
-void applyInto(SceneUpdate&, Scene&, const Edit&);
+/// Applies the edit, adds what it did, and returns its inverse.
+Restore applyInto(SceneUpdate&, Scene&, const Edit&);
 
 }  // namespace deltalux

@@ -1,0 +1,131 @@
+// deltalux update: a solution, brought up to edits of its scene; deltalux replay: the same edit by edit, measured.
+#include <fmt/format.h>
+
+#include <deltalux/check.hpp>
+#include <deltalux/edit_io.hpp>
+#include <deltalux/engine.hpp>
+#include <deltalux/output.hpp>
+#include <deltalux/solution_file.hpp>
+
+#include "commands.hpp"
+#include "solution_source.hpp"
+
+namespace deltalux::cli {
+
+namespace {
+
+/// Edits in order, undo and redo among them.
+class Session {
+ public:
+  explicit Session(Engine& engine) : engine_(engine) {}
+
+  StepReport take(const EditStep& step, Progress& progress) {
+    std::visit([&](const auto& s) { apply(s); }, step);
+    return engine_.update(&progress);
+  }
+
+ private:
+  void apply(const Edit& edit) {
+    undo_.push_back(engine_.apply(edit));
+    redo_.clear();
+  }
+  void apply(const Undo&) { move(undo_, redo_); }
+  void apply(const Redo&) { move(redo_, undo_); }
+  void move(std::vector<Restore>& from, std::vector<Restore>& to) {
+    const Restore back = from.back();
+    from.pop_back();
+    to.push_back(engine_.apply(back));
+  }
+
+  Engine& engine_;
+  std::vector<Restore> undo_, redo_;
+};
+
+struct UpdateOptions {
+  SolutionSource source;
+  SceneOptions scene;
+  SolveOptions solve;
+  RunOptions run;
+  std::string edits, output;
+  bool check = false;
+};
+
+void describe(const StepReport& step, Run& run) {
+  run.say(fmt::format("{} {}: {:.0f} ms, {} links visited, {} changed, {} of {} particles retraced", step.op,
+                      step.object, 1e3 * step.times.total, step.linksVisited, step.linksChanged, step.particlesRetraced,
+                      step.particlesTotal));
+}
+
+void runUpdate(const UpdateOptions& options) {
+  if (!isSolutionFile(options.output))
+    throw CLI::ValidationError(fmt::format("-o {}: a solution's name ends in .dlx", options.output));
+  Run run("update", options.run);
+  checkWritable(options.output);
+  {
+    ProgressPrinter progress(options.run.progressStyle());
+    const std::vector<EditStep> steps = loadEdits(options.edits);
+    Engine engine(options.source.load(run, options.run, progress, [&](const Scene& scene) {
+      Scene lit = scene;
+      addAreaLights(lit);
+      validateEdits(std::move(lit), steps, options.edits);
+    }));
+    Session session(engine);
+    for (const EditStep& step : steps) run.report.steps.push_back(session.take(step, progress));
+    saveSolution(options.output, engine.solution());
+  }
+  for (const StepReport& step : run.report.steps) describe(step, run);
+  run.finish();
+}
+
+void runReplay(const UpdateOptions& options) {
+  Run run("replay", options.run);
+  {
+    ProgressPrinter progress(options.run.progressStyle());
+    ImportedScene imported = options.scene.load(run);
+    const std::vector<EditStep> steps = loadEdits(options.edits);
+    addAreaLights(imported.scene);
+    validateEdits(imported.scene, steps, options.edits);
+    Engine engine(options.solve.solve(std::move(imported.scene), run, options.run, progress));
+    Session session(engine);
+    for (const EditStep& step : steps) run.report.steps.push_back(session.take(step, progress));
+    if (options.check) {
+      Engine fresh(engine.solution().scene(), engine.solution().settings());
+      const SolveReport solved = fresh.solve(&progress);
+      run.report.check = compareSolutions(engine.solution(), fresh.solution(), 2000, &progress);
+      run.report.check->solveS = solved.times.total;
+    }
+  }
+  for (const StepReport& step : run.report.steps) describe(step, run);
+  if (const auto& check = run.report.check)
+    run.say(fmt::format("against a solve from scratch ({:.1f} s): median {:.2f} %, 95 % within {:.2f} %, particles {}",
+                        check->solveS, 100 * check->medianRelDiff, 100 * check->p95RelDiff,
+                        check->particlesIdentical ? "identical" : "differ"));
+  run.finish();
+}
+
+}  // namespace
+
+void addUpdateCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("update", "Bring a solution up to edits of its scene");
+  const auto options = std::make_shared<UpdateOptions>();
+  options->source.add(*command);
+  command->add_option("--edits", options->edits, "What to do to the scene")->type_name("E.json")->required();
+  command->add_option("-o", options->output, "Where the updated solution goes")->type_name("SOLUTION.dlx")->required();
+  options->run.addLongWork(*command);
+  options->run.addReport(*command);
+  command->callback([options] { runUpdate(*options); });
+}
+
+void addReplayCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("replay", "Solve a scene, then apply edits one by one and say what each cost");
+  const auto options = std::make_shared<UpdateOptions>();
+  options->scene.add(*command);
+  options->solve.add(*command);
+  command->add_option("--edits", options->edits, "What to do to the scene")->type_name("E.json")->required();
+  command->add_flag("--check", options->check, "At the end solve from scratch too, and say what differs");
+  options->run.addLongWork(*command);
+  options->run.addReport(*command);
+  command->callback([options] { runReplay(*options); });
+}
+
+}  // namespace deltalux::cli
