@@ -13,6 +13,8 @@ namespace deltalux {
 namespace {
 
 constexpr std::uint64_t kPathBudget = 1u << 17;
+constexpr std::size_t kMost = 64;                           // paths of one side
+constexpr std::size_t kFewest = 24, kFewestOfTriangle = 8;  // a mesh's triangles speak for each other
 constexpr int kBounces = 3;
 constexpr std::size_t kPicked = 3;  // lights a vertex looks at
 constexpr int kPanes = 8;           // panes that a ray passes before it is given up
@@ -56,7 +58,7 @@ class Estimator {
     for (const SurfaceSide& s : sides_)
       if (!s.front) twoSided_[s.primitive.index()] = true;  // has back sides too
     diagonal_ = bounds(scene).diagonal();
-    rays_ = std::clamp<std::size_t>(kPathBudget / std::max<std::size_t>(sides_.size(), 1), 8, 64);
+    rays_ = std::clamp<std::size_t>(kPathBudget / std::max<std::size_t>(sides_.size(), 1), kFewestOfTriangle, kMost);
   }
 
   std::vector<SurfaceSide> run(CoarseReport* report) {
@@ -90,22 +92,24 @@ class Estimator {
   void estimate(std::size_t i) {
     SurfaceSide& side = sides_[i];
     Estimate& e = estimates_[i];
+    const bool triangle = std::holds_alternative<Mesh>(scene_[side.primitive].shape);
+    const std::size_t rays = triangle ? rays_ : std::max(rays_, kFewest);
     Rng rng(combineKeys(combineKeys(side.primitive.value, side.triangle), side.front));
     double path = 0;
     std::size_t found = 0;
     RgbSum total(0.0);
     double own = 0;
     double root = 0;  // mean root of direct light: a bright patch does not speak for the whole surface
-    for (std::size_t k = 0; k < rays_; ++k) {
+    for (std::size_t k = 0; k < rays; ++k) {
       RgbSum sum(0.0);
-      const double u = (double(k) + rng.uniform()) / double(rays_), v = rng.uniform();
+      const double u = (double(k) + rng.uniform()) / double(rays), v = rng.uniform();
       Origin o = pointOnSide(scene_, side, {u, v});
       Rgb throughput(1.0f);
       for (int bounce = 0; bounce <= kBounces; ++bounce) {
         const Rgb direct = directAt(o, rng);
         if (bounce == 0) {
-          root += std::sqrt(gray(direct)) / double(rays_);
-          own += gray(direct) / double(rays_);
+          root += std::sqrt(gray(direct)) / double(rays);
+          own += gray(direct) / double(rays);
         }
         sum += RgbSum(throughput * direct);
         const double r = std::sqrt(rng.uniform()), phi = 2 * kPi * rng.uniform();
@@ -129,7 +133,7 @@ class Estimator {
         o.position = Vec3(hit.position);
         o.normal = Vec3(hit.front ? hit.normal : -hit.normal);
       }
-      total += sum / double(rays_);
+      total += sum / double(rays);
     }
     e.E = Rgb(total);
     e.typical = static_cast<float>(std::max(0.0, gray(total) - own) + root * root);
