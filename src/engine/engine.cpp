@@ -203,7 +203,7 @@ struct Engine::State {
   /// Retraces the particles that the edits can touch. [GD01 4]
   void followWithParticles(const SceneUpdate& edits, StepReport& step) {
     Solution& s = *solution;
-    if (!tracing) return;
+    if (!tracing) return transfer.reset();  // no particles, on a mesh that may have changed
     const Clock time;
     const ParticleUpdate followed = tracing->follow(s.particles, edits.whole);
     DELTALUX_VALIDATED(validate(s.particles, s.scene));

@@ -66,6 +66,23 @@ TEST(Update, MovingABoxIsSolvingTheMovedScene) {
     EXPECT_NEAR(test::meshMean(engine, PrimitiveId(wall)) / test::meshMean(fresh, PrimitiveId(wall)), 1.0, 0.01);
 }
 
+TEST(Update, DiffuseOnlyFollowsMovesThatSplitLeaves) {
+  SolveSettings settings;
+  settings.error = 0.05, settings.diffuseOnly = true;
+  Engine engine(roomWithBox(), settings);
+  engine.solve();
+  for (const double dx : {0.3, -0.5, 0.4, -0.3}) {
+    engine.apply(moveBox({dx, 0.2 * dx, 0}));
+    engine.update();
+  }
+  const Solution& s = engine.solution().get();
+  EXPECT_NO_THROW(s.transfers.validate(s.elements, s.links));
+  Engine fresh(s.scene, settings);
+  fresh.solve();
+  for (std::size_t wall = 0; wall < 6; ++wall)
+    EXPECT_NEAR(test::meshMean(engine, PrimitiveId(wall)) / test::meshMean(fresh, PrimitiveId(wall)), 1.0, 0.02);
+}
+
 TEST(Update, OutAndBackIsWhereItWas) {
   Engine engine = test::solved(roomWithBox(), 0.05);
   const Engine before = test::solved(roomWithBox(), 0.05);
