@@ -254,6 +254,7 @@ bool samePlan(const Link& before, const Link& after) {
       (before.visibility != Visibility::Sampled || after.visibility == Visibility::Unknown))
     return false;  // no ray was traced through what was proven
   if (std::abs(before.K - after.K) > kSameKernel * before.K) return false;
+  if (before.fromLight) return true;  // every light in sight gets rays, and they are tested one by one
   const float a = openness(before), b = openness(after);
   return a <= kSameOpenness * b && b <= kSameOpenness * a;
 }
