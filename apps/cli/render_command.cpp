@@ -20,7 +20,7 @@ struct RenderOptions {
   SolutionSource source;
   RunOptions run;
   PictureOptions picture;
-  std::string view, output, linksOf;
+  std::string view, output, linksOf, textures;
   int samples = RenderSettings{}.samplesPerPixel;
   bool meshDirect = false, mesh = false;
 };
@@ -81,24 +81,50 @@ Image picture(const RenderOptions& options, const SolutionView& solution, const 
   return render(solution, view, settings, &progress);
 }
 
-void runRender(const RenderOptions& options) {
+/// Every caustic texture as a picture of its own, and all on a contact sheet.
+void saveTextures(const std::filesystem::path& folder, const SolutionView& solution, const Run& run) {
+  const std::vector<TextureImage> textures = textureImages(solution);
+  for (std::size_t i = 0; i < textures.size(); ++i)
+    saveImage(folder / fmt::format("{:03}-{}.exr", i + 1, textures[i].name), textures[i].image);
+  saveImage(folder / "contact_sheet.png", contactSheet(textures));
+  run.say(fmt::format("{}: {} caustic textures", folder.string(), textures.size()));
+}
+
+void checkOutputs(const RenderOptions& options) {
+  if (options.textures.empty() && options.view.empty())
+    throw CLI::ValidationError("--view V with -o IMAGE, or --textures DIR: one of them is required");
+  if (!options.textures.empty() && !std::filesystem::is_directory(options.textures))
+    throw CLI::ValidationError(fmt::format("--textures {}: there is no such folder", options.textures));
+  if (!options.textures.empty()) checkWritable(std::filesystem::path(options.textures) / "contact_sheet.png");
+  if (options.view.empty()) return;
   options.picture.validate(options.output);
-  Run run("render", options.run);
   checkWritable(options.output);
-  ProgressPrinter progress(options.run.progressStyle());
-  std::optional<View> view;
-  const SolutionView solution = options.source.load(
-      run, options.run, progress, [&](const Scene& scene) { view = chooseView(scene, options.view); });
-  const glm::ivec2 size = options.picture.resolution(*view);
+}
+
+void saveView(const RenderOptions& options, const SolutionView& solution, const View& view, const Run& run,
+              Progress& progress) {
+  const glm::ivec2 size = options.picture.resolution(view);
   if (options.picture.falseColor()) {
-    const Image image = irradianceSeen(solution, *view, size, options.run.seed, progress);
+    const Image image = irradianceSeen(solution, view, size, options.run.seed, progress);
     options.picture.saveFalseColor(options.output, image);
   } else {
-    Image image = picture(options, solution, *view, size, progress);
-    image.view = viewOptions(*view);
+    Image image = picture(options, solution, view, size, progress);
+    image.view = viewOptions(view);
     options.picture.save(options.output, image, run);
   }
   run.say(fmt::format("{}: {} x {} pixels", options.output, size.x, size.y));
+}
+
+void runRender(const RenderOptions& options) {
+  checkOutputs(options);
+  Run run("render", options.run);
+  ProgressPrinter progress(options.run.progressStyle());
+  std::optional<View> view;
+  const SolutionView solution = options.source.load(run, options.run, progress, [&](const Scene& scene) {
+    if (!options.view.empty()) view = chooseView(scene, options.view);
+  });
+  if (!options.textures.empty()) saveTextures(options.textures, solution, run);
+  if (view) saveView(options, solution, *view, run, progress);
   run.finish();
 }
 }  // namespace
@@ -108,8 +134,12 @@ void addRenderCommand(CLI::App& app) {
   const auto options = std::make_shared<RenderOptions>();
   options->source.add(*command);
   CLI::Option* view = command->add_option("--view", options->view, "A .vf file, or a view or camera of the scene");
-  view->type_name("V")->required();
-  command->add_option("-o", options->output, "The picture: .exr, .hdr or .png")->type_name("IMAGE")->required();
+  view->type_name("V");
+  CLI::Option* output = command->add_option("-o", options->output, "The picture: .exr, .hdr or .png");
+  output->type_name("IMAGE")->needs(view);
+  view->needs(output);
+  command->add_option("--textures", options->textures, "Every caustic texture into this folder, with a contact sheet")
+      ->type_name("DIR");
   CLI::Option* samples = command->add_option("--samples", options->samples, "Camera rays per pixel");
   samples->type_name("N")->check(CLI::Range(1, 1 << 16))->capture_default_str();
   CLI::Option* meshDirect = command->add_flag("--mesh-direct", options->meshDirect,

@@ -20,6 +20,8 @@ void SolveOptions::add(CLI::App& app) {
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 28));
   app.add_flag("--diffuse-only", settings.diffuseOnly,
                "Drop specular lobes and mirrors; thin glass still passes light");
+  app.add_flag("!--no-caustic-textures", settings.causticTextures,
+               "Show the light of particles on a finer mesh instead of in caustic textures");
 }
 
 SolutionView SolveOptions::solve(Scene scene, Run& run, const RunOptions& options, Progress& progress) const {
@@ -28,6 +30,7 @@ SolutionView SolveOptions::solve(Scene scene, Run& run, const RunOptions& option
   Engine engine(std::move(scene), withSeed);
   const SolveReport report = engine.solve(&progress);
   noteSolve(report, run.report);
+  run.report.caustics = engine.solution().caustics();
   if (report.cutParticles > 0)
     run.say(
         fmt::format("warning: {} of {} particles were cut after 64 reflections and refractions; their light is lost",
@@ -40,7 +43,8 @@ void SolutionSource::add(CLI::App& app) {
   solve_.add(app);
   app.get_option("SCENE")->description(
       "A solution (.dlx); or a scene, which is solved first: .gltf, .glb, .obj, or .rad files in order");
-  for (const char* name : {"--ies", "--metres-per-unit", "--efficacy", "--error", "--particles", "--diffuse-only"})
+  for (const char* name : {"--ies", "--metres-per-unit", "--efficacy", "--error", "--particles", "--diffuse-only",
+                           "--no-caustic-textures"})
     sceneOnly_.push_back(app.get_option(name));
 }
 
@@ -65,6 +69,7 @@ SolutionView SolutionSource::loadFile(Run& run) const {
   SolutionView solution = loadSolution(scene_.files.front());
   run.report.sceneStats = sceneStats(solution.scene());
   noteSolve(solution.report(), run.report);
+  run.report.caustics = solution.caustics();
   run.report.times = {};  // of this run
   run.report.times.import = run.elapsed() - begin;
   throwIfInterrupted();

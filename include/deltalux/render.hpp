@@ -38,6 +38,20 @@ struct RenderSettings {
 /// Radiance seen through the view [W/(sr m2)]. Does not depend on the number of threads. Throws Interrupted.
 Image render(const SolutionView&, const View&, const RenderSettings& = {}, Progress* progress = nullptr);
 
+/// A caustic texture as it is stored: irradiance of the particles [W/m2], its own t axis upwards; negative where it
+/// shows no surface.
+struct TextureImage {
+  std::string name;  // of the surface's object, the side, the texture's number on it: fit for a file
+  Image image;
+};
+
+/// All caustic textures of a solution.
+std::vector<TextureImage> textureImages(const SolutionView&);
+
+/// All of them on one sheet, each enlarged or reduced to a square of `size` pixels, exposed for itself and numbered in
+/// their order. Checkered where there is no surface.
+DisplayImage contactSheet(const std::vector<TextureImage>&, int size = 160);
+
 struct MeshViewSettings {
   int width = 640, height = 480;
   std::optional<glm::ivec2> linksOf;  // a pixel: draws the links that bring light to the element seen there

@@ -55,6 +55,18 @@ struct ReferenceReport {
   double seconds = 0;
 };
 
+/// The caustic textures of one side of a surface.
+struct CausticReport {
+  struct Texture {
+    std::uint64_t width = 0, height = 0, particles = 0;
+  };
+  std::string surface;          // name of its object
+  std::uint64_t primitive = 0;  // index in the scene
+  bool front = true;
+  std::vector<Texture> textures;  // of the lit regions, then those of the rest
+  double fluxW = 0;               // of the particles that it shows, summed with the channels' photometric weights
+};
+
 struct RunReport {
   std::string command, version, scene;
   std::uint64_t threads = 0, seed = 0;
@@ -65,6 +77,7 @@ struct RunReport {
   EnergyLedger energy;
   std::vector<StepReport> steps;
   std::optional<CheckReport> check;          // null in JSON when nothing was checked
+  std::vector<CausticReport> caustics;       // absent in JSON when there are none
   std::optional<ReferenceReport> reference;  // absent in JSON for other commands
 };
 

@@ -9,6 +9,7 @@ struct SolveSettings {
   std::uint64_t particles = 0;  // target count of particles; 0: from `error`
   double seconds = 0;           // refinement ends after about this long; 0: when the target is met
   bool diffuseOnly = false;     // no specular lobes, no mirrors; thin glass passes light straight on
+  bool causticTextures = true;  // off: the mesh shows the light of particles everywhere, refined for it
   std::uint64_t seed = 1;
 };
 

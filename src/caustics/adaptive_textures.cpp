@@ -13,8 +13,9 @@ namespace deltalux {
 namespace {
 
 constexpr int kFirstTexels = 16 * 16;        // of the grid that resolution starts from
+constexpr int kChoiceTexels = 48 * 48;       // at most, to choose by
 constexpr int kCoarseTexels = 128 * 128;     // at most, to find regions with and to show the rest
-constexpr int kFineTexels = 320 * 320;       // at most, of one texture
+constexpr int kFineTexels = 256 * 256;       // at most, of one texture
 constexpr double kCoarsePerTexel = 12;       // particles in a coarse texel where the light falls
 constexpr double kFinePerTexel = 2;          // in a fine one: smaller ones tell noise from light no better
 constexpr std::size_t kLeastParticles = 64;  // of a region of its own
@@ -52,7 +53,7 @@ class AdaptiveTextures {
       if (placed[c].empty()) continue;
       const ChartSurface surface(shape_, result_.charts, c);
       parts_[c] = surface.whole(glm::ivec2(1), std::move(placed[c]));
-      resolve(surface, parts_[c], kCoarsePerTexel, kCoarseTexels);
+      resolve(surface, parts_[c], kCoarsePerTexel, kChoiceTexels);
       const CellGrid grid = surface.grid(parts_[c]);
       const CellLight light = collect(grid, parts_[c].impacts);
       total += departure(grid, light);
@@ -70,6 +71,7 @@ class AdaptiveTextures {
     for (std::uint32_t c = 0; c < parts_.size(); ++c) {
       if (parts_[c].impacts.empty()) continue;
       const ChartSurface surface(shape_, result_.charts, c);
+      resolve(surface, parts_[c], kCoarsePerTexel, kCoarseTexels);
       takeRegionsOut(surface, parts_[c]);
       put(surface, parts_[c]);
     }
@@ -135,11 +137,21 @@ class AdaptiveTextures {
 
 }  // namespace
 
+bool deservesTextures(const Shape& shape, std::span<const Impact> impacts, const CausticSettings& settings) {
+  AdaptiveTextures textures(shape, settings);
+  return deservesTexture(textures.place(impacts), settings.error, settings.background);
+}
+
+SurfaceCaustics makeTextures(const Shape& shape, std::span<const Impact> impacts, const CausticSettings& settings) {
+  AdaptiveTextures textures(shape, settings);
+  textures.place(impacts);
+  return textures.restricted();
+}
+
 std::optional<SurfaceCaustics> makeCausticTextures(const Shape& shape, std::span<const Impact> impacts,
                                                    const CausticSettings& settings) {
-  AdaptiveTextures textures(shape, settings);
-  if (!deservesTexture(textures.place(impacts), settings.error, settings.background)) return std::nullopt;
-  return textures.restricted();
+  if (!deservesTextures(shape, impacts, settings)) return std::nullopt;
+  return makeTextures(shape, impacts, settings);
 }
 
 SurfaceCaustics makeUnrestrictedTextures(const Shape& shape, std::span<const Impact> impacts,

@@ -19,7 +19,13 @@ struct CausticSettings {
       0;  // gray irradiance of all other light on this side [W/m2]: what errors are measured against too
 };
 
-/// Textures for impacts on one side of a surface; nullopt where the mesh will do.
+/// Whether textures should show these impacts on one side of a surface, or the mesh: step 1.
+bool deservesTextures(const Shape&, std::span<const Impact>, const CausticSettings&);
+
+/// Steps 2 to 4.
+SurfaceCaustics makeTextures(const Shape&, std::span<const Impact>, const CausticSettings&);
+
+/// All steps; nullopt where the mesh will do.
 std::optional<SurfaceCaustics> makeCausticTextures(const Shape&, std::span<const Impact>, const CausticSettings&);
 
 /// The same with one texture a chart, not restricted to where it is needed: to see what restriction does. `texels`: of

@@ -9,7 +9,8 @@ namespace {
 constexpr double kNarrowest = 0.5;       // standard deviation in cells
 constexpr double kConfidence = 3;        // standard deviations of a difference that noise explains
 constexpr double kLeastParticles = 4.0;  // that a kernel expects when it is asked
-constexpr double kBlend = 1.0;           // cells over which chosen widths blend into each other
+constexpr double kQuiet = 0.5;           // of the target error: noise that a kernel need not grow to reduce
+constexpr double kBlend = 1.0;           // standard deviation in cells, of the blending of widths
 
 /// Where the widths are compared.
 struct Place {
@@ -37,7 +38,7 @@ double widthAt(const std::vector<ScaleLevel>& levels, const Place& at, const Ban
   for (; k < levels.size(); ++k) {
     const auto narrower = levels.begin() + static_cast<std::ptrdiff_t>(k);
     if (std::any_of(levels.begin(), narrower, [&](const ScaleLevel& l) { return contradict(levels[k], l, at); })) break;
-    const double allowed = rule.error * (levels[k].E(at.cell) + rule.background);
+    const double allowed = kQuiet * rule.error * (levels[k].E(at.cell) + rule.background);
     if (levels[k].squares(at.cell) * levels[k].overlap <= allowed * allowed) return levels[k].width;
   }
   return levels[k - 1].width;

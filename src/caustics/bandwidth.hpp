@@ -1,8 +1,8 @@
 #pragma once
 // How wide must the kernel be at each cell? As wide as the particles allow: kernels grow by factors of sqrt 2 until the
 // estimate with the next one contradicts one with a narrower kernel by more than noise explains (Lepski's method, as
-// the intersection of confidence intervals [Katkovnik99]), or until its own noise is within the target error. Smooth
-// light is averaged over many particles, the figure of a caustic over few; nothing is set by hand.
+// the intersection of confidence intervals [Katkovnik99]), or until its own noise is within half the target error.
+// Smooth light is averaged over many particles, the figure of a caustic over few; nothing is set by hand.
 //
 // The noise of a difference is that which the wider kernel's own estimate predicts, as a chi-square test does: where no
 // particle fell, narrow kernels know no noise at all. Narrow kernels that expect fewer particles than kLeastParticles

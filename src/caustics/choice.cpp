@@ -33,7 +33,7 @@ Departure departure(const CellGrid& grid, const CellLight& light) {
 
   std::vector<float> smooth = light.gray;
   const double reach = kCoarse * std::sqrt(result.area);
-  HeatFlow(grid, std::vector<float>(grid.size(), 1.0f)).apply(smooth, 0.5 * reach * reach);
+  HeatFlow(grid, std::vector<float>(grid.size(), 1.0f)).apply(smooth, 0.5 * reach * reach, 1e-4);
   result.cells = static_cast<double>(grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const double area = grid.area(i);

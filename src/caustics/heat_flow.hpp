@@ -23,24 +23,28 @@ using Openness = std::span<const float>;
 class HeatFlow {
  public:
   /// `conductivity`: D of every cell [unit^2 per unit of time]; across a border its harmonic mean holds, times the
-  /// border's openness. The grid must outlive this.
+  /// border's openness.
   HeatFlow(const CellGrid&, std::span<const float> conductivity, Openness open = {});
 
-  /// E after `time`. E is a density over the cells' areas.
-  void apply(std::vector<float>& E, double time) const;
-  void apply(std::vector<glm::vec2>& E, double time) const;
-  void apply(std::vector<Rgb>& E, double time) const;
+  /// E after `time`, but for a share of `negligible`. E is a density over the cells' areas.
+  void apply(std::vector<float>& E, double time, double negligible = 1e-6) const;
+  void apply(std::vector<glm::vec2>& E, double time, double negligible = 1e-6) const;
+  void apply(std::vector<Rgb>& E, double time, double negligible = 1e-6) const;
 
  private:
   template <class Value>
-  void run(std::vector<Value>& E, double time) const;
+  void run(std::vector<Value>& E, double time, double negligible) const;
   template <class Value, class Out>
   void step(const std::vector<Value>& from, const Out& out) const;
 
-  const CellGrid& grid_;
-  std::vector<float> weights_;  // of each border, relative to the largest eigenvalue
-  std::vector<float> own_;      // what a cell keeps
-  double largest_ = 0;          // bound of L's eigenvalues
+  struct Edge {
+    std::uint32_t cell;
+    float weight;  // relative to the largest eigenvalue
+  };
+  std::vector<Edge> edges_;          // the grid's borders
+  std::vector<std::uint32_t> ends_;  // of each cell's edges
+  std::vector<float> own_;           // what a cell keeps
+  double largest_ = 0;               // bound of L's eigenvalues
 };
 
 }  // namespace deltalux

@@ -6,8 +6,9 @@ namespace deltalux {
 
 namespace {
 constexpr double kFirst = 0.5;         // in cells
-constexpr double kWidest = 24;         // in cells
+constexpr double kWidest = 16;         // in cells
 constexpr double kWidestShare = 0.25;  // in the square root of the grid's area
+constexpr double kPrecision = 1e-4;    // of estimates that are only compared
 }  // namespace
 
 double kernelOverlap(double widthA, double widthB, double area) {
@@ -24,7 +25,7 @@ std::vector<ScaleLevel> scaleSpace(const CellGrid& grid, const CellLight& light,
   for (double width = kFirst * cell; width <= widest; width *= std::sqrt(2.0)) {
     const ScaleLevel& last = levels.back();
     ScaleLevel next{width, kernelOverlap(width, width, area), last.light};
-    flow.apply(next.light, 0.5 * (width * width - last.width * last.width));
+    flow.apply(next.light, 0.5 * (width * width - last.width * last.width), kPrecision);
     levels.push_back(std::move(next));
   }
   return levels;

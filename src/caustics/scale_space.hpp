@@ -18,6 +18,8 @@ struct ScaleLevel {
   double E(std::size_t cell) const { return std::max(double(light[cell].x), 0.0); }
   /// Times `overlap`, the variance of E.
   double squares(std::size_t cell) const { return std::max(double(light[cell].y), 1e-300); }
+  /// Gray flux of a particle here, weighted by its flux.
+  double grain(std::size_t cell) const { return E(cell) > 0 ? squares(cell) / E(cell) : 0.0; }
   /// Particles that the kernel holds here, in equals.
   double count(std::size_t cell) const { return E(cell) * E(cell) / squares(cell) / overlap; }
 };

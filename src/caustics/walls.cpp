@@ -15,6 +15,9 @@ constexpr float kLeast = 1e-3f;         // openness of a closed wall
 struct Estimate {
   double E = 0;
   double overlap = 0;  // of its kernel
+  double grain = 0;    // flux of one particle there
+
+  double noise() const { return grain * overlap; }  // variance of 2 sqrt E
 };
 
 /// E of one cell with the kernel that holds kParticles, between the two levels that hold fewer and more.
@@ -28,11 +31,11 @@ Estimate estimateAt(const std::vector<ScaleLevel>& levels, std::size_t cell) {
       before = std::max(count, few);
       continue;
     }
-    if (k == 0 || count <= kParticles || before >= kParticles) return {level.E(cell), level.overlap};
+    if (k == 0 || count <= kParticles || before >= kParticles) return {level.E(cell), level.overlap, level.grain(cell)};
     const double t = std::log(kParticles / before) / std::log(count / before);
     const ScaleLevel& narrow = levels[k - 1];
     return {t * level.E(cell) + (1 - t) * narrow.E(cell),
-            std::exp(t * std::log(level.overlap) + (1 - t) * std::log(narrow.overlap))};
+            std::exp(t * std::log(level.overlap) + (1 - t) * std::log(narrow.overlap)), level.grain(cell)};
   }
   return {};
 }
@@ -61,7 +64,6 @@ Walls blurredWalls(const CellGrid& grid, const CellLight& light) {
     estimates.push_back(estimateAt(levels, i));
     walls.bandwidth.push_back(static_cast<float>(1 / (8 * kPi * estimates[i].overlap)));
   }
-  const double grain = light.grain();
   for (std::size_t i = 0; i < grid.size(); ++i)
     for (const CellGrid::Border& b : grid.bordersOf(i)) {
       const Estimate &p = estimates[i], &q = estimates[b.cell];
@@ -69,7 +71,8 @@ Walls blurredWalls(const CellGrid& grid, const CellLight& light) {
       // Over the kernel's width, not over the one cell.
       const double widths = std::max(1 / (4 * kPi * overlap * grid.meanArea()), 0.25);
       const double steps = b.diagonal ? 2 : 1;
-      walls.openness.push_back(opennessOf(jump * jump * widths / steps / (grain * overlap), kContrast));
+      const double noise = std::max({p.noise(), q.noise(), 1e-300});
+      walls.openness.push_back(opennessOf(jump * jump * widths / steps / noise, kContrast));
     }
   return walls;
 }

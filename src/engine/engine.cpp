@@ -53,6 +53,7 @@ struct Engine::State {
   std::shared_ptr<Solution> solution = std::make_shared<Solution>();
   double nextError = 0;   // of the next round
   bool finished = false;  // the last round has run
+  SurfaceSides textured;  // that textures show the particles of
   Clock clock;
   TimeBudget budget{0};
   SceneUpdate pending;                       // edits since the last update
@@ -119,8 +120,9 @@ struct Engine::State {
     const bool last = oracle.error <= least;
     const RefineReport refined = refineLinks(oracle, progress);
 
+    chooseTextures();
     const Clock placing;
-    subdivideForParticles(s.elements, s.scene, s.particles);
+    subdivideForParticles(s.elements, s.scene, s.particles, textured);
     s.report.times.particles += placing.seconds();
 
     const Clock gathering;
@@ -138,6 +140,7 @@ struct Engine::State {
     finished = last || refined.stopped || !(nextError < oracle.error);
     if (finished) settled = resolve(leaves, progress);
     s.report.times.gather += gathering.seconds();
+    if (finished) makeTextures();
     count();
     s.report.converged = settled && whole && last && !refined.stopped;
   }
@@ -157,6 +160,28 @@ struct Engine::State {
     s.report.provenClear += refined.provenClear;
     s.report.provenBlocked += refined.provenBlocked;
     return refined;
+  }
+
+  /// Sides whose particles textures show: their mesh need not. [GD01 3]
+  void chooseTextures() {
+    Solution& s = *solution;
+    textured.assign(2 * s.scene.primitives.size(), false);
+    if (s.particles.impacts() == 0 || !s.settings.causticTextures) return;
+    const Clock time;
+    textured = sidesWithTextures(s.scene, s.elements, impacts(s.particles, s.elements, s.scene), s.settings.error);
+    s.report.times.textures += time.seconds();
+  }
+
+  void makeTextures() {
+    Solution& s = *solution;
+    const Clock time;
+    s.caustics =
+        makeCaustics(s.scene, s.elements, impacts(s.particles, s.elements, s.scene), s.settings.error, textured);
+    DELTALUX_VALIDATED(validate(s.caustics));
+    s.report.times.textures += time.seconds();
+    s.report.counts.causticTextures = s.caustics.count();
+    s.report.counts.causticTextureMeanSize = s.caustics.meanSize();
+    s.report.memory.textures = s.caustics.memoryBytes();
   }
 
   /// Gathers until the light no longer changes. [algorithm 3]
@@ -195,6 +220,11 @@ struct Engine::State {
     const Clock gathering;
     settleRows(progress);
     step.times.gather += gathering.seconds();
+    const Clock texturing;
+    chooseTextures();
+    makeTextures();
+    step.times.textures = texturing.seconds();
+    step.texturesRebuilt = solution->caustics.count();
     count();
     step.times.total = time.seconds();
     return step;
@@ -229,7 +259,7 @@ struct Engine::State {
     Solution& s = *solution;
     s.tracer = makeEmbreeTracer(s.scene);
     tracing.reset(), transfer.reset();
-    s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.report = {};
+    s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.caustics = {}, s.report = {};
     finished = false;
     clock = {};
     while (!finished) step(progress);

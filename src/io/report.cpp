@@ -69,6 +69,17 @@ Json json(const CheckReport& c) {
           {"particles_identical", c.particlesIdentical}};
 }
 
+Json json(const CausticReport& c) {
+  Json textures = Json::array();
+  for (const CausticReport::Texture& t : c.textures)
+    textures.push_back({{"width", t.width}, {"height", t.height}, {"particles", t.particles}});
+  return {{"surface", c.surface},
+          {"primitive", c.primitive},
+          {"side", c.front ? "front" : "back"},
+          {"textures", std::move(textures)},
+          {"flux_w", c.fluxW}};
+}
+
 Json json(const ReferenceReport& r) { return {{"paths", r.paths}, {"rays", r.rays}, {"seconds", r.seconds}}; }
 }  // namespace
 
@@ -87,6 +98,7 @@ std::string toJson(const RunReport& report) {
                 {"energy", json(report.energy)},
                 {"steps", std::move(steps)},
                 {"check", report.check ? json(*report.check) : Json(nullptr)}};
+  for (const CausticReport& c : report.caustics) document["caustics"].push_back(json(c));
   if (report.reference) document["reference"] = json(*report.reference);
   // A file name need not be UTF-8; the report is.
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

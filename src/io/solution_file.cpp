@@ -5,6 +5,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/mapped_file.hpp"
+#include "io/solution_file/caustic_members.hpp"
 #include "io/solution_file/references.hpp"
 #include "io/solution_file/solution_members.hpp"
 
@@ -22,6 +23,7 @@ void forEachSection(auto& solution, const auto& visit) {
   visit("LINK", solution.links);
   visit("PART", solution.particles);
   visit("TRAN", solution.transfers);
+  visit("CAUS", solution.caustics);
   visit("REPT", solution.report);
 }
 

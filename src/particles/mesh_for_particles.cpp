@@ -29,7 +29,8 @@ struct Tally {
 
 }  // namespace
 
-std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const Particles& p) {
+std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const Particles& p,
+                                  const std::vector<bool>& coarse) {
   std::vector<ElementId> leaf(p.impactSlots());
   std::vector<float> weights(p.impactSlots());
   {
@@ -37,6 +38,7 @@ std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const 
     parallelFor(p.paths(), 1024, [&](std::size_t path) {
       const float power = p.links[p.link[path]].scale * p.nominal[p.sender[path]];
       for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
+        if (coarse[2 * p.primitive[i].index() + (p.triangleAndSide[i] & 1)]) continue;
         const ElementId side = locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
         if (side.valid()) leaf[i] = locator.leafAt(side, Vec2(p.uv[i]));
         weights[i] = power * gray(p.throughput[i]);

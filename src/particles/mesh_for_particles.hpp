@@ -7,7 +7,8 @@
 
 namespace deltalux {
 
-/// Returns how many patches were split.
-std::size_t subdivideForParticles(Elements&, const Scene&, const Particles&);
+/// Returns how many patches were split. `coarse`: sides that are left as they are, because textures show their
+/// particles; by 2 * primitive + (front ? 0 : 1).
+std::size_t subdivideForParticles(Elements&, const Scene&, const Particles&, const std::vector<bool>& coarse);
 
 }  // namespace deltalux

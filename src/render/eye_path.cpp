@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/sobol.hpp"
+#include "render/caustic_light.hpp"
 #include "scene/texture_tint.hpp"
 #include "solution/solution.hpp"
 
@@ -24,6 +25,7 @@ struct EyePaths::Vertex {
 EyePaths::EyePaths(const Solution& s, const Reconstruction& reconstruction, EyeSettings settings)
     : scene_(s.scene),
       elements_(s.elements),
+      caustics_(s.caustics),
       tracer_(*s.tracer),
       reconstruction_(reconstruction),
       settings_(settings),
@@ -124,6 +126,8 @@ Rgb EyePaths::irradiance(const Vertex& v, bool front, const Bsdf* lobes, const E
   if (!side.valid()) return Rgb(0.0f);
   const LeafPoint at = reconstruction_.locator.locate(side, v.position);
   Rgb E = reconstruction_.field.indirect(at, Vec3f(v.position));
+  if (const auto caustic = causticLight(caustics_, scene_, v.hit.primitive, v.hit.triangle, front, v.position))
+    E += *caustic;
   if (settings_.shadowRays == 0) return E + reconstruction_.field.direct(at, Vec3f(v.position));
 
   const Receiver receiver{v.position, v.sideNormal(front)};

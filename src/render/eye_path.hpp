@@ -5,6 +5,7 @@
 //
 // Lights in a rough lobe: those that look smaller than the lobe is wide are met by the shadow rays of the surface,
 // larger ones by the lobe's own rays; never by both.
+#include "caustics/caustics.hpp"
 #include "render/reconstruction.hpp"
 #include "scene/bsdf.hpp"
 
@@ -47,6 +48,7 @@ class EyePaths {
 
   const Scene& scene_;
   const Elements& elements_;
+  const Caustics& caustics_;
   const RayTracer& tracer_;
   const Reconstruction& reconstruction_;
   EyeSettings settings_;

@@ -1,5 +1,6 @@
 #pragma once
 // Irradiance of the leaf patches, the input of reconstruction.
+#include "caustics/caustics.hpp"
 #include "hierarchy/element.hpp"
 
 namespace deltalux {
@@ -14,12 +15,14 @@ inline bool isReceivingLeaf(const Elements& elements, ElementId e) {
   return t.kind == ElementKind::Patch && t.childCount == 0 && !t.emitter && !t.blocker;
 }
 
-/// What push-pull left at every element.
-inline std::vector<LeafIrradiance> meshIrradiance(const Elements& elements) {
+/// What push-pull left at every element; without the particles' light where caustic textures show that.
+inline std::vector<LeafIrradiance> meshIrradiance(const Elements& elements, const Caustics& caustics) {
   std::vector<LeafIrradiance> values(elements.size());
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const ElementLight& l = elements.radiometry[i];
-    values[i] = {l.direct, l.indirect + l.particle};
+    const bool textured = elements.isPatch(ElementId(i)) && elements.domain[i].primitive.valid() &&
+                          caustics.of(elements.domain[i].primitive, elements.topology[i].front) != nullptr;
+    values[i] = {l.direct, textured ? l.indirect : l.indirect + l.particle};
   }
   return values;
 }

@@ -5,6 +5,7 @@
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
 #include "radiosity/indirect_sampler.hpp"
+#include "render/caustic_light.hpp"
 #include "render/eye_path.hpp"
 #include "render/particle_field.hpp"
 #include "render/work_progress.hpp"
@@ -37,6 +38,7 @@ class LightMeter {
   LightMeter(const Solution& s, const ProbeSettings& settings)
       : scene_(s.scene),
         elements_(s.elements),
+        caustics_(s.caustics),
         tracer_(*s.tracer),
         settings_(settings),
         reconstruction_(s),
@@ -102,8 +104,12 @@ class LightMeter {
   }
 
   Rgb indirectAt(const LeafPoint& at, const SurfaceSpot& spot) const {
-    return sampler_.atPoint(at.leaf, Vec3f(spot.position), Vec3f(spot.normal), gatherRays_) +
-           particles_.at(spot.primitive, spot.front, spot.position, spot.normal);
+    return sampler_.atPoint(at.leaf, Vec3f(spot.position), Vec3f(spot.normal), gatherRays_) + particleLight(spot);
+  }
+
+  Rgb particleLight(const SurfaceSpot& spot) const {
+    const auto caustic = causticLight(caustics_, scene_, spot.primitive, spot.triangle, spot.front, spot.position);
+    return caustic ? *caustic : particles_.at(spot.primitive, spot.front, spot.position, spot.normal);
   }
 
   ProbeResult inFreeSpace(const ProbePoint& point, std::uint64_t key) const {
@@ -156,6 +162,7 @@ class LightMeter {
 
   const Scene& scene_;
   const Elements& elements_;
+  const Caustics& caustics_;
   const RayTracer& tracer_;
   const ProbeSettings& settings_;
   Reconstruction reconstruction_;

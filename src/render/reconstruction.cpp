@@ -6,7 +6,7 @@ namespace deltalux {
 
 Reconstruction::Reconstruction(const Solution& s)
     : locator(s.elements, s.scene),
-      field(s.elements, s.scene, *s.tracer, meshIrradiance(s.elements)),
+      field(s.elements, s.scene, *s.tracer, meshIrradiance(s.elements, s.caustics)),
       direct(s.scene, s.elements, s.links, *s.tracer),
       choices(direct, s.elements.size()) {}
 

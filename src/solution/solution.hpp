@@ -2,6 +2,7 @@
 // One passive value: all state of a solution.
 #include <deltalux/solution.hpp>
 
+#include "caustics/caustics.hpp"
 #include "hierarchy/element.hpp"
 #include "hierarchy/link.hpp"
 #include "particles/particles.hpp"
@@ -18,6 +19,7 @@ struct Solution {
   Links links;
   Particles particles;      // a function of scene, seed and target count
   LeafTransfers transfers;  // empty before the last round
+  Caustics caustics;        // how the particles' light is shown; never feeds back
   SolveReport report;
 };
 

@@ -157,7 +157,7 @@ std::vector<Rgb> irradiances(const ParticleTransfer& transfer, Elements& element
 TEST(ParticleEdits, TransferFollows) {
   World w;
   Elements elements = buildElements(w.scene, surfaceSides(w.scene));
-  subdivideForParticles(elements, w.scene, w.particles);
+  subdivideForParticles(elements, w.scene, w.particles, std::vector<bool>(2 * w.scene.primitives.size()));
   for (std::size_t i = 0; i < elements.size(); ++i) elements.radiometry[i].B = Rgb(0.1f + 0.01f * float(i % 7));
   ParticleTransfer transfer(w.particles, elements, w.scene);
   const std::vector<Rgb> before = irradiances(transfer, elements, w.scene);

@@ -104,6 +104,19 @@ void checkLinkTree(const Links& links) {
   }
 }
 
+void checkCaustics(const Caustics& c, const Scene& scene) {
+  require(c.ofPrimitive.empty() || c.ofPrimitive.size() == scene.primitives.size(), "caustics: one entry a primitive");
+  for (const auto& sides : c.ofPrimitive)
+    for (const std::uint32_t s : sides) require(s == Caustics::kNone || s < c.surfaces.size(), "caustics: surface");
+  for (const SurfaceCaustics& s : c.surfaces) {
+    require(s.primitive.index() < scene.primitives.size() && !s.charts.all.empty(), "caustics: primitive");
+    const auto* mesh = std::get_if<Mesh>(&scene[s.primitive].shape);
+    require(s.charts.ofTriangle.size() == (mesh ? mesh->triangles.size() : 0), "caustics: charts of triangles");
+    for (const std::uint32_t chart : s.charts.ofTriangle) require(chart < s.charts.all.size(), "caustics: chart");
+  }
+  validate(c);
+}
+
 }  // namespace
 
 void checkReferences(const Solution& s) {
@@ -114,6 +127,7 @@ void checkReferences(const Solution& s) {
   checkLinkTree(s.links);
   validate(s.particles, s.scene);
   s.transfers.validate(s.elements, s.links);
+  checkCaustics(s.caustics, s.scene);
 }
 
 }  // namespace deltalux

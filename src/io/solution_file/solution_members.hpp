@@ -7,8 +7,8 @@
 namespace deltalux {
 
 void members(auto& archive, Is<SolveSettings> auto& s) {
-  auto& [error, particles, seconds, diffuseOnly, seed] = s;
-  transferAll(archive, error, particles, seconds, diffuseOnly, seed);
+  auto& [error, particles, seconds, diffuseOnly, causticTextures, seed] = s;
+  transferAll(archive, error, particles, seconds, diffuseOnly, causticTextures, seed);
 }
 
 void members(auto& archive, Is<EnergyLedger> auto& e) {

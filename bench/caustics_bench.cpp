@@ -1,0 +1,212 @@
+// caustics_bench particles NAME SCENE OBJECT ERROR [LEAST MOST]
+// caustics_bench solve NAME SCENE ERROR
+// caustics_bench restriction SCENE OBJECT ERROR FOLDER
+//
+// Caustic textures, as CSV rows: scene, error, particles, measure, value, unit.
+//   particles    the textures of one object's surface against the truth, as the number of particles grows by factors of
+//                four. Truth: the mean of 16 times the most particles with another seed over a grid of 128 x 128
+//                texels, less its own noise. Differences are root mean square, of gray irradiance, over its mean. The
+//                paper's way with its fixed values beside ours.
+//   solve        textures of a whole solution: how many, texels, time, share of the solve.
+//   restriction  pictures of one object's textures with and without restriction, of equal size, regions outlined.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <deltalux/engine.hpp>
+#include <deltalux/image_io.hpp>
+#include <deltalux/io.hpp>
+#include <stdexcept>
+
+#include "caustics/adaptive_textures.hpp"
+#include "caustics/paper_textures.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux::bench {
+namespace {
+
+constexpr int kTruthTexels = 128;
+constexpr int kPictureSize = 512;
+
+double cpuSeconds() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+}
+
+void row(const std::string& scene, double error, std::uint64_t particles, const char* measure, double value,
+         const char* unit) {
+  fmt::print("{},{},{},{},{:.6g},{}\n", scene, error, particles, measure, value, unit);
+  std::fflush(stdout);
+}
+
+Engine solved(const std::string& file, double error, std::uint64_t particles, std::uint64_t seed) {
+  SolveSettings settings;
+  settings.error = error, settings.particles = particles, settings.seed = seed;
+  Engine engine(loadScene({file}).scene, settings);
+  engine.solve();
+  return engine;
+}
+
+/// The front of the first primitive of an object, and what landed there.
+struct Landed {
+  Shape shape;
+  std::vector<Impact> impacts;
+};
+
+Landed landedOn(const Solution& s, const std::string& object) {
+  const std::vector<ObjectId> found = findObjects(s.scene, object);
+  if (found.empty()) throw std::runtime_error("no object named " + object);
+  const std::vector<PrimitiveId> primitives = primitivesOf(s.scene, found.front());
+  if (primitives.empty()) throw std::runtime_error("an object without surfaces: " + object);
+  Landed landed{s.scene[primitives.front()].shape, {}};
+  for (const Impact& impact : impacts(s.particles, s.elements, s.scene))
+    if (impact.primitive == primitives.front() && impact.front) landed.impacts.push_back(impact);
+  return landed;
+}
+
+Vec2 gridPoint(int x, int y, int size) { return {(x + 0.5) / size, (y + 0.5) / size}; }
+
+/// Gray irradiance by texels of the surface's parameters, and the variance of its noise.
+struct Truth {
+  std::vector<double> E, variance;
+
+  explicit Truth(const Landed& landed) : E(kTruthTexels * kTruthTexels, 0.0), variance(E.size(), 0.0) {
+    const double texel = area(landed.shape) / static_cast<double>(E.size());
+    for (const Impact& impact : landed.impacts) {
+      const int x = std::min(static_cast<int>(impact.uv.x * kTruthTexels), kTruthTexels - 1);
+      const int y = std::min(static_cast<int>(impact.uv.y * kTruthTexels), kTruthTexels - 1);
+      const double g = gray(impact.flux) / texel;
+      E[y * kTruthTexels + x] += g, variance[y * kTruthTexels + x] += g * g;
+    }
+  }
+
+  /// Relative root mean square difference of the textures' mean over each texel.
+  double difference(const SurfaceCaustics& s, const Shape& shape) const {
+    constexpr int samples = 4;
+    double squares = 0, mean = 0;
+    for (int y = 0; y < kTruthTexels; ++y)
+      for (int x = 0; x < kTruthTexels; ++x) {
+        double shown = 0;
+        for (int k = 0; k < samples * samples; ++k) {
+          const Vec2 uv = gridPoint(x * samples + k % samples, y * samples + k / samples, kTruthTexels * samples);
+          shown += gray(s.irradianceAt(pointAt(shape, uv))) / (samples * samples);
+        }
+        const double d = shown - E[y * kTruthTexels + x];
+        squares += d * d - variance[y * kTruthTexels + x];
+        mean += E[y * kTruthTexels + x];
+      }
+    const double count = static_cast<double>(E.size());
+    return std::sqrt(std::max(squares, 0.0) / count) / (mean / count);
+  }
+};
+
+std::size_t texelsOf(const SurfaceCaustics& s) {
+  std::size_t sum = 0;
+  for (const CausticTexture& t : s.textures) sum += t.texels.size();
+  return sum;
+}
+
+void growParticles(const std::string& name, const std::string& file, const std::string& object, double error,
+                   std::uint64_t least, std::uint64_t most) {
+  const Truth truth(landedOn(solved(file, error, 16 * most, 2).solution().get(), object));
+  const auto measure = [&](std::uint64_t n, const char* way, double seconds, const std::optional<SurfaceCaustics>& s,
+                           const Shape& shape) {
+    if (!s) return;
+    row(name, error, n, fmt::format("{}: difference", way).c_str(), truth.difference(*s, shape), "");
+    row(name, error, n, fmt::format("{}: texels", way).c_str(), static_cast<double>(texelsOf(*s)), "");
+    row(name, error, n, fmt::format("{}: processor time", way).c_str(), seconds, "s");
+  };
+  for (std::uint64_t n = least; n <= most; n *= 4) {
+    const Landed landed = landedOn(solved(file, error, n, 1).solution().get(), object);
+    row(name, error, n, "impacts", static_cast<double>(landed.impacts.size()), "");
+    const double begin = cpuSeconds();
+    const auto ours = makeCausticTextures(landed.shape, landed.impacts, {error, 0});
+    const double middle = cpuSeconds();
+    const auto papers = makePaperTextures(landed.shape, landed.impacts);
+    measure(n, "adaptive", middle - begin, ours, landed.shape);
+    measure(n, "paper", cpuSeconds() - middle, papers, landed.shape);
+  }
+}
+
+void measureSolve(const std::string& name, const std::string& file, double error) {
+  const Engine engine = solved(file, error, 0, 1);
+  const SolveReport& report = engine.solution().report();
+  const std::uint64_t n = report.counts.particles;
+  std::size_t texels = 0;
+  for (const SurfaceCaustics& s : engine.solution().get().caustics.surfaces) texels += texelsOf(s);
+  row(name, error, n, "textures", static_cast<double>(report.counts.causticTextures), "");
+  row(name, error, n, "mean size", report.counts.causticTextureMeanSize, "texels a side");
+  row(name, error, n, "texels", static_cast<double>(texels), "");
+  row(name, error, n, "memory", static_cast<double>(report.memory.textures) / 1048576.0, "MiB");
+  row(name, error, n, "time", report.times.textures, "s");
+  row(name, error, n, "share of the solve", 100 * report.times.textures / report.times.total, "%");
+}
+
+/// The surface's square of parameters, with the outlines of all textures but the last.
+Image drawn(const SurfaceCaustics& s, const Shape& shape, bool outlined) {
+  Image image;
+  image.width = image.height = kPictureSize;
+  double brightest = 0;
+  for (int y = kPictureSize - 1; y >= 0; --y)
+    for (int x = 0; x < kPictureSize; ++x) {
+      image.pixels.push_back(s.irradianceAt(pointAt(shape, gridPoint(x, y, kPictureSize))) / static_cast<float>(kPi));
+      brightest = std::max(brightest, double(gray(image.pixels.back())));
+    }
+  if (!outlined) return image;
+  const Chart& chart = s.charts.all[0];
+  const auto indexAt = [&](int x, int y) -> std::size_t {
+    const Vec2 st = chart.place(pointAt(shape, gridPoint(x, y, kPictureSize)));
+    for (std::size_t i = 0; i < s.textures.size(); ++i)
+      if (s.textures[i].region.contains(st)) return i;
+    return s.textures.size();
+  };
+  for (int y = 0; y + 1 < kPictureSize; ++y)
+    for (int x = 0; x + 1 < kPictureSize; ++x)
+      if (indexAt(x, y) != indexAt(x + 1, y) || indexAt(x, y) != indexAt(x, y + 1))
+        image.at(x, kPictureSize - 1 - y) = Rgb(static_cast<float>(brightest));
+  return image;
+}
+
+void drawRestriction(const std::string& file, const std::string& object, double error, const std::string& folder) {
+  const Landed landed = landedOn(solved(file, error, 0, 1).solution().get(), object);
+  const auto restricted = makeCausticTextures(landed.shape, landed.impacts, {error, 0});
+  if (!restricted) throw std::runtime_error("the mesh shows it all");
+  const SurfaceCaustics whole =
+      makeUnrestrictedTextures(landed.shape, landed.impacts, {error, 0}, static_cast<int>(texelsOf(*restricted)));
+  const Image without = drawn(whole, landed.shape, false), with = drawn(*restricted, landed.shape, true);
+  ToneMapping mapping;
+  mapping.ev = automaticEv(without);
+  saveImage(folder + "/restriction-without.png", without, mapping);
+  saveImage(folder + "/restriction-with.png", with, mapping);
+  fmt::print("texels without {}, with {}\n", texelsOf(whole), texelsOf(*restricted));
+}
+
+int run(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const auto number = [&](std::size_t i) { return std::stod(arguments.at(i)); };
+  if (arguments.size() >= 5 && arguments[0] == "particles")
+    growParticles(arguments[1], arguments[2], arguments[3], number(4),
+                  arguments.size() > 5 ? static_cast<std::uint64_t>(number(5)) : 25000,
+                  arguments.size() > 6 ? static_cast<std::uint64_t>(number(6)) : 400000);
+  else if (arguments.size() == 4 && arguments[0] == "solve")
+    measureSolve(arguments[1], arguments[2], number(3));
+  else if (arguments.size() == 5 && arguments[0] == "restriction")
+    drawRestriction(arguments[1], arguments[2], number(3), arguments[4]);
+  else
+    throw std::runtime_error("see the head of caustics_bench.cpp for its arguments");
+  return 0;
+}
+
+}  // namespace
+}  // namespace deltalux::bench
+
+int main(int argc, char** argv) {
+  try {
+    return deltalux::bench::run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "caustics_bench: {}\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,121 @@
+#include "caustics/caustics.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "base/check.hpp"
+#include "base/parallel.hpp"
+#include "caustics/adaptive_textures.hpp"
+
+namespace deltalux {
+
+namespace {
+
+std::size_t sideOf(PrimitiveId primitive, bool front) { return 2 * primitive.index() + (front ? 0 : 1); }
+
+/// Gray irradiance of all light but the particles', by side: the mean over the input-level elements of each.
+std::vector<double> otherLight(const Scene& scene, const Elements& elements) {
+  std::vector<double> flux(2 * scene.primitives.size(), 0.0), area(flux.size(), 0.0);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const ElementId e(i);
+    if (!elements.isInputLevel(e) || elements.at(e).emitter || elements.at(e).blocker) continue;
+    const std::size_t side = sideOf(elements.domain[i].primitive, elements.at(e).front);
+    const double own = elements.shape(e).area;
+    flux[side] += own * gray(elements.radiometry[i].direct + elements.radiometry[i].indirect);
+    area[side] += own;
+  }
+  for (std::size_t i = 0; i < flux.size(); ++i) flux[i] = area[i] > 0 ? flux[i] / area[i] : 0.0;
+  return flux;
+}
+
+/// Runs of impacts on one side.
+std::vector<std::span<const Impact>> bySide(std::vector<Impact>& impacts) {
+  std::stable_sort(impacts.begin(), impacts.end(), [](const Impact& a, const Impact& b) {
+    return sideOf(a.primitive, a.front) < sideOf(b.primitive, b.front);
+  });
+  std::vector<std::span<const Impact>> sides;
+  for (std::size_t begin = 0; begin < impacts.size();) {
+    std::size_t end = begin;
+    const std::size_t side = sideOf(impacts[begin].primitive, impacts[begin].front);
+    while (end < impacts.size() && sideOf(impacts[end].primitive, impacts[end].front) == side) ++end;
+    sides.emplace_back(impacts.data() + begin, end - begin);
+    begin = end;
+  }
+  return sides;
+}
+
+/// body(side index, impacts, settings) for every side that has impacts, in parallel.
+template <class Body>
+void forEachSide(const Scene& scene, const Elements& elements, const std::vector<std::span<const Impact>>& sides,
+                 double error, const Body& body) {
+  const std::vector<double> background = otherLight(scene, elements);
+  parallelFor(sides.size(), 1, [&](std::size_t i) {
+    const Impact& first = sides[i].front();
+    body(i, scene[first.primitive].shape, CausticSettings{error, background[sideOf(first.primitive, first.front)]});
+  });
+}
+
+}  // namespace
+
+std::size_t Caustics::count() const {
+  std::size_t sum = 0;
+  for (const SurfaceCaustics& s : surfaces) sum += s.textures.size();
+  return sum;
+}
+
+double Caustics::meanSize() const {
+  double sum = 0;
+  for (const SurfaceCaustics& s : surfaces)
+    for (const CausticTexture& t : s.textures) sum += std::sqrt(double(t.width) * t.height);
+  return count() > 0 ? sum / static_cast<double>(count()) : 0.0;
+}
+
+std::size_t Caustics::memoryBytes() const {
+  std::size_t bytes = ofPrimitive.size() * sizeof ofPrimitive[0];
+  for (const SurfaceCaustics& s : surfaces) {
+    bytes += sizeof s + s.charts.all.size() * sizeof(Chart) + s.charts.ofTriangle.size() * sizeof(std::uint32_t);
+    for (const CausticTexture& t : s.textures) bytes += sizeof t + t.texels.size() * (sizeof(Rgb) + sizeof(float));
+  }
+  return bytes;
+}
+
+SurfaceSides sidesWithTextures(const Scene& scene, const Elements& elements, std::vector<Impact> impacts,
+                               double error) {
+  const auto sides = bySide(impacts);
+  std::vector<char> chosen(sides.size(), 0);
+  forEachSide(scene, elements, sides, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
+    chosen[i] = deservesTextures(shape, sides[i], settings);
+  });
+  SurfaceSides result(2 * scene.primitives.size(), false);
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    if (chosen[i]) result[sideOf(sides[i].front().primitive, sides[i].front().front)] = true;
+  return result;
+}
+
+Caustics makeCaustics(const Scene& scene, const Elements& elements, std::vector<Impact> impacts, double error,
+                      const SurfaceSides& chosen) {
+  std::erase_if(impacts, [&](const Impact& i) { return !chosen[sideOf(i.primitive, i.front)]; });
+  const auto sides = bySide(impacts);
+  std::vector<SurfaceCaustics> made(sides.size());
+  forEachSide(scene, elements, sides, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
+    made[i] = makeTextures(shape, sides[i], settings);
+    made[i].primitive = sides[i].front().primitive, made[i].front = sides[i].front().front;
+    DELTALUX_VALIDATED(validate(made[i]));
+  });
+  Caustics result;
+  result.ofPrimitive.assign(scene.primitives.size(), {Caustics::kNone, Caustics::kNone});
+  for (std::uint32_t i = 0; i < made.size(); ++i)
+    result.ofPrimitive[made[i].primitive.index()][made[i].front ? 0 : 1] = i;
+  result.surfaces = std::move(made);
+  return result;
+}
+
+void validate(const Caustics& c) {
+  for (std::size_t i = 0; i < c.surfaces.size(); ++i) {
+    const SurfaceCaustics& s = c.surfaces[i];
+    validate(s);
+    if (c.of(s.primitive, s.front) != &s) throw std::logic_error("caustics: the index does not find a side");
+  }
+}
+
+}  // namespace deltalux

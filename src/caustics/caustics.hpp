@@ -1,0 +1,44 @@
+#pragma once
+// All caustic textures of a solution: which sides of which surfaces have them, and light looked up there. Where a side
+// has textures they show all of its particles' irradiance; elsewhere the mesh does. Never both.
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "caustics/caustic_texture.hpp"
+#include "particles/impact.hpp"
+
+namespace deltalux {
+
+struct Caustics {
+  std::vector<SurfaceCaustics> surfaces;                  // ascending by primitive, front before back
+  std::vector<std::array<std::uint32_t, 2>> ofPrimitive;  // index of front and back into `surfaces`, or kNone
+
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  /// The textures of a side; nullptr where the mesh shows the particles.
+  const SurfaceCaustics* of(PrimitiveId primitive, bool front) const {
+    if (primitive.index() >= ofPrimitive.size()) return nullptr;
+    const std::uint32_t index = ofPrimitive[primitive.index()][front ? 0 : 1];
+    return index == kNone ? nullptr : &surfaces[index];
+  }
+  std::size_t count() const;  // textures
+  double meanSize() const;    // square root of their texels, on average
+  std::size_t memoryBytes() const;
+};
+
+/// Sides of surfaces, by 2 * primitive + (front ? 0 : 1).
+using SurfaceSides = std::vector<bool>;
+
+/// Which sides need textures for what landed there, in any order. Light that is not the particles' is read from the
+/// elements: errors are measured against it.
+SurfaceSides sidesWithTextures(const Scene&, const Elements&, std::vector<Impact>, double error);
+
+/// The textures of these sides; those without an impact have none. The same for any number of threads.
+/// Cost: about 5 microseconds a texel.
+Caustics makeCaustics(const Scene&, const Elements&, std::vector<Impact>, double error, const SurfaceSides&);
+
+/// Recounts: every texture holds its flux, the index finds every side. Throws std::logic_error.
+void validate(const Caustics&);
+
+}  // namespace deltalux

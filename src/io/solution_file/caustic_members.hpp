@@ -1,0 +1,41 @@
+#pragma once
+// The members of caustic textures, for archives.
+#include "caustics/caustics.hpp"
+#include "io/solution_file/scene_members.hpp"
+
+namespace deltalux {
+
+void members(auto& archive, Is<PlaneChart> auto& c) {
+  auto& [origin, alongS, alongT] = c;
+  transferAll(archive, origin, alongS, alongT);
+}
+void members(auto& archive, Is<TurnChart> auto& c) {
+  auto& [radius0, slope, sphere] = c;
+  transferAll(archive, radius0, slope, sphere);
+}
+void members(auto& archive, Is<Chart> auto& c) {
+  auto& [map, size] = c;
+  transferAll(archive, map, size);
+}
+void members(auto& archive, Is<Charts> auto& c) {
+  auto& [all, ofTriangle] = c;
+  transferAll(archive, all, ofTriangle);
+}
+void members(auto& archive, Is<Region> auto& r) {
+  auto& [lower, upper] = r;
+  transferAll(archive, lower, upper);
+}
+void members(auto& archive, Is<CausticTexture> auto& t) {
+  auto& [chart, region, width, height, closed, poleAtStart, poleAtEnd, texels, areas, flux, particles] = t;
+  transferAll(archive, chart, region, width, height, closed, poleAtStart, poleAtEnd, texels, areas, flux, particles);
+}
+void members(auto& archive, Is<SurfaceCaustics> auto& s) {
+  auto& [primitive, front, charts, textures] = s;
+  transferAll(archive, primitive, front, charts, textures);
+}
+void members(auto& archive, Is<Caustics> auto& c) {
+  auto& [surfaces, ofPrimitive] = c;
+  transferAll(archive, surfaces, ofPrimitive);
+}
+
+}  // namespace deltalux
