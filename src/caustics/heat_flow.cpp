@@ -36,60 +36,151 @@ std::vector<double> scaledBessel(double z, double negligible) {
 
 HeatFlow::HeatFlow(const CellGrid& grid, std::span<const float> conductivity, Openness open) : own_(grid.size()) {
   std::vector<double> leaving(grid.size(), 0.0);
-  for (std::size_t i = 0; i < grid.size(); ++i) {
+  std::vector<float> edgeWeights;
+  for (std::size_t i = 0; i < grid.size(); ++i)
     for (const CellGrid::Border& b : grid.bordersOf(i)) {
       const double a = conductivity[i], c = conductivity[b.cell];
       const double D = a + c > 0 ? 2 * a * c / (a + c) : 0.0;
-      const double openness = open.empty() ? 1.0 : double(open[edges_.size()]);
+      const double openness = open.empty() ? 1.0 : double(open[edgeWeights.size()]);
       const double weight = openness * D * b.share / grid.area(i);
-      edges_.push_back({b.cell, static_cast<float>(weight)});
+      edgeWeights.push_back(static_cast<float>(weight));
       leaving[i] += weight;
     }
-    ends_.push_back(static_cast<std::uint32_t>(edges_.size()));
-  }
   for (const double l : leaving) largest_ = std::max(largest_, 2 * l);  // Gershgorin's circles
   if (!(largest_ > 0)) return;
-  for (Edge& e : edges_) e.weight = static_cast<float>(2 * e.weight / largest_);
+  for (float& w : edgeWeights) w = static_cast<float>(2 * w / largest_);
   for (std::size_t i = 0; i < own_.size(); ++i) own_[i] = static_cast<float>(2 * leaving[i] / largest_ - 1);
+  addRuns(grid, edgeWeights);
 }
 
-/// out(i, (X E)_i) with X = 2 L / largest - 1, whose eigenvalues lie in [-1, 1].
-template <class Value, class Out>
-void HeatFlow::step(const std::vector<Value>& from, const Out& out) const {
-  const Edge* edge = edges_.data();
-  const Value* const light = from.data();
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    Value x = own_[i] * light[i];
-    for (const Edge* const end = edges_.data() + ends_[i]; edge != end; ++edge) x -= edge->weight * light[edge->cell];
-    out(i, x);
+void HeatFlow::addRuns(const CellGrid& grid, const std::vector<float>& edgeWeights) {
+  const auto distance = [&](std::size_t cell, std::size_t k) {
+    return static_cast<std::int32_t>(std::int64_t(grid.bordersOf(cell)[k].cell) - std::int64_t(cell));
+  };
+  const auto alike = [&](std::size_t a, std::size_t b) {
+    const std::size_t count = grid.bordersOf(a).size();
+    if (grid.bordersOf(b).size() != count || count > kMostNeighbours) return false;
+    for (std::size_t k = 0; k < count; ++k)
+      if (distance(a, k) != distance(b, k)) return false;
+    return true;
+  };
+  std::size_t edge = 0;  // of the run's first cell
+  for (std::size_t first = 0, end = 0; first < grid.size(); first = end) {
+    for (end = first + 1; end < grid.size() && alike(first, end);) ++end;
+    const std::size_t all = grid.bordersOf(first).size();
+    for (std::size_t done = 0; done < all; done += kMostNeighbours) {
+      Run run{static_cast<std::uint32_t>(first),
+              static_cast<std::uint32_t>(end - first),
+              static_cast<std::uint32_t>(weights_.size()),
+              static_cast<std::uint32_t>(std::min(kMostNeighbours, all - done)),
+              {}};
+      for (std::size_t k = 0; k < run.neighbours; ++k) {
+        run.offset[k] = distance(first, done + k);
+        for (std::size_t i = 0; i < run.count; ++i) weights_.push_back(edgeWeights[edge + i * all + done + k]);
+      }
+      runs_.push_back(run);
+    }
+    if (all == 0)
+      runs_.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first), 0, 0, {}});
+    edge += (end - first) * all;
   }
 }
 
-template <class Value>
-void HeatFlow::run(std::vector<Value>& E, double time, double negligible) const {
+/// sums[i] -= what flows to cell begin + i from its neighbours in the run.
+void HeatFlow::addChunk(const Run& run, std::uint32_t begin, std::uint32_t count, const float* light,
+                        float* __restrict sums) const {
+  const float* w = weights_.data() + run.weights + (begin - run.first);
+  const float* const here = light + begin;
+  if (run.neighbours == 8) {
+    const std::size_t n = run.count;
+    const float *a = here + run.offset[0], *b = here + run.offset[1], *c = here + run.offset[2],
+                *d = here + run.offset[3], *e = here + run.offset[4], *f = here + run.offset[5],
+                *g = here + run.offset[6], *h = here + run.offset[7];
+    for (std::uint32_t i = 0; i < count; ++i)
+      sums[i] -= ((w[i] * a[i] + w[n + i] * b[i]) + (w[2 * n + i] * c[i] + w[3 * n + i] * d[i])) +
+                 ((w[4 * n + i] * e[i] + w[5 * n + i] * f[i]) + (w[6 * n + i] * g[i] + w[7 * n + i] * h[i]));
+    return;
+  }
+  for (std::uint32_t k = 0; k < run.neighbours; ++k, w += run.count) {
+    const float* const there = here + run.offset[k];
+    for (std::uint32_t i = 0; i < count; ++i) sums[i] -= w[i] * there[i];
+  }
+}
+
+namespace {
+
+/// A step of the recurrence of T_k, and its term of the series.
+void recur(std::uint32_t count, const float* x, float factor, float* __restrict before, float* __restrict sum) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    before[i] = 2.0f * x[i] - before[i];
+    sum[i] += factor * before[i];
+  }
+}
+
+}  // namespace
+
+/// out(begin, count, X E of these cells) with X = 2 L / largest - 1, whose eigenvalues lie in [-1, 1].
+template <class Out>
+void HeatFlow::step(const std::vector<float>& from, const Out& out) const {
+  float sums[kChunk];
+  for (std::size_t r = 0; r < runs_.size();) {
+    std::size_t next = r + 1;
+    while (next < runs_.size() && runs_[next].first == runs_[r].first) ++next;
+    const std::uint32_t end = runs_[r].first + runs_[r].count;
+    for (std::uint32_t begin = runs_[r].first; begin < end; begin += kChunk) {
+      const std::uint32_t count = std::min<std::uint32_t>(kChunk, end - begin);
+      for (std::uint32_t i = 0; i < count; ++i) sums[i] = own_[begin + i] * from[begin + i];
+      for (std::size_t k = r; k < next; ++k) addChunk(runs_[k], begin, count, from.data(), sums);
+      out(begin, count, sums);
+    }
+    r = next;
+  }
+}
+
+void HeatFlow::run(std::vector<float>& E, double time, double negligible) const {
   const double z = 0.5 * largest_ * time;
   if (!(z > 0)) return;
   // exp(-z (x + 1)) = sum over k of (-1)^k (2 - [k = 0]) exp(-z) I_k(z) T_k(x)
   const std::vector<double> c = scaledBessel(z, negligible);
-  std::vector<Value> before = E, now(E.size()), sum(E.size());
-  const auto first = static_cast<float>(c[0]), second = static_cast<float>(-2 * c[1]);
-  step(before, [&](std::size_t i, const Value& x) {
-    now[i] = x;
-    sum[i] = first * before[i] + second * x;
+  std::vector<float> before = E, now(E.size()), sum(E.size());
+  const auto zeroth = static_cast<float>(c[0]), first = static_cast<float>(-2 * c[1]);
+  step(before, [&](std::uint32_t begin, std::uint32_t count, const float* x) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      now[begin + i] = x[i];
+      sum[begin + i] = zeroth * before[begin + i] + first * x[i];
+    }
   });
   for (std::size_t k = 2; k < c.size(); ++k) {
     const auto factor = static_cast<float>(k % 2 == 0 ? 2 * c[k] : -2 * c[k]);
-    step(now, [&](std::size_t i, const Value& x) {
-      before[i] = 2.0f * x - before[i];
-      sum[i] += factor * before[i];
+    step(now, [&](std::uint32_t begin, std::uint32_t count, const float* x) {
+      recur(count, x, factor, before.data() + begin, sum.data() + begin);
     });
     std::swap(before, now);
   }
   E = std::move(sum);
 }
 
+namespace {
+
+/// Channel by channel.
+template <class Value, class Flow>
+void eachChannel(std::vector<Value>& E, const Flow& flow) {
+  std::vector<float> channel(E.size());
+  for (int c = 0; c < Value::length(); ++c) {
+    for (std::size_t i = 0; i < E.size(); ++i) channel[i] = E[i][c];
+    flow(channel);
+    for (std::size_t i = 0; i < E.size(); ++i) E[i][c] = channel[i];
+  }
+}
+
+}  // namespace
+
 void HeatFlow::apply(std::vector<float>& E, double time, double negligible) const { run(E, time, negligible); }
-void HeatFlow::apply(std::vector<glm::vec2>& E, double time, double negligible) const { run(E, time, negligible); }
-void HeatFlow::apply(std::vector<Rgb>& E, double time, double negligible) const { run(E, time, negligible); }
+void HeatFlow::apply(std::vector<glm::vec2>& E, double time, double negligible) const {
+  eachChannel(E, [&](std::vector<float>& channel) { run(channel, time, negligible); });
+}
+void HeatFlow::apply(std::vector<Rgb>& E, double time, double negligible) const {
+  eachChannel(E, [&](std::vector<float>& channel) { run(channel, time, negligible); });
+}
 
 }  // namespace deltalux
