@@ -150,8 +150,9 @@ SurfaceCaustics makeTextures(const Shape& shape, std::span<const Impact> impacts
 
 std::optional<SurfaceCaustics> makeCausticTextures(const Shape& shape, std::span<const Impact> impacts,
                                                    const CausticSettings& settings) {
-  if (!deservesTextures(shape, impacts, settings)) return std::nullopt;
-  return makeTextures(shape, impacts, settings);
+  AdaptiveTextures textures(shape, settings);
+  if (!deservesTexture(textures.place(impacts), settings.error, settings.background)) return std::nullopt;
+  return textures.restricted();
 }
 
 SurfaceCaustics makeUnrestrictedTextures(const Shape& shape, std::span<const Impact> impacts,

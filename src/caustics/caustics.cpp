@@ -13,21 +13,6 @@ namespace {
 
 std::size_t sideOf(PrimitiveId primitive, bool front) { return 2 * primitive.index() + (front ? 0 : 1); }
 
-/// Gray irradiance of all light but the particles', by side: the mean over the input-level elements of each.
-std::vector<double> otherLight(const Scene& scene, const Elements& elements) {
-  std::vector<double> flux(2 * scene.primitives.size(), 0.0), area(flux.size(), 0.0);
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const ElementId e(i);
-    if (!elements.isInputLevel(e) || elements.at(e).emitter || elements.at(e).blocker) continue;
-    const std::size_t side = sideOf(elements.domain[i].primitive, elements.at(e).front);
-    const double own = elements.shape(e).area;
-    flux[side] += own * gray(elements.radiometry[i].direct + elements.radiometry[i].indirect);
-    area[side] += own;
-  }
-  for (std::size_t i = 0; i < flux.size(); ++i) flux[i] = area[i] > 0 ? flux[i] / area[i] : 0.0;
-  return flux;
-}
-
 /// Runs of impacts on one side.
 std::vector<std::span<const Impact>> bySide(std::vector<Impact>& impacts) {
   std::stable_sort(impacts.begin(), impacts.end(), [](const Impact& a, const Impact& b) {
@@ -46,16 +31,42 @@ std::vector<std::span<const Impact>> bySide(std::vector<Impact>& impacts) {
 
 /// body(side index, impacts, settings) for every side that has impacts, in parallel.
 template <class Body>
-void forEachSide(const Scene& scene, const Elements& elements, const std::vector<std::span<const Impact>>& sides,
-                 double error, const Body& body) {
-  const std::vector<double> background = otherLight(scene, elements);
+void forEachSide(const Scene& scene, const std::vector<std::span<const Impact>>& sides,
+                 const std::vector<double>& background, double error, const Body& body) {
   parallelFor(sides.size(), 1, [&](std::size_t i) {
     const Impact& first = sides[i].front();
     body(i, scene[first.primitive].shape, CausticSettings{error, background[sideOf(first.primitive, first.front)]});
   });
 }
 
+/// Puts them in order, and the index with them.
+Caustics indexed(std::vector<SurfaceCaustics> surfaces, std::size_t primitives) {
+  std::sort(surfaces.begin(), surfaces.end(), [](const SurfaceCaustics& a, const SurfaceCaustics& b) {
+    return sideOf(a.primitive, a.front) < sideOf(b.primitive, b.front);
+  });
+  Caustics result;
+  result.ofPrimitive.assign(primitives, {Caustics::kNone, Caustics::kNone});
+  for (std::uint32_t i = 0; i < surfaces.size(); ++i)
+    result.ofPrimitive[surfaces[i].primitive.index()][surfaces[i].front ? 0 : 1] = i;
+  result.surfaces = std::move(surfaces);
+  return result;
+}
+
 }  // namespace
+
+std::vector<double> otherLight(const Scene& scene, const Elements& elements) {
+  std::vector<double> flux(2 * scene.primitives.size(), 0.0), area(flux.size(), 0.0);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const ElementId e(i);
+    if (!elements.isInputLevel(e) || elements.at(e).emitter || elements.at(e).blocker) continue;
+    const std::size_t side = sideOf(elements.domain[i].primitive, elements.at(e).front);
+    const double own = elements.shape(e).area;
+    flux[side] += own * gray(elements.radiometry[i].direct + elements.radiometry[i].indirect);
+    area[side] += own;
+  }
+  for (std::size_t i = 0; i < flux.size(); ++i) flux[i] = area[i] > 0 ? flux[i] / area[i] : 0.0;
+  return flux;
+}
 
 std::size_t Caustics::count() const {
   std::size_t sum = 0;
@@ -83,7 +94,8 @@ SurfaceSides sidesWithTextures(const Scene& scene, const Elements& elements, std
                                double error) {
   const auto sides = bySide(impacts);
   std::vector<char> chosen(sides.size(), 0);
-  forEachSide(scene, elements, sides, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
+  const std::vector<double> background = otherLight(scene, elements);
+  forEachSide(scene, sides, background, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
     chosen[i] = deservesTextures(shape, sides[i], settings);
   });
   SurfaceSides result(2 * scene.primitives.size(), false);
@@ -97,17 +109,46 @@ Caustics makeCaustics(const Scene& scene, const Elements& elements, std::vector<
   std::erase_if(impacts, [&](const Impact& i) { return !chosen[sideOf(i.primitive, i.front)]; });
   const auto sides = bySide(impacts);
   std::vector<SurfaceCaustics> made(sides.size());
-  forEachSide(scene, elements, sides, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
+  const std::vector<double> background = otherLight(scene, elements);
+  forEachSide(scene, sides, background, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
     made[i] = makeTextures(shape, sides[i], settings);
     made[i].primitive = sides[i].front().primitive, made[i].front = sides[i].front().front;
     DELTALUX_VALIDATED(validate(made[i]));
   });
-  Caustics result;
-  result.ofPrimitive.assign(scene.primitives.size(), {Caustics::kNone, Caustics::kNone});
-  for (std::uint32_t i = 0; i < made.size(); ++i)
-    result.ofPrimitive[made[i].primitive.index()][made[i].front ? 0 : 1] = i;
-  result.surfaces = std::move(made);
-  return result;
+  return indexed(std::move(made), scene.primitives.size());
+}
+
+std::size_t remakeCaustics(Caustics& caustics, const Scene& scene, std::vector<Impact> impacts,
+                           const SidesToRemake& remake) {
+  const auto sides = bySide(impacts);
+  std::vector<std::optional<SurfaceCaustics>> made(sides.size());
+  forEachSide(scene, sides, remake.background, remake.error,
+              [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
+                made[i] = makeCausticTextures(shape, sides[i], settings);
+                if (!made[i]) return;
+                made[i]->primitive = sides[i].front().primitive, made[i]->front = sides[i].front().front;
+                DELTALUX_VALIDATED(validate(*made[i]));
+              });
+  std::vector<SurfaceCaustics> all;
+  for (SurfaceCaustics& s : caustics.surfaces)
+    if (!remake.sides[sideOf(s.primitive, s.front)]) all.push_back(std::move(s));
+  std::size_t count = 0;
+  for (std::optional<SurfaceCaustics>& s : made)
+    if (s) count += s->textures.size(), all.push_back(std::move(*s));
+  caustics = indexed(std::move(all), scene.primitives.size());
+  return count;
+}
+
+bool rescale(SurfaceCaustics& s, const RgbSum& flux, double tolerance) {
+  const RgbSum shown = s.flux();
+  if (gray(glm::abs(flux - shown)) <= tolerance * gray(flux)) return false;
+  RgbSum factor(0.0);
+  for (int c = 0; c < 3; ++c) factor[c] = shown[c] > 0 ? flux[c] / shown[c] : 0.0;
+  for (CausticTexture& t : s.textures) {
+    for (Rgb& E : t.texels) E *= Rgb(factor);
+    t.flux *= factor;
+  }
+  return true;
 }
 
 void validate(const Caustics& c) {

@@ -38,6 +38,23 @@ SurfaceSides sidesWithTextures(const Scene&, const Elements&, std::vector<Impact
 /// Cost: about 5 microseconds a texel.
 Caustics makeCaustics(const Scene&, const Elements&, std::vector<Impact>, double error, const SurfaceSides&);
 
+/// Gray irradiance of all light but the particles', by side: errors are measured against it, too. [W/m2]
+std::vector<double> otherLight(const Scene&, const Elements&);
+
+/// Sides to look at anew.
+struct SidesToRemake {
+  double error = 0.05;
+  const std::vector<double>& background;  // otherLight
+  const std::vector<char>& sides;
+};
+
+/// Judges all that landed on some sides, and makes the textures of those that need them; others are not touched.
+/// Returns how many textures it made.
+std::size_t remakeCaustics(Caustics&, const Scene&, std::vector<Impact>, const SidesToRemake&);
+
+/// Multiplies the textures of a side so that they hold `flux`, when they are off by more than `tolerance` of it.
+bool rescale(SurfaceCaustics&, const RgbSum& flux, double tolerance);
+
 /// Recounts: every texture holds its flux, the index finds every side. Throws std::logic_error.
 void validate(const Caustics&);
 

@@ -8,6 +8,7 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "caustics/texture_upkeep.hpp"
 #include "engine/energy_balance.hpp"
 #include "engine/particle_count.hpp"
 #include "engine/scene_update.hpp"
@@ -59,6 +60,7 @@ struct Engine::State {
   SceneUpdate pending;                       // edits since the last update
   std::optional<ParticleTracing> tracing;    // knows the scene that the particles are of
   std::optional<ParticleTransfer> transfer;  // of the particles, on the mesh of the rows
+  std::optional<TextureUpkeep> upkeep;       // of the textures, once there are edits
 
   SolveReport step(Progress* progress) {
     const Clock time;
@@ -179,9 +181,14 @@ struct Engine::State {
         makeCaustics(s.scene, s.elements, impacts(s.particles, s.elements, s.scene), s.settings.error, textured);
     DELTALUX_VALIDATED(validate(s.caustics));
     s.report.times.textures += time.seconds();
+    countTextures();
+  }
+
+  void countTextures() {
+    Solution& s = *solution;
     s.report.counts.causticTextures = s.caustics.count();
     s.report.counts.causticTextureMeanSize = s.caustics.meanSize();
-    s.report.memory.textures = s.caustics.memoryBytes();
+    s.report.memory.textures = s.caustics.memoryBytes() + (upkeep ? upkeep->memoryBytes() : 0);
   }
 
   /// Gathers until the light no longer changes. [algorithm 3]
@@ -216,26 +223,25 @@ struct Engine::State {
     }
     relight(edits);
     if (!edits.moved.empty() || !edits.movedLights.empty()) move(edits, step);
-    followWithParticles(edits, step);
+    const ParticleUpdate followed = followWithParticles(edits, step);
     const Clock gathering;
     settleRows(progress);
     step.times.gather += gathering.seconds();
-    const Clock texturing;
-    chooseTextures();
-    makeTextures();
-    step.times.textures = texturing.seconds();
-    step.texturesRebuilt = solution->caustics.count();
+    followWithTextures(followed, step);
     count();
     step.times.total = time.seconds();
     return step;
   }
 
   /// Retraces the particles that the edits can touch. [GD01 4]
-  void followWithParticles(const SceneUpdate& edits, StepReport& step) {
+  ParticleUpdate followWithParticles(const SceneUpdate& edits, StepReport& step) {
     Solution& s = *solution;
-    if (!tracing) return transfer.reset();  // no particles, on a mesh that may have changed
+    if (!tracing) {
+      transfer.reset();  // no particles, on a mesh that may have changed
+      return {};
+    }
     const Clock time;
-    const ParticleUpdate followed = tracing->follow(s.particles, edits.whole);
+    ParticleUpdate followed = tracing->follow(s.particles, edits.whole);
     DELTALUX_VALIDATED(validate(s.particles, s.scene));
     if (followed.all)
       transfer.reset();
@@ -245,20 +251,46 @@ struct Engine::State {
     step.particlesRetraced = followed.all ? s.particles.arrived() : followed.particles;
     step.particlesTotal = s.particles.arrived();
     step.times.particles += time.seconds();
+    return followed;
+  }
+
+  /// Makes the textures anew whose light has changed.
+  void followWithTextures(const ParticleUpdate& followed, StepReport& step) {
+    Solution& s = *solution;
+    const Clock time;
+    if (!upkeep || followed.all) {
+      upkeep.reset();
+      chooseTextures();
+      makeTextures();
+      step.texturesRebuilt = s.caustics.count();
+    } else {
+      step.texturesRebuilt = upkeep->follow(followed, *transfer, s.caustics).rebuilt;
+      DELTALUX_VALIDATED(validate(s.caustics));
+      countTextures();
+    }
+    step.times.textures = time.seconds();
   }
 
   Restore apply(const Edit& edit) {
+    if (pending.empty()) prepareToFollow();
+    return applyInto(pending, solution->scene, edit);
+  }
+
+  /// While the scene is still what the particles and textures are of.
+  void prepareToFollow() {
     Solution& s = *solution;
-    if (!tracing && !s.settings.diffuseOnly && finished)  // while the scene is still what the particles are of
-      tracing.emplace(s.scene, *s.tracer, ParticleSettings{particleCount(s.settings), s.settings.seed});
-    return applyInto(pending, s.scene, edit);
+    if (s.settings.diffuseOnly || !finished) return;
+    if (!tracing) tracing.emplace(s.scene, *s.tracer, ParticleSettings{particleCount(s.settings), s.settings.seed});
+    if (upkeep || !s.settings.causticTextures) return;
+    if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
+    upkeep.emplace(TextureUpkeep::Parts{s.scene, s.elements, s.particles}, *transfer, s.settings.error);
   }
 
   /// There is no place in the trees for what was not there.
   void solveAfresh(Progress* progress) {
     Solution& s = *solution;
     s.tracer = makeEmbreeTracer(s.scene);
-    tracing.reset(), transfer.reset();
+    tracing.reset(), transfer.reset(), upkeep.reset();
     s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.caustics = {}, s.report = {};
     finished = false;
     clock = {};

@@ -167,6 +167,12 @@ void ParticleTransfer::chooseLevels(const Elements& elements) {
   }
 }
 
+Rgb ParticleTransfer::power(std::size_t path, const Elements& elements, const Scene& scene) const {
+  const std::uint32_t sender = senderOf_[path];
+  if (sender == kNone) return Rgb(0.0f);
+  return sender < lights_ ? scene.lights[sender].scale : elements.radiometry[sender - lights_].B;
+}
+
 void ParticleTransfer::apply(Elements& elements, const Scene& scene) const {
   const auto power = [&](std::uint32_t sender) {
     return RgbSum(sender < lights_ ? scene.lights[sender].scale : elements.radiometry[sender - lights_].B);

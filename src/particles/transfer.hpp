@@ -33,6 +33,9 @@ class ParticleTransfer {
   /// Writes E of particles at every leaf from today's radiosities and the scale of lights.
   void apply(Elements&, const Scene&) const;
 
+  /// Radiosity of the element, or scale of the light, that sends a path; black when it has no element. [W/m2, or 1]
+  Rgb power(std::size_t path, const Elements&, const Scene&) const;
+
   std::size_t pairs() const;
   /// Gray throughput (by the particles' nominal senders) that landed where there is no element [W].
   double lost() const { return lost_; }

@@ -1,0 +1,224 @@
+#include "caustics/texture_upkeep.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/check.hpp"
+#include "base/parallel.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr double kMatters = 0.1;          // of the target error: differences that are a change
+constexpr double kMattersToChoice = 0.5;  // where there is no texture
+constexpr double kNoise = 0.25;           // of the noise of a tile's flux: smaller differences are no change
+constexpr double kFewest = 10;            // particles of one flux: fewer get no texture
+constexpr double kStrays = 2;             // particles that are no change where there are few
+constexpr double kOtherNoise = 1.25;      // times more or less noise matters: another reconstruction
+constexpr std::size_t kParts = 8;         // of all impacts, summed apart
+
+std::size_t sideOf(const Particles& p, std::uint32_t impact) {
+  return 2 * p.primitive[impact].index() + (p.triangleAndSide[impact] & 1);
+}
+
+bool sameImpact(const Particles& p, std::uint32_t a, std::uint32_t b) {
+  return p.primitive[a] == p.primitive[b] && p.triangleAndSide[a] == p.triangleAndSide[b] && p.uv[a] == p.uv[b];
+}
+
+/// body(part, begin, end) over kParts ranges of [0, count), in parallel.
+template <class Body>
+void inParts(std::size_t count, const Body& body) {
+  const std::size_t size = (count + kParts - 1) / kParts;
+  if (size > 0)
+    parallelBlocks(count, size, [&](std::size_t begin, std::size_t end) { body(begin / size, begin, end); });
+}
+
+}  // namespace
+
+/// Tiles of twice the size.
+std::vector<TextureUpkeep::Tile> TextureUpkeep::halved(const std::vector<Tile>& tiles, std::uint32_t across) {
+  std::vector<Tile> result(tiles.size() / 4);
+  for (std::uint32_t y = 0; y < across; ++y)
+    for (std::uint32_t x = 0; x < across; ++x) {
+      Tile& to = result[y / 2 * (across / 2) + x / 2];
+      const Tile& from = tiles[y * across + x];
+      to.now += from.now, to.difference += from.difference, to.squares += from.squares;
+    }
+  return result;
+}
+
+TextureUpkeep::TextureUpkeep(const Parts& parts, const ParticleTransfer& transfer, double error)
+    : parts_(parts), error_(error), tiles_(parts.scene, parts.particles) {
+  const Particles& p = parts_.particles;
+  tileOf_.assign(p.impactSlots(), kNone);
+  for (std::size_t path = 0; path < p.paths(); ++path)
+    for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) tileOf_[i] = tiles_.tileOf(p, i);
+  weigh(transfer);
+  then_.assign(now_.size(), 0.0f);
+  looks_.resize(tiles_.sides().size());
+  remember(std::vector<char>(looks_.size(), 1), otherLight(parts_.scene, parts_.elements));
+}
+
+TextureUpkeep::Report TextureUpkeep::follow(const ParticleUpdate& update, const ParticleTransfer& transfer,
+                                            Caustics& caustics) {
+  DELTALUX_CHECK(!update.all, "the particles of before");
+  takeIn(update);
+  weigh(transfer);
+  compare();
+  const std::vector<double> background = otherLight(parts_.scene, parts_.elements);
+  std::vector<char> sides(looks_.size(), 0);
+  parallelFor(sides.size(), 64, [&](std::size_t side) {
+    sides[side] = changed(side, background[side], caustics.of(PrimitiveId(side / 2), side % 2 == 0));
+  });
+  Report report;
+  report.judged = static_cast<std::uint64_t>(std::count(sides.begin(), sides.end(), 1));
+  for (SurfaceCaustics& s : caustics.surfaces)
+    if (const std::size_t side = 2 * s.primitive.index() + (s.front ? 0 : 1); !sides[side])
+      report.scaled += rescale(s, fluxOf(side), kMatters * error_);
+  report.rebuilt = remakeCaustics(caustics, parts_.scene, landedOn(sides, transfer), {error_, background, sides});
+  remember(sides, background);
+  return report;
+}
+
+/// Impacts that came out the same keep what is known of them; the others' light was taken away, or is new.
+void TextureUpkeep::takeIn(const ParticleUpdate& update) {
+  const Particles& p = parts_.particles;
+  tileOf_.resize(p.impactSlots(), kNone), then_.resize(p.impactSlots(), 0.0f), now_.resize(p.impactSlots(), 0.0f);
+  for (const RetracedPath& r : update.paths) {
+    const std::uint32_t first = p.firstImpact(r.path), before = r.range.impact;
+    for (std::uint32_t i = first; i < p.endImpact(r.path); ++i) {
+      const std::uint32_t old = before + (i - first);
+      if (i - first < r.range.impacts && sameImpact(p, i, old)) {
+        tileOf_[i] = std::exchange(tileOf_[old], kNone);
+        then_[i] = std::exchange(then_[old], 0.0f);
+      } else {
+        tileOf_[i] = tiles_.tileOf(p, i);
+      }
+    }
+    std::fill_n(now_.begin() + before, r.range.impacts, 0.0f);
+  }
+}
+
+/// Today's flux of every impact and tile.
+void TextureUpkeep::weigh(const ParticleTransfer& transfer) {
+  const Particles& p = parts_.particles;
+  now_.resize(p.impactSlots(), 0.0f);
+  std::vector<std::vector<RgbSum>> sums(kParts, std::vector<RgbSum>(tiles_.size(), RgbSum(0.0)));
+  inParts(p.paths(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t path = begin; path < end; ++path) {
+      if (p.range[path].impacts == 0) continue;
+      const Rgb power = p.links[p.link[path]].scale * transfer.power(path, parts_.elements, parts_.scene);
+      for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
+        const Rgb flux = power * p.throughput[i];
+        now_[i] = gray(flux);
+        sums[part][tileOf_[i]] += RgbSum(flux);
+      }
+    }
+  });
+  tile_.assign(tiles_.size(), {});
+  for (std::size_t t = 0; t < tile_.size(); ++t)
+    for (const auto& part : sums) tile_[t].now += part[t];
+}
+
+RgbSum TextureUpkeep::fluxOf(std::size_t side) const {
+  const SurfaceTiles::Side& s = tiles_.sides()[side];
+  RgbSum sum(0.0);
+  for (std::uint32_t t = s.first; t < s.first + s.count(); ++t) sum += tile_[t].now;
+  return sum;
+}
+
+/// Today's light against that of then, times the common factor of each side.
+void TextureUpkeep::compare() {
+  std::vector<float> factor(tiles_.size(), 1.0f);
+  for (std::size_t side = 0; side < looks_.size(); ++side) {
+    const SurfaceTiles::Side& s = tiles_.sides()[side];
+    const double then = gray(looks_[side].flux);
+    if (then > 0) std::fill_n(factor.begin() + s.first, s.count(), static_cast<float>(gray(fluxOf(side)) / then));
+  }
+  struct Sums {
+    double difference = 0, squares = 0;
+  };
+  std::vector<std::vector<Sums>> sums(kParts, std::vector<Sums>(tiles_.size()));
+  inParts(now_.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (tileOf_[i] == kNone) continue;
+      Sums& s = sums[part][tileOf_[i]];
+      s.difference += std::abs(now_[i] - factor[tileOf_[i]] * then_[i]);
+      s.squares += double(now_[i]) * now_[i];
+    }
+  });
+  for (std::size_t t = 0; t < tile_.size(); ++t)
+    for (const auto& part : sums) tile_[t].difference += part[t].difference, tile_[t].squares += part[t].squares;
+}
+
+/// Too few for a texture, whatever they show. [GD01 3.1]
+bool TextureUpkeep::fewParticles(const SurfaceTiles::Side& side) const {
+  double flux = 0, squares = 0;
+  for (std::uint32_t t = side.first; t < side.first + side.count(); ++t)
+    flux += gray(tile_[t].now), squares += tile_[t].squares;
+  return flux * flux <= kFewest * squares;
+}
+
+bool TextureUpkeep::changed(std::size_t side, double background, bool textured) const {
+  const SurfaceTiles::Side& s = tiles_.sides()[side];
+  if (s.across == 0 || (!textured && fewParticles(s))) return false;
+  const double error = (textured ? kMatters : kMattersToChoice) * error_;
+  std::vector<Tile> level(tile_.begin() + s.first, tile_.begin() + s.first + s.count());
+  double area = s.area;
+  for (std::uint32_t across = s.across;; across /= 2, area *= 4) {
+    const auto differs = [&](const Tile& t) {
+      const double now = gray(t.now), grain = now > 0 ? t.squares / now : 0.0;
+      const double noise = std::max(kNoise * std::sqrt(t.squares), kStrays * grain);
+      return t.difference > std::max(error * (now + background * area), noise);
+    };
+    if (std::any_of(level.begin(), level.end(), differs)) return true;
+    if (across == 1) break;
+    level = halved(level, across);
+  }
+  const RgbSum now = level[0].now, then = looks_[side].flux;
+  if (!(gray(then) > 0)) return false;
+  const double factor = gray(now) / gray(then), other = background * area;
+  if (gray(glm::abs(now - factor * then)) > error * (gray(now) + other)) return true;  // another colour
+  const double noisier = (gray(now) + other) / (factor * (gray(then) + looks_[side].background * area));
+  return noisier > kOtherNoise || noisier < 1 / kOtherNoise;
+}
+
+std::vector<Impact> TextureUpkeep::landedOn(const std::vector<char>& sides, const ParticleTransfer& transfer) const {
+  const Particles& p = parts_.particles;
+  std::vector<std::vector<Impact>> parts(kParts);
+  inParts(p.paths(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t path = begin; path < end; ++path)
+      for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
+        if (!sides[sideOf(p, i)]) continue;
+        const Rgb power = p.links[p.link[path]].scale * transfer.power(path, parts_.elements, parts_.scene);
+        parts[part].push_back({p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0, p.uv[i],
+                               power * p.throughput[i]});
+      }
+  });
+  std::vector<Impact> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+void TextureUpkeep::remember(const std::vector<char>& sides, const std::vector<double>& background) {
+  std::vector<char> tiles(tiles_.size(), 0);
+  for (std::size_t side = 0; side < sides.size(); ++side) {
+    if (!sides[side]) continue;
+    const SurfaceTiles::Side& s = tiles_.sides()[side];
+    std::fill_n(tiles.begin() + s.first, s.count(), 1);
+    looks_[side] = {fluxOf(side), background[side]};
+  }
+  parallelFor(now_.size(), 16384, [&](std::size_t i) {
+    if (tileOf_[i] != kNone && tiles[tileOf_[i]]) then_[i] = now_[i];
+  });
+}
+
+std::size_t TextureUpkeep::memoryBytes() const {
+  return tileOf_.capacity() * sizeof tileOf_[0] + (then_.capacity() + now_.capacity()) * sizeof(float) +
+         looks_.capacity() * sizeof(Look) + tile_.capacity() * sizeof(Tile) +
+         tiles_.sides().capacity() * sizeof(SurfaceTiles::Side);
+}
+
+}  // namespace deltalux
