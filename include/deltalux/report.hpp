@@ -38,8 +38,9 @@ struct EnergyLedger {
 struct StepReport {
   std::string op, object;
   PhaseTimes times;
-  std::uint64_t linksVisited = 0, linksChanged = 0, particlesRetraced = 0, particlesTotal = 0, texturesRebuilt = 0,
-                deferred = 0;
+  std::uint64_t linksVisited = 0, linksChanged = 0;
+  std::uint64_t leavesExamined = 0, leavesRenewed = 0;  // whose rows were looked at; made anew, in part or whole
+  std::uint64_t particlesRetraced = 0, particlesTotal = 0, texturesRebuilt = 0, deferred = 0;
 };
 
 /// An updated solution against one solved from scratch.

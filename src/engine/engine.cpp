@@ -348,6 +348,7 @@ struct Engine::State {
         s.transfers.update(s.elements, s.links, s.scene, *s.tracer, leafSettings(), marks, changed, change);
     DELTALUX_VALIDATED(s.transfers.validate(s.elements, s.links));
     s.report.counts.raysVisibility += refined.rays + rows.rays;
+    step.leavesExamined = rows.examined, step.leavesRenewed = std::max(rows.direct, rows.indirect);
     step.times.gather = gathering.seconds();
   }
 

@@ -57,6 +57,8 @@ Json json(const StepReport& s) {
           {"time_s", json(s.times)},
           {"links_visited", s.linksVisited},
           {"links_changed", s.linksChanged},
+          {"leaves_examined", s.leavesExamined},
+          {"leaves_renewed", s.leavesRenewed},
           {"particles_retraced", s.particlesRetraced},
           {"particles_total", s.particlesTotal},
           {"textures_rebuilt", s.texturesRebuilt},

@@ -1,0 +1,231 @@
+// update_bench replay NAME SCENE EDITS.json OPTIONS...
+// update_bench far NAME SCENE OPTIONS...
+// update_bench copies NAME SCENE EDITS.json K OPTIONS...
+//
+// Updates against solving, in one run, as CSV rows: one an edit (columns: kColumns). Times are wall seconds, and
+// processor seconds of all threads.
+//   replay  solves, then edits one by one. The last step, or every one with `each`, is held against a fresh solve of
+//   the
+//           edited scene, whose time is then the one that updates are related to; with `unchecked` none is.
+//   far     the scene with a small box ten of its diagonals away, which moves by its own size.
+//   copies  k copies of the scene side by side, the edits applied to the first: never checked.
+// Options: diffuse-only, error=E, metres=M (of a scene unit), each, unchecked.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <deltalux/check.hpp>
+#include <deltalux/edit_io.hpp>
+#include <deltalux/engine.hpp>
+#include <deltalux/io.hpp>
+#include <stdexcept>
+#include <string_view>
+
+#include "scene_copies.hpp"
+
+namespace deltalux::bench {
+namespace {
+
+constexpr const char* kColumns =
+    "scene,edits,light,error,step,op,object,solve_s,update_s,solve_over_update,solve_cpu_s,update_cpu_s,links_visited,"
+    "links_total,links_changed,leaves_examined,leaves_renewed,leaves_total,particles_retraced,particles_total,"
+    "textures_rebuilt,links_s,rows_s,particles_s,textures_s,peak_mib,median_percent,p95_percent,max_percent,"
+    "particles_identical";
+
+enum class Checked { Last, Each, None };
+
+struct Options {
+  SolveSettings settings;
+  ImportSettings import;
+  Checked checked = Checked::Last;
+
+  static Options parse(const std::vector<std::string>& words) {
+    Options o;
+    for (const std::string& word : words) {
+      if (word == "diffuse-only")
+        o.settings.diffuseOnly = true;
+      else if (word == "each")
+        o.checked = Checked::Each;
+      else if (word == "unchecked")
+        o.checked = Checked::None;
+      else if (word.starts_with("error="))
+        o.settings.error = std::stod(word.substr(6));
+      else if (word.starts_with("metres="))
+        o.import.metresPerUnit = std::stod(word.substr(7));
+      else
+        throw std::runtime_error("no option '" + word + "'");
+    }
+    return o;
+  }
+};
+
+/// Wall and processor time since it was made.
+class Stopwatch {
+ public:
+  double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double processor() const { return cpuSeconds() - cpu_; }
+
+ private:
+  static double cpuSeconds() {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& t) {
+      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  }
+
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double cpu_ = cpuSeconds();
+};
+
+struct Seconds {
+  double wall = 0, processor = 0;
+};
+
+Seconds read(const Stopwatch& watch) { return {watch.wall(), watch.processor()}; }
+
+struct Solved {
+  Engine engine;
+  Seconds took;
+};
+
+Solved solve(Scene scene, const SolveSettings& settings) {
+  const Stopwatch watch;
+  Engine engine(std::move(scene), settings);
+  engine.solve();
+  return {std::move(engine), read(watch)};
+}
+
+std::string quoted(std::string text) {
+  return text.find_first_of(",\"\n") == std::string::npos ? text : '"' + text + '"';
+}
+
+/// Scene, edits and settings of a run, at the head of each of its rows.
+struct Heading {
+  std::string scene, edits;
+  SolveSettings settings;
+};
+
+void printRow(const Heading& h, std::size_t index, const StepReport& step, const SolveReport& now, Seconds solved,
+              Seconds update, const std::optional<CheckReport>& check) {
+  fmt::print("{},{},{},{},{},{},{},", quoted(h.scene), quoted(h.edits), h.settings.diffuseOnly ? "diffuse" : "all",
+             h.settings.error, index, step.op, quoted(step.object));
+  fmt::print("{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},", solved.wall, update.wall, solved.wall / update.wall,
+             solved.processor, update.processor);
+  fmt::print("{},{},{},{},{},{},", step.linksVisited, now.counts.links, step.linksChanged, step.leavesExamined,
+             step.leavesRenewed, now.counts.leafElements);
+  fmt::print("{},{},{},", step.particlesRetraced, step.particlesTotal, step.texturesRebuilt);
+  fmt::print("{:.4g},{:.4g},{:.4g},{:.4g},{:.0f},", step.times.visibility + step.times.refine, step.times.gather,
+             step.times.particles, step.times.textures, static_cast<double>(peakResidentBytes()) / 1048576.0);
+  if (check)
+    fmt::print("{:.3g},{:.3g},{:.3g},{}\n", 100 * check->medianRelDiff, 100 * check->p95RelDiff,
+               100 * check->maxRelDiff, check->particlesIdentical ? "yes" : "no");
+  else
+    fmt::print(",,,\n");
+  std::fflush(stdout);
+}
+
+void play(const Heading& heading, Solved solved, const std::vector<Edit>& edits, Checked checked) {
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    const Stopwatch watch;
+    solved.engine.apply(edits[i]);
+    const StepReport step = solved.engine.update();
+    const Seconds update = read(watch);
+    std::optional<CheckReport> check;
+    Seconds against = solved.took;
+    if (checked == Checked::Each || (checked == Checked::Last && i + 1 == edits.size())) {
+      const Solved fresh = solve(solved.engine.solution().scene(), heading.settings);
+      check = compareSolutions(solved.engine.solution(), fresh.engine.solution());
+      against = fresh.took;
+    }
+    printRow(heading, i + 1, step, solved.engine.solution().report(), against, update, check);
+  }
+}
+
+std::vector<Edit> editsOf(const std::string& file, const ImportSettings& import) {
+  std::vector<Edit> edits;
+  for (const EditStep& step : loadEdits(file, import)) {
+    const auto* edit = std::get_if<Edit>(&step);
+    if (!edit) throw std::runtime_error(file + ": undo and redo are not measured");
+    edits.push_back(*edit);
+  }
+  return edits;
+}
+
+std::string stemOf(const std::string& file) { return std::filesystem::path(file).stem().string(); }
+
+void replay(const std::string& name, const std::string& scene, const std::string& file, const Options& o) {
+  const std::vector<Edit> edits = editsOf(file, o.import);
+  play({name, stemOf(file), o.settings}, solve(loadScene({scene}, o.import).scene, o.settings), edits, o.checked);
+}
+
+/// Adds a box of the size of a hundredth of the scene, ten diagonals of it away; returns its name and the size.
+std::pair<std::string, double> addFarBox(Scene& scene) {
+  const Box box = bounds(scene);
+  const double size = 0.01 * box.diagonal();
+  const Vec3 lower = box.center() + 10 * box.diagonal() * glm::normalize(Vec3(1, 0.3, 0.2));
+  Material material{"far_box_paint", Opaque{Rgb(0.5f), {}, {}}, {}};
+  scene.materials.push_back(std::move(material));
+  const MaterialId paint(scene.materials.size() - 1);
+  const ObjectId object = internObject(scene, "far_box", '.');
+  const auto corner = [&](int i) { return lower + size * Vec3(i & 1, i >> 1 & 1, i >> 2 & 1); };
+  constexpr int faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& f : faces)
+    scene.primitives.push_back({*makePolygon({corner(f[0]), corner(f[1]), corner(f[2]), corner(f[3])}), paint, object});
+  return {"far_box", size};
+}
+
+void far(const std::string& name, const std::string& file, const Options& o) {
+  Scene scene = loadScene({file}, o.import).scene;
+  const auto [object, size] = addFarBox(scene);
+  Mat4 matrix(1.0);
+  matrix[3] = glm::dvec4(0, size, 0, 1);
+  play({name, "far", o.settings}, solve(std::move(scene), o.settings), {TransformObject{object, matrix}}, o.checked);
+}
+
+void copies(const std::string& name, const std::string& scene, const std::string& file, int k, const Options& o) {
+  const std::vector<Edit> edits = editsOf(file, o.import);
+  play({fmt::format("{} x {}", name, k), stemOf(file), o.settings},
+       solve(sideBySide(loadScene({scene}, o.import).scene, k), o.settings), edits, Checked::None);
+}
+
+bool run(const std::vector<std::string>& words) {
+  const auto command = words.empty() ? std::string() : words[0];
+  const auto rest = [&](std::size_t from) {
+    return Options::parse({words.begin() + std::ptrdiff_t(from), words.end()});
+  };
+  if (command == "columns" && words.size() == 1)
+    fmt::print("{}\n", kColumns);
+  else if (command == "replay" && words.size() >= 4)
+    replay(words[1], words[2], words[3], rest(4));
+  else if (command == "far" && words.size() >= 3)
+    far(words[1], words[2], rest(3));
+  else if (command == "copies" && words.size() >= 5)
+    copies(words[1], words[2], words[3], std::stoi(words[4]), rest(5));
+  else
+    return false;
+  return true;
+}
+
+}  // namespace
+}  // namespace deltalux::bench
+
+int main(int argc, char** argv) {
+  try {
+    if (deltalux::bench::run({argv + 1, argv + argc})) return 0;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "update_bench: {}\n", error.what());
+    return 1;
+  }
+  std::fputs(
+      "usage: update_bench columns\n"
+      "       update_bench replay NAME SCENE EDITS.json OPTIONS...\n"
+      "       update_bench far NAME SCENE OPTIONS...\n"
+      "       update_bench copies NAME SCENE EDITS.json K OPTIONS...\n"
+      "options: diffuse-only, error=E, metres=M, each, unchecked\n",
+      stderr);
+  return 2;
+}
