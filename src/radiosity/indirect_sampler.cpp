@@ -47,7 +47,7 @@ float openness(const Link& l) {
 
 IndirectSampler::IndirectSampler(const Scene& scene, const Elements& elements, const Links& links,
                                  const RayTracer& tracer)
-    : scene_(scene), elements_(elements), tracer_(tracer), links_(links) {}
+    : scene_(scene), elements_(elements), tracer_(tracer), links_(links), grid_(elements) {}
 
 float IndirectSampler::strength(ElementId receiver, ElementId sender) const {
   const ElementLight& here = elements_.radiometry[receiver.index()];
@@ -129,46 +129,46 @@ float IndirectSampler::guess(ElementId leaf, const PatchPoint& x, ElementId part
   return std::max(K, leastKernel(elements_, x.position, part)) * B * (exact(part) ? 1.0f : kUneven);
 }
 
-ElementId IndirectSampler::descend(ElementId sender, ElementId leaf, const PatchPoint& x, double u,
-                                   double& chance) const {
-  std::vector<float> guesses;
-  while (!elements_.isLeaf(sender)) {
-    guesses.clear();
-    double total = 0;
-    for (std::size_t i = 0; i < elements_.at(sender).childCount; ++i)
-      total += guesses.emplace_back(guess(leaf, x, elements_.child(sender, i)));
-    if (!(total > 0)) return {};
-    double rest = u * total;
-    std::size_t picked = 0;
-    while (picked + 1 < guesses.size() && (rest >= guesses[picked] || !(guesses[picked] > 0)))
-      rest -= guesses[picked++];
-    while (!(guesses[picked] > 0)) --picked;
-    u = std::clamp(rest / guesses[picked], 0.0, 0x1.fffffep-1);
-    chance *= guesses[picked] / total;
-    sender = elements_.child(sender, picked);
+template <class KernelOf, class Visit>
+void IndirectSampler::dealBelow(ElementId leaf, const PatchPoint& x, const Term& t, double expected, int rays,
+                                const KernelOf& kernelOf, const Visit& visit) const {
+  if (elements_.isLeaf(t.sender)) {
+    if (t.K > 0)
+      for (int i = 0; i < rays; ++i) visit(Dealt{t, static_cast<float>(1.0 / expected), i});
+    return;
   }
-  return sender;
+  std::vector<float> guesses;
+  double total = 0;
+  for (std::size_t i = 0; i < elements_.at(t.sender).childCount; ++i)
+    total += guesses.emplace_back(guess(leaf, x, elements_.child(t.sender, i)));
+  double rest = total;
+  for (std::size_t i = 0; i < guesses.size() && rays > 0; ++i) {
+    if (!(guesses[i] > 0)) continue;
+    const ElementId child = elements_.child(t.sender, i);
+    const int own =
+        shareOf(rays, guesses[i], rest, combineKeys(elements_.key[leaf.index()], elements_.key[child.index()]));
+    rays -= own, rest -= guesses[i];
+    if (own == 0) continue;
+    Term part{t.link, child, 0.0f, t.open, 0.0f};
+    if (elements_.isLeaf(child)) part = term(leaf, t.link, child, t.open, kernelOf);
+    dealBelow(leaf, x, part, expected * guesses[i] / total, own, kernelOf, visit);
+  }
 }
 
 template <class KernelOf, class Visit>
 void IndirectSampler::deal(ElementId leaf, const PatchPoint& center, const std::vector<Term>& terms, double step,
-                           std::uint64_t key, const KernelOf& kernelOf, const Visit& visit) const {
-  double next = toUnit(mix64(key)) * step, passed = 0;
-  for (const Term& t : terms) {
-    if (known(t)) {
-      visit(Dealt{t, 1.0f, 0});
-      continue;
-    }
-    passed += t.weight;
-    const std::uint64_t own = combineKeys(elements_.key[leaf.index()], elements_.key[t.sender.index()]);
-    for (int i = 0; next < passed; ++i, next += step) {
-      double chance = t.weight / step;
-      const ElementId from = descend(t.sender, leaf, center, stratified4(own, i)[0], chance);
-      if (!from.valid()) continue;
-      const Term part = from == t.sender ? t : term(leaf, t.link, from, t.open, kernelOf);
-      if (part.K > 0) visit(Dealt{part, static_cast<float>(1.0 / chance), i});
-    }
+                           int rays, const KernelOf& kernelOf, const Visit& visit) const {
+  std::vector<RayShare> shares;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    if (known(terms[i]))
+      visit(Dealt{terms[i], 1.0f, 0});
+    else
+      shares.push_back({grid_.code(elements_.shape(terms[i].sender).center), elements_.key[terms[i].sender.index()],
+                        static_cast<std::uint32_t>(i), terms[i].weight});
   }
+  dealOut(shares, rays, elements_.key[leaf.index()], [&](std::uint32_t i, int own) {
+    dealBelow(leaf, center, terms[i], terms[i].weight / step, own, kernelOf, visit);
+  });
 }
 
 template <class PointAt>
@@ -232,8 +232,7 @@ TransferRow IndirectSampler::atLeaf(ElementId leaf, int rays, std::uint64_t& tra
   TransferRow row;
   row.weightPerRay = static_cast<float>((total > 0 ? total : sum) / rays);
   const PatchPoint center{elements_.shape(leaf).center, elements_.shape(leaf).normal};
-  deal(leaf, center, terms, row.weightPerRay, elements_.key[leaf.index()], kernelOf,
-       [&](const Dealt& d) { append(leaf, d, row, traced); });
+  deal(leaf, center, terms, row.weightPerRay, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, row, traced); });
   row.terms.shrink_to_fit();
   row.transfers.shrink_to_fit();
   return row;
@@ -286,9 +285,11 @@ bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span
   for (const Term& t : whole) sum += t.weight;
   const float step = std::max(row.weightPerRay, sum / kMostRays);
   const auto terms = apart(leaf, std::move(whole), step, kernelOf);
-  if (step > 0)
-    deal(leaf, center, terms, step, elements_.key[leaf.index()], kernelOf,
-         [&](const Dealt& d) { append(leaf, d, next, traced); });
+  double unknown = 0;
+  for (const Term& t : terms) unknown += known(t) ? 0.0f : t.weight;
+  // What is left over is a ray by chance, by the key of the place.
+  const int rays = step > 0 ? static_cast<int>(unknown / step + toUnit(mix64(elements_.key[leaf.index()]))) : 0;
+  deal(leaf, center, terms, step, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, next, traced); });
   row = std::move(next);
   return true;
 }
@@ -318,7 +319,7 @@ Rgb IndirectSampler::atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal
   for (const Term& t : terms) total += known(t) ? 0.0f : t.weight;
   RgbSum E(0.0);
   std::uint64_t traced = 0;
-  deal(leaf, x, terms, total / rays, elements_.key[leaf.index()], kernelOf, [&](const Dealt& d) {
+  deal(leaf, x, terms, total / rays, rays, kernelOf, [&](const Dealt& d) {
     const Rgb T = known(d.term) ? Rgb(d.term.K)
                                 : transfer(
                                       leaf, d, [&](double, double) { return x; }, traced);

@@ -8,18 +8,19 @@
 //   E = sum over rays T B(leaf),   T = K V / (n p)              flat leaves
 //                                  T = A w V / (n p)            curved ones
 //
-// with p the chance of the leaf, K its exact kernel, w the kernel between two points, V whether the ray passes. One
-// stratified number deals the rays out over all links (systematic sampling), so that a closed room's row sums to one
-// but for what V leaves to chance. Flat senders that the links prove clear take K and no ray, in parts so small that
-// their radiosity counts as even. Everything that may send has a chance, also what is dark at present. A ray depends on
-// the keys of place and leaf alone, so that it can be traced again. Cost: about 15 kernels' time a link, one ray and
-// some 15 kernels a sample.
+// with n p the expected rays of the leaf, K its exact kernel, w the kernel between two points, V whether the ray
+// passes. Rays are dealt out by halves (ray_shares.hpp) over all links and down to leaves, so that a closed room's row
+// sums to one but for what V leaves to chance, and a little more light somewhere moves few rays. Flat senders that the
+// links prove clear take K and no ray, in parts so small that their radiosity counts as even. Everything that may send
+// has a chance, also what is dark at present. A ray depends on the keys of place and leaf alone, so that it can be
+// traced again. Cost: about 15 kernels' time a link, one ray and some 15 kernels a sample.
 #include <array>
 #include <span>
 #include <vector>
 
 #include "hierarchy/patch.hpp"
 #include "radiosity/leaf_row.hpp"
+#include "radiosity/ray_shares.hpp"
 #include "radiosity/sender_sampling.hpp"
 #include "radiosity/space_change.hpp"
 #include "tracing/ray_tracer.hpp"
@@ -65,13 +66,14 @@ class IndirectSampler {
   template <class KernelOf>
   std::vector<Term> apart(ElementId leaf, std::vector<Term> whole, float ray, const KernelOf&) const;
   float guess(ElementId leaf, const PatchPoint& x, ElementId part) const;
-  /// The leaf below a sender that the number `u` picks, in proportion to what each may bring to `x`; `chance` is
-  /// multiplied by that of the leaf.
-  ElementId descend(ElementId sender, ElementId leaf, const PatchPoint& x, double u, double& chance) const;
-  /// Deals rays out over terms, one for every `step` of weight: visit(Dealt).
+  /// Deals `rays` out over terms; expected of each: its weight over `step`: visit(Dealt).
   template <class KernelOf, class Visit>
-  void deal(ElementId leaf, const PatchPoint& center, const std::vector<Term>&, double step, std::uint64_t key,
-            const KernelOf&, const Visit&) const;
+  void deal(ElementId leaf, const PatchPoint& center, const std::vector<Term>&, double step, int rays, const KernelOf&,
+            const Visit&) const;
+  /// Deals the rays of a term out over the leaves below its sender, in proportion to what each may bring to `x`.
+  template <class KernelOf, class Visit>
+  void dealBelow(ElementId leaf, const PatchPoint& x, const Term&, double expected, int rays, const KernelOf&,
+                 const Visit&) const;
   /// The ray of a dealt term; no leaf where its points do not face each other.
   template <class PointAt>
   SenderSample shoot(ElementId leaf, ElementId sender, int index, const PointAt&) const;
@@ -92,6 +94,7 @@ class IndirectSampler {
   const Elements& elements_;
   const RayTracer& tracer_;
   const Links& links_;
+  PlaceCodes grid_;
 };
 
 }  // namespace deltalux
