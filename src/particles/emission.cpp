@@ -268,9 +268,12 @@ ParticleEmission::Aim ParticleEmission::aimAround(const Origin& y, const Boundin
 }
 
 double ParticleEmission::densityAround(const Origin& y, const BoundingSphere& ball, const Vec3& direction) const {
-  const double omega = 2 * kPi * coneDepth(ball.center - y.position, ball.radius);
+  const Vec3 toCenter = ball.center - y.position;
+  const double depth = coneDepth(toCenter, ball.radius), omega = 2 * kPi * depth;
   if (omega > kWide && y.lambertian) return std::max(0.0, glm::dot(direction, y.normal)) / kPi;
-  return 1 / omega;  // targets always lie in the cone
+  // What an edit has moved away from its neighbours may be outside.
+  const bool inCone = glm::dot(direction, toCenter) >= (1 - depth - 1e-9) * glm::length(toCenter);
+  return inCone ? 1 / omega : 0;
 }
 
 /// The far side of a ball that light does not pass straight through: known without a ray.
@@ -294,22 +297,24 @@ void ParticleEmission::arrive(std::span<const LinkEnds> links, std::span<const F
       targets.push_back(static_cast<std::uint32_t>(i)), straight.push_back(s.ray);
     if (s.kind == FirstSegment::Kind::Open) opens.push_back(static_cast<std::uint32_t>(i)), open.push_back(s.ray);
   }
-  std::vector<Rgb> passed(straight.size());
-  tracer_.transmittances(straight, passed);
+  std::vector<Passing> passed(straight.size());
+  tracer_.passings(straight, passed);
   std::vector<Hit> hits(open.size());
   tracer_.closestHits(open, hits);
   rays += straight.size() + open.size();
   for (std::size_t k = 0; k < targets.size(); ++k) {
-    if (isBlack(passed[k])) continue;
+    const Rgb& share = passed[k].share;
     const FirstSegment& s = segments[targets[k]];
     Arrival& a = arrivals[targets[k]];
+    a.blocker = passed[k].blocker;
+    if (isBlack(share)) continue;
     a.primitive = receivers_.primitive(s.receiverCell);
     a.triangle = receivers_.triangle(s.receiverCell);
     a.position = Vec3f(s.target), a.normal = Vec3f(s.normal), a.direction = s.direction;
     a.distance = s.atInfinity ? std::numeric_limits<float>::infinity() : glm::length(a.position - s.origin);
     // An open direction would have ended at the first pane.
-    const bool byEither = passed[k] == Rgb(1.0f);
-    a.flux = s.flux * passed[k] * (byEither ? s.balance : 1.0f);
+    const bool byEither = share == Rgb(1.0f);
+    a.flux = s.flux * share * (byEither ? s.balance : 1.0f);
   }
   for (std::size_t k = 0; k < opens.size(); ++k)
     if (hits[k]) arrivals[opens[k]] = meet(links[opens[k]], segments[opens[k]], hits[k]);
@@ -320,10 +325,11 @@ Arrival ParticleEmission::meet(const LinkEnds& link, const FirstSegment& s, cons
   const std::uint32_t cell = receivers_.cellOf(hit);
   if (cell < node.begin || cell >= node.end) {
     Arrival blocked;
+    blocked.blocker = hit.primitive;
     blocked.position = hit.position, blocked.distance = hit.t;
     return blocked;
   }
-  Arrival a{hit.primitive, hit.triangle, hit.position, hit.normal, s.direction, hit.t, s.flux};
+  Arrival a{hit.primitive, {}, hit.triangle, hit.position, hit.normal, s.direction, hit.t, s.flux};
   const double other = densityAtCell(Vec3(s.origin), node, cell, Vec3(hit.position), glm::normalize(Vec3(hit.normal)));
   a.flux *= static_cast<float>(s.density / (s.density + other));  // [Veach97 9.8]
   const SenderCell& c = senders_.cells()[s.senderCell];

@@ -46,6 +46,7 @@ struct FirstSegment {
 /// Where a particle first meets a receiver.
 struct Arrival {
   PrimitiveId primitive;  // invalid: nowhere; an open segment then ends at `position`, if its distance is finite
+  PrimitiveId blocker;    // what keeps it from arriving, if anything does
   std::uint32_t triangle = 0;
   Vec3f position{0.0f}, normal{0.0f}, direction{0.0f};      // normal: of the front
   float distance = std::numeric_limits<float>::infinity();  // infinite from suns and skies

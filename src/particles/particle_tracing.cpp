@@ -1,12 +1,12 @@
 #include "particles/particle_tracing.hpp"
 
 #include <algorithm>
-#include <map>
+#include <optional>
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "particles/moved_shapes.hpp"
 #include "particles/plan_particles.hpp"
-#include "particles/segment_box.hpp"
 #include "particles/trace.hpp"
 
 namespace deltalux {
@@ -31,47 +31,63 @@ bool emitAlike(const Material& a, const Material& b) {
   return a.surface == b.surface;
 }
 
-/// Where things were and where they are now.
+/// Finds what a motion can touch. A path is asked for what it met; where things are now, its segments are held against.
 class Motions {
  public:
-  Motions(const Scene& scene, std::span<const SceneChange::Moved> moved) {
+  using Motion = Receivers::Motion;
+
+  Motions(const Scene& scene, std::span<const SceneChange::Moved> moved, const Particles& p,
+          const std::vector<Motion>& nodes, std::vector<char> senderMoved)
+      : particles_(p),
+        moved_(scene.primitives.size(), 0),
+        senderMoved_(std::move(senderMoved)),
+        after_(shapesOf(scene, moved), kMargin * farDistance(scene)) {
     const double margin = kMargin * farDistance(scene);
-    const auto add = [&](const Box& box, std::vector<SegmentBox>& boxes) {
-      if (!box.empty()) boxes.emplace_back(box, margin);
-    };
-    for (const SceneChange::Moved& m : moved) panes_ = panes_ || isThinGlass(scene.materialOf(m.primitive));
-    if (moved.size() <= kOwnBoxes) {
-      for (const SceneChange::Moved& m : moved) add(m.before, before_), add(m.after, after_);
-      return;
-    }
-    const std::vector<std::uint32_t> top = topObjects(scene);
-    std::map<std::uint32_t, std::pair<Box, Box>> byObject;
+    Box before;
     for (const SceneChange::Moved& m : moved) {
-      auto& [before, after] = byObject[top[m.primitive.index()]];
-      before.extend(m.before), after.extend(m.after);
+      moved_[m.primitive.index()] = 1;
+      if (m.before.empty()) continue;
+      before.extend(m.before);
+      if (isThinGlass(scene.materialOf(m.primitive))) panes_.emplace_back(m.before, margin);
     }
-    for (const auto& [object, both] : byObject) add(both.first, before_), add(both.second, after_);
+    if (!before.empty()) before_.emplace(before, margin);
+    for (const ParticleLink& l : p.links) receiver_.push_back(nodes[l.ends.receiver]);
   }
 
-  /// Whether a path can go otherwise now.
-  bool touch(std::span<const Vec3f> v, std::uint8_t fate) const {
-    for (const SegmentBox& box : after_)
-      for (std::size_t i = 0; i + 1 < v.size(); ++i)
-        if (box.meets(v[i], v[i + 1])) return true;
-    // Where a segment ended it met something first, so nothing that moved stood on the way but for panes.
-    const bool throughOnly = (fate & kFirstEnd) && !panes_;
-    for (const SegmentBox& box : before_) {
-      if (!throughOnly && v.size() > 1 && box.meets(v[0], v[1])) return true;
-      for (std::size_t i = 1; i < v.size(); ++i)
-        if (box.holds(v[i])) return true;
-    }
-    return false;
+  bool touch(std::size_t path) const {
+    const Motion receiver = receiver_[particles_.link[path]];
+    if (receiver == Motion::Bound || senderMoved_[particles_.sender[path]]) return true;
+    const std::span<const Vec3f> v = particles_.verticesOf(path);
+    // What was never begun may be possible now.
+    if (v.empty()) return receiver != Motion::None;
+    const PrimitiveId* met = particles_.metBy(path).data();
+    const bool blocked = particles_.fate[path] == 0 && met[1].valid();
+    if (blocked) return moved_[met[1].index()] || (receiver != Motion::None && (before_ && before_->holds(v[1])));
+    for (std::size_t i = 1; i < v.size(); ++i)
+      if (met[i].valid() && moved_[met[i].index()]) return true;
+    for (std::size_t i = 0; i + 1 < v.size(); ++i)
+      if (after_.near(v[i], v[i + 1]) && after_.meets(v[i], v[i + 1])) return true;
+    return std::any_of(panes_.begin(), panes_.end(), [&](const SegmentBox& box) { return box.meets(v[0], v[1]); });
   }
 
  private:
-  static constexpr std::size_t kOwnBoxes = 8;  // more things share one box
-  std::vector<SegmentBox> before_, after_;
-  bool panes_ = false;
+  static std::vector<const Shape*> shapesOf(const Scene& scene, std::span<const SceneChange::Moved> moved) {
+    std::vector<PrimitiveId> ids;
+    for (const SceneChange::Moved& m : moved) ids.push_back(m.primitive);
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    std::vector<const Shape*> shapes;
+    for (const PrimitiveId id : ids) shapes.push_back(&scene[id].shape);
+    return shapes;
+  }
+
+  const Particles& particles_;
+  std::vector<char> moved_;        // by primitive
+  std::vector<char> senderMoved_;  // by cell
+  std::vector<Motion> receiver_;   // by link
+  MovedShapes after_;
+  std::optional<SegmentBox> before_;  // all of it
+  std::vector<SegmentBox> panes_;     // where they were
 };
 
 }  // namespace
@@ -117,22 +133,14 @@ std::vector<std::uint32_t> ParticleTracing::touchedPaths(const Particles& p,
                                                          std::span<const SceneChange::Moved> moved) {
   std::vector<PrimitiveId> primitives;
   for (const SceneChange::Moved& m : moved) primitives.push_back(m.primitive);
-  const std::vector<char> senderMoved = ends_->senders.follow(primitives);
-  using Motion = Receivers::Motion;
-  const std::vector<Motion> motion = ends_->receivers.follow(primitives);
-  const Motions motions(scene_, moved);
-  const auto touched = [&](std::size_t path) {
-    const Motion m = motion[p.links[p.link[path]].ends.receiver];
-    const std::span<const Vec3f> v = p.verticesOf(path);
-    // A path that was never begun may be possible now.
-    if (senderMoved[p.sender[path]] || m == Motion::Bound || (m == Motion::Below && v.empty())) return true;
-    return motions.touch(v, p.fate[path]);
-  };
+  std::vector<char> senderMoved = ends_->senders.follow(primitives);
+  const std::vector<Receivers::Motion> nodes = ends_->receivers.follow(primitives);
+  const Motions motions(scene_, moved, p, nodes, std::move(senderMoved));
   constexpr std::size_t kBlock = 8192;
   std::vector<std::vector<std::uint32_t>> found((p.paths() + kBlock - 1) / kBlock);
   parallelBlocks(p.paths(), kBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t path = begin; path < end; ++path)
-      if (touched(path)) found[begin / kBlock].push_back(static_cast<std::uint32_t>(path));
+      if (motions.touch(path)) found[begin / kBlock].push_back(static_cast<std::uint32_t>(path));
   });
   std::vector<std::uint32_t> all;
   for (const auto& block : found) all.insert(all.end(), block.begin(), block.end());

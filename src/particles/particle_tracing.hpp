@@ -2,12 +2,14 @@
 // Tracing the particles of a scene, and following its edits: a motion retraces the paths that it can touch and no
 // others, and leaves the very particles that tracing everything anew would. [GD01 4]
 //
-// A path is touched when one of its segments meets the box of a thing that moved, where that was or where it is now;
-// when it starts on the thing; and when its link's receivers have another bound, by which first directions are drawn.
+// A path is touched when one of its segments meets the surface of a thing that moved where that is now; when it met the
+// thing where it was, or, blocked, was blocked by it; when it starts on the thing; and when its link goes to that
+// alone. Paths know what they met, so where things were is no question of geometry; a blocked path knows one thing that
+// blocks it, and stays blocked, unasked, as long as that stays. So next to all paths that are touched do change.
 // (Departure: the paper keeps an octree whose cells know their links, and emits whole links anew. Here every segment of
-// every path is held against the boxes: some nanoseconds each, no memory, and no path is retraced for its link's sake.)
+// every path is held against a box, and then against the surfaces in it: exact for each path, and no memory.)
 // Dimmed lights and new diffuse colours change no path; other lights, other speculars and new things change all.
-// Cost: two nanoseconds a segment, and the rays of what is touched.
+// Cost: some nanoseconds a path, and the rays of what is touched.
 #include <deltalux/edit.hpp>
 #include <memory>
 

@@ -71,6 +71,7 @@ void gather(std::vector<T>& array, const std::vector<PathRange>& ranges, std::ui
 
 void Particles::compact() {
   gather(vertices, range, &PathRange::vertex, &PathRange::vertices);
+  gather(met, range, &PathRange::vertex, &PathRange::vertices);
   gather(primitive, range, &PathRange::impact, &PathRange::impacts);
   gather(triangleAndSide, range, &PathRange::impact, &PathRange::impacts);
   gather(uv, range, &PathRange::impact, &PathRange::impacts);
@@ -85,8 +86,8 @@ void Particles::compact() {
 std::size_t Particles::memoryBytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(senderCells) + bytes(links) + bytes(link) + bytes(sender) + bytes(originTriangle) + bytes(range) +
-         bytes(account) + bytes(fate) + bytes(vertices) + bytes(primitive) + bytes(triangleAndSide) + bytes(uv) +
-         bytes(throughput);
+         bytes(account) + bytes(fate) + bytes(vertices) + bytes(met) + bytes(primitive) + bytes(triangleAndSide) +
+         bytes(uv) + bytes(throughput);
 }
 
 std::uint64_t Particles::hash() const {
@@ -165,6 +166,9 @@ void validate(const Particles& p, const Scene& scene) {
   checkPaths(p, scene);
   for (const Vec3f& v : p.vertices)
     require(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z), 0, "vertices are finite");
+  require(p.met.size() == p.vertices.size(), p.met.size(), "arrays of one length");
+  for (const PrimitiveId id : p.met)
+    require(!id.valid() || id.index() < scene.primitives.size(), 0, "what a path meets is there");
   const std::size_t n = p.impactSlots();
   require(p.triangleAndSide.size() == n && p.uv.size() == n && p.throughput.size() == n, n, "arrays of one length");
   for (std::size_t path = 0; path < p.paths(); ++path)

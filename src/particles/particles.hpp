@@ -10,7 +10,7 @@
 // have put them: a motion changes the paths that it touches and no others. (Departure: the paper's links follow every
 // edit.) Estimates stay exact in the mean, whatever moved; what moves far into the light has fewer particles than it
 // would deserve.
-// Memory: about 12 bytes a vertex, 41 a path, 32 an impact.
+// Memory: about 16 bytes a vertex, 41 a path, 32 an impact.
 #include <span>
 
 #include "particles/ds_links.hpp"
@@ -65,6 +65,7 @@ struct Particles {
 
   // Per vertex: origin, then every surface met; a path that leaves ends at a point outside. None: never traced.
   std::vector<Vec3f> vertices;
+  std::vector<PrimitiveId> met;  // there, if anything was; where a target was not reached, what stood before it
 
   // Per impact.
   std::vector<PrimitiveId> primitive;
@@ -81,6 +82,9 @@ struct Particles {
   std::uint32_t endImpact(std::size_t path) const { return range[path].impact + range[path].impacts; }
   std::span<const Vec3f> verticesOf(std::size_t path) const {
     return std::span(vertices).subspan(range[path].vertex, range[path].vertices);
+  }
+  std::span<const PrimitiveId> metBy(std::size_t path) const {
+    return std::span(met).subspan(range[path].vertex, range[path].vertices);
   }
   /// Size of the arrays of impacts, with gaps.
   std::size_t impactSlots() const { return primitive.size(); }

@@ -12,6 +12,7 @@ namespace deltalux {
 struct PathBlock {
   std::vector<std::uint32_t> vertexOf, impactOf;  // path within the block
   std::vector<Vec3f> vertices;
+  std::vector<PrimitiveId> met;
   std::vector<PrimitiveId> primitive;
   std::vector<std::uint32_t> triangleAndSide;
   std::vector<glm::vec2> uv;
@@ -26,7 +27,9 @@ struct PathBlock {
   std::vector<std::uint8_t> fate;
   std::uint64_t rays = 0;
 
-  void addVertex(std::uint32_t path, const Vec3f& p) { vertexOf.push_back(path), vertices.push_back(p); }
+  void addVertex(std::uint32_t path, const Vec3f& p, PrimitiveId there) {
+    vertexOf.push_back(path), vertices.push_back(p), met.push_back(there);
+  }
   void addImpact(std::uint32_t path, const Hit& hit, const glm::vec2& at, const Rgb& flux) {
     impactOf.push_back(path);
     primitive.push_back(hit.primitive);

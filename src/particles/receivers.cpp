@@ -92,7 +92,7 @@ Receivers::Receivers(const Scene& scene) : scene_(scene), surfaceOf_(scene.primi
     const auto* mesh = std::get_if<Mesh>(&rest);
     for (std::uint32_t t = 0; t < (mesh ? mesh->triangles.size() : 1); ++t) {
       areas.push_back(addSurface(rest, PrimitiveId(i), t, top[i], limit, cells));
-      place(surfaces_.back());
+      place(surfaces_.back(), rest);
     }
   }
   if (cells.empty()) return;
@@ -110,12 +110,16 @@ Receivers::Receivers(const Scene& scene) : scene_(scene), surfaceOf_(scene.primi
   }
   appendRadixTree(nodes_, codes, 0, kSeed);
   bounds_.resize(nodes_.size());
-  boxes_.resize(nodes_.size());
   leaf_.resize(cells_.size());
   for (std::size_t n = 0; n < nodes_.size(); ++n)
     if (nodes_[n].isLeaf()) leaf_[nodes_[n].begin] = static_cast<std::uint32_t>(n);
-  for (std::uint32_t c = 0; c < cells_.size(); ++c) boundLeaf(c);
+  for (std::uint32_t c = 0; c < cells_.size(); ++c)
+    bounds_[leaf_[c]] = boundOf(cells_[c], edits::restShape(scene, primitive(c)));
   boundNodes();
+  restBounds_ = bounds_;
+  std::vector<PrimitiveId> edited;
+  for (const Placement& p : scene.placements) edited.push_back(p.primitive);
+  follow(edited);
 }
 
 double Receivers::addSurface(const Shape& rest, PrimitiveId id, std::uint32_t triangle, std::uint32_t object,
@@ -137,8 +141,7 @@ double Receivers::addSurface(const Shape& rest, PrimitiveId id, std::uint32_t tr
   return whole;
 }
 
-void Receivers::place(Surface& s) const {
-  const Shape& shape = scene_[s.primitive].shape;
+void Receivers::place(Surface& s, const Shape& shape) const {
   s.whole = deltalux::area(shape);
   if (!(s.whole > 0) || !s.flat) return;
   s.frame = *frameOf(shape, s.triangle);
@@ -149,21 +152,24 @@ void Receivers::place(Surface& s) const {
 
 std::vector<Receivers::Motion> Receivers::follow(std::span<const PrimitiveId> moved) {
   std::vector<Motion> motion(nodes_.size(), Motion::None);
+  const std::vector<BoundingSphere> before = bounds_;
   for (const PrimitiveId p : moved) {
+    const Shape& shape = scene_[p].shape;
     std::uint32_t s = surfaceOf_[p.index()];
     for (; s != RadixNode::kNone && s < surfaces_.size() && surfaces_[s].primitive == p; ++s) {
-      place(surfaces_[s]);
+      place(surfaces_[s], shape);
       const std::uint32_t first = surfaces_[s].firstCell;
       for (std::uint32_t c = first; c < cells_.size() && cells_[c].surface == s; ++c) {
-        boundLeaf(c);
+        bounds_[leaf_[c]] = boundOf(cells_[c], shape);
         motion[leaf_[c]] = Motion::Bound;
       }
     }
   }
-  const std::vector<BoundingSphere> before = bounds_;
   boundNodes();
+  const std::vector<char> fixed = heldAtRest();
   for (std::size_t n = nodes_.size(); n-- > 0;) {
     if (nodes_[n].isLeaf()) continue;
+    if (fixed[n]) bounds_[n] = restBounds_[n];
     for (const std::uint32_t child : nodes_[n].child)
       if (motion[child] != Motion::None) motion[n] = Motion::Below;
     if (!(bounds_[n] == before[n])) motion[n] = Motion::Bound;
@@ -171,26 +177,35 @@ std::vector<Receivers::Motion> Receivers::follow(std::span<const PrimitiveId> mo
   return motion;
 }
 
-void Receivers::boundLeaf(std::uint32_t cell) {
-  const BoundingSphere b = boundOf(cells_[cell]);
-  bounds_[leaf_[cell]] = b;
-  boxes_[leaf_[cell]] = b.empty() ? Box{} : Box{b.center - b.radius, b.center + b.radius};
-}
-
-void Receivers::boundNodes() {
+/// By node: some of its cells are where they were read.
+std::vector<char> Receivers::heldAtRest() const {
+  std::vector<char> edited(scene_.primitives.size(), 0), held(nodes_.size(), 0);
+  for (const Placement& p : scene_.placements) edited[p.primitive.index()] = !p.present || p.matrix != Mat4(1.0);
   for (std::size_t n = nodes_.size(); n-- > 0;) {
     const RadixNode& node = nodes_[n];
-    if (node.isLeaf()) continue;
-    boxes_[n] = {};
-    bounds_[n] = {Vec3(0), -1};
+    held[n] = node.isLeaf() ? !edited[primitive(node.begin).index()] : held[node.child[0]] || held[node.child[1]];
+  }
+  return held;
+}
+
+/// From today's leaves.
+void Receivers::boundNodes() {
+  std::vector<Box> boxes(nodes_.size());
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
+    const RadixNode& node = nodes_[n];
+    BoundingSphere& b = bounds_[n];
+    if (node.isLeaf()) {
+      if (!b.empty()) boxes[n] = {b.center - b.radius, b.center + b.radius};
+      continue;
+    }
+    b = {Vec3(0), -1};
     for (const std::uint32_t child : node.child)
-      if (!bounds_[child].empty()) boxes_[n].extend(boxes_[child]);
-    if (boxes_[n].empty()) continue;
-    const Vec3 center = boxes_[n].center();
-    bounds_[n].center = center;
+      if (!boxes[child].empty()) boxes[n].extend(boxes[child]);
+    if (boxes[n].empty()) continue;
+    b.center = boxes[n].center();
     for (const std::uint32_t child : node.child) {
-      const BoundingSphere& b = bounds_[child];
-      if (!b.empty()) bounds_[n].radius = std::max(bounds_[n].radius, glm::distance(b.center, center) + b.radius);
+      const BoundingSphere& inner = bounds_[child];
+      if (!inner.empty()) b.radius = std::max(b.radius, glm::distance(inner.center, b.center) + inner.radius);
     }
   }
 }
@@ -262,14 +277,13 @@ std::uint32_t Receivers::cellOf(const Hit& hit) const {
   return s.firstCell + cellAt(s.size, s.halvings, at);
 }
 
-BoundingSphere Receivers::boundOf(const Cell& c) const {
+BoundingSphere Receivers::boundOf(const Cell& c, const Shape& shape) const {
   const Surface& s = surfaces_[c.surface];
   if (!(s.whole > 0)) return {Vec3(0), -1};
   if (s.flat) {
     const Vec3 low = s.frame.at({c.rect.u0, c.rect.v0}), high = s.frame.at({c.rect.u1, c.rect.v1});
     return {0.5 * (low + high), 0.5 * glm::distance(low, high)};
   }
-  const Shape& shape = scene_[s.primitive].shape;
   const Box whole = bounds(shape);
   const auto* ball = std::get_if<Sphere>(&shape);
   const BoundingSphere sphere{whole.center(), ball ? ball->radius : 0.5 * whole.diagonal()};
@@ -289,9 +303,8 @@ BoundingSphere Receivers::boundOf(const Cell& c) const {
 
 std::size_t Receivers::memoryBytes() const {
   return surfaces_.capacity() * sizeof(Surface) + cells_.capacity() * sizeof(Cell) +
-         nodes_.capacity() * sizeof(RadixNode) + bounds_.capacity() * sizeof(BoundingSphere) +
-         boxes_.capacity() * sizeof(Box) + leaf_.capacity() * 4 + cumulative_.capacity() * 8 +
-         surfaceOf_.capacity() * 4;
+         nodes_.capacity() * sizeof(RadixNode) + 2 * bounds_.capacity() * sizeof(BoundingSphere) +
+         leaf_.capacity() * 4 + cumulative_.capacity() * 8 + surfaceOf_.capacity() * 4;
 }
 
 }  // namespace deltalux

@@ -4,7 +4,9 @@
 //
 // Flat surfaces have cells of their plane's rectangle (what of it the surface leaves empty is simply never met), curved
 // ones of their parameters. Cells and nodes of the tree are bounded by spheres. What cells there are, and how they are
-// drawn, depends on the shapes as they were read; where they are, on where edits have put them.
+// drawn, depends on the shapes as they were read; where they are, on where edits have put them. The sphere of a node
+// follows its cells when all of them have moved; while some have not, it stays what it was at rest, and holds those: it
+// only says where to look, and a thing that moves must not turn every look at what stands around it.
 #include "particles/radix_tree.hpp"
 #include "particles/solid_angle_rectangle.hpp"
 #include "particles/surface_cells.hpp"
@@ -83,21 +85,20 @@ class Receivers {
   /// Returns the area that cells are cut from.
   double addSurface(const Shape& rest, PrimitiveId, std::uint32_t triangle, std::uint32_t object, double limit,
                     std::vector<std::pair<Code, Cell>>&);
-  void place(Surface&) const;
+  void place(Surface&, const Shape&) const;
   bool onSurface(const Surface&, const Vec3&) const;
-  void boundLeaf(std::uint32_t cell);
   void boundNodes();
-  BoundingSphere boundOf(const Cell&) const;
+  std::vector<char> heldAtRest() const;
+  BoundingSphere boundOf(const Cell&, const Shape&) const;
 
   const Scene& scene_;
   std::vector<Surface> surfaces_;
   std::vector<Cell> cells_;
   std::vector<RadixNode> nodes_;
-  std::vector<BoundingSphere> bounds_;    // by node
-  std::vector<Box> boxes_;                // by node
-  std::vector<std::uint32_t> leaf_;       // by cell: its node
-  std::vector<double> cumulative_;        // of weights, one more
-  std::vector<std::uint32_t> surfaceOf_;  // by primitive: first surface, or none
+  std::vector<BoundingSphere> bounds_, restBounds_;  // by node
+  std::vector<std::uint32_t> leaf_;                  // by cell: its node
+  std::vector<double> cumulative_;                   // of weights, one more
+  std::vector<std::uint32_t> surfaceOf_;             // by primitive: first surface, or none
 };
 
 /// Greatest share of incident light that a surface passes on other than diffusely.

@@ -53,7 +53,7 @@ class Tracing {
       walkers.resize(going);
     }
     const std::size_t paths = end - begin;
-    r.vertexCount = sortByPath(r.vertexOf, paths, r.vertices);
+    r.vertexCount = sortByPath(r.vertexOf, paths, r.vertices, r.met);
     r.impactCount = sortByPath(r.impactOf, paths, r.primitive, r.triangleAndSide, r.uv, r.throughput);
     return r;
   }
@@ -94,15 +94,17 @@ class Tracing {
       if (s.kind == FirstSegment::Kind::None) continue;
       const auto path = static_cast<std::uint32_t>(i);
       const Arrival& a = arrivals[i];
-      r.addVertex(path, s.origin);
+      r.addVertex(path, s.origin, {});
       if (!a.primitive.valid()) {
         if (s.kind == FirstSegment::Kind::Open) r.fate[path] = kFirstEnd;
-        r.addVertex(path, s.kind == FirstSegment::Kind::Target ? Vec3f(s.target)
-                          : std::isfinite(a.distance)          ? a.position
-                                                               : s.origin + far_ * s.direction);
+        r.addVertex(path,
+                    s.kind == FirstSegment::Kind::Target ? Vec3f(s.target)
+                    : std::isfinite(a.distance)          ? a.position
+                                                         : s.origin + far_ * s.direction,
+                    a.blocker);
         continue;
       }
-      r.addVertex(path, a.position);
+      r.addVertex(path, a.position, a.primitive);
       r.fate[path] = kArrived | kFirstEnd;
       walkers.push_back(begun(pathAt(begin + i), path, a, r));
     }
@@ -183,12 +185,12 @@ class Tracing {
   /// Where the walker arrives next; false when the path ends there.
   bool meet(Walker& w, const Hit& hit, PathBlock& r) const {
     if (!hit) {
-      r.addVertex(w.path, w.spot.position + far_ * w.direction);
+      r.addVertex(w.path, w.spot.position + far_ * w.direction, {});
       r.accounts[w.path].left += w.throughput;
       return false;
     }
     if (w.medium.valid()) absorb(w, hit.t, r);
-    r.addVertex(w.path, hit.position);
+    r.addVertex(w.path, hit.position, hit.primitive);
     w.spot = {hit.primitive, hit.triangle, hit.position, hit.normal, hit.front};
     const bool takes = surfaces_.takes(hit.primitive, hit.front);
     if (takes) r.addImpact(w.path, hit, surfaces_.parameters(hit), w.throughput);
@@ -222,6 +224,7 @@ void append(std::vector<PathBlock>& blocks, std::span<const std::uint32_t> only,
   }
   DELTALUX_CHECK(vertex.back() < 0x100000000ull, "fewer than 2^32 vertices of particles");
   p.vertices.resize(vertex.back());
+  p.met.resize(vertex.back());
   p.primitive.resize(impact.back());
   p.triangleAndSide.resize(impact.back());
   p.uv.resize(impact.back());
@@ -241,6 +244,7 @@ void append(std::vector<PathBlock>& blocks, std::span<const std::uint32_t> only,
       std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(at));
     };
     put(r.vertices, p.vertices, vertex[b]);
+    put(r.met, p.met, vertex[b]);
     put(r.primitive, p.primitive, impact[b]);
     put(r.triangleAndSide, p.triangleAndSide, impact[b]);
     put(r.uv, p.uv, impact[b]);

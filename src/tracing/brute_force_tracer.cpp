@@ -144,10 +144,13 @@ class BruteForceTracer final : public RayTracer {
   }
 
   Rgb transmittance(const Ray& ray) const override {
+    return passed(ray, [](const Snapshot&) { return true; }).share;
+  }
+  Passing passing(const Ray& ray) const override {
     return passed(ray, [](const Snapshot&) { return true; });
   }
   Rgb transmittance(const Ray& ray, GroupId group) const override {
-    return passed(ray, [&](const Snapshot& from) { return from.group == group; });
+    return passed(ray, [&](const Snapshot& from) { return from.group == group; }).share;
   }
 
   GroupId separate(std::span<const PrimitiveId> primitives) override {
@@ -193,17 +196,19 @@ class BruteForceTracer final : public RayTracer {
   }
 
   template <class Counts>
-  Rgb passed(const Ray& ray, const Counts& counts) const {
+  Passing passed(const Ray& ray, const Counts& counts) const {
     Rgb product(1.0f);
+    PrimitiveId blocker;
     const bool through = forMeetings(ray, [&](const Snapshot& from, const Meeting& m) {
       if (!counts(from)) return true;
+      blocker = from.primitive;
       if (!isPane(from)) return false;
       const double cosine = std::abs(glm::dot(m.normal, Vec3(ray.direction)));
       product *= deltalux::transmittance(std::get<ThinGlass>(scene_.materialOf(from.primitive).surface),
                                          std::clamp(cosine, 1e-6, 1.0));
       return true;
     });
-    return through ? product : Rgb(0.0f);
+    return through ? Passing{product, isBlack(product) ? blocker : PrimitiveId()} : Passing{Rgb(0.0f), blocker};
   }
 
   const Scene& scene_;

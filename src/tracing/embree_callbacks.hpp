@@ -80,7 +80,9 @@ void occludedCallback(const RTCOccludedFunctionNArguments* args) {
         blocked = !static_cast<PassageQuery*>(args->context)->cross(record.primitive, static_cast<float>(t), cosine);
       }
     }
-    if (blocked) ray.tFar() = -std::numeric_limits<float>::infinity();
+    if (!blocked) continue;
+    static_cast<PassageQuery*>(args->context)->blocker = record.primitive;
+    ray.tFar() = -std::numeric_limits<float>::infinity();
   }
 }
 
@@ -113,7 +115,10 @@ void triangleFilter(const RTCFilterFunctionNArguments* args) {
     bool blocked = t >= query.segment.tNear && t <= query.segment.tFar;
     if constexpr (passage == Passage::Pane)
       blocked = blocked && !query.cross(record.primitive, t, std::abs(glm::dot(record.normal, direction)));
-    if (!blocked) args->valid[i] = 0;
+    if (blocked)
+      query.blocker = record.primitive;
+    else
+      args->valid[i] = 0;
   }
 }
 

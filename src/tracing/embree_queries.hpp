@@ -53,6 +53,7 @@ struct PassageQuery : RTCIntersectContext {
   const Scene& scene;
   const Ray& segment;
   Rgb passed{1.0f};
+  PrimitiveId blocker;  // what ended it, if anything did
 
  private:
   struct Crossed {

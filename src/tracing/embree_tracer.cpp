@@ -69,10 +69,11 @@ class EmbreeTracer final : public RayTracer {
     return r.tfar < 0;
   }
 
-  Rgb transmittance(const Ray& ray) const override { return transmittance(ray, top_); }
+  Rgb transmittance(const Ray& ray) const override { return passing(ray, top_).share; }
+  Passing passing(const Ray& ray) const override { return passing(ray, top_); }
 
   Rgb transmittance(const Ray& ray, GroupId group) const override {
-    return transmittance(ray, groups_[group.index()]->embreeScene());
+    return passing(ray, groups_[group.index()]->embreeScene()).share;
   }
 
   GroupId separate(std::span<const PrimitiveId> primitives) override {
@@ -116,11 +117,11 @@ class EmbreeTracer final : public RayTracer {
     return pending.hit() ? groups_[pending.group()]->hit(pending.query, pending.found.hit) : Hit{};
   }
 
-  Rgb transmittance(const Ray& ray, RTCScene scene) const {
+  Passing passing(const Ray& ray, RTCScene scene) const {
     RTCRay r = embreeRay(ray, kAnyMask);
     PassageQuery query(scene_, ray);
     rtcOccluded1(scene, &query, &r);
-    return r.tfar < 0 ? Rgb(0.0f) : query.passed;
+    return r.tfar < 0 ? Passing{Rgb(0.0f), query.blocker} : Passing{query.passed, {}};
   }
 
   void build(std::size_t group) {

@@ -19,4 +19,9 @@ void RayTracer::transmittances(std::span<const Ray> rays, std::span<Rgb> results
   parallelFor(rays.size(), kBatchBlock, [&](std::size_t i) { results[i] = transmittance(rays[i]); });
 }
 
+void RayTracer::passings(std::span<const Ray> rays, std::span<Passing> results) const {
+  DELTALUX_CHECK(rays.size() == results.size(), "one result per ray");
+  parallelFor(rays.size(), kBatchBlock, [&](std::size_t i) { results[i] = passing(rays[i]); });
+}
+
 }  // namespace deltalux

@@ -15,6 +15,12 @@ namespace deltalux {
 
 using GroupId = Id<struct GroupTag>;  // group 0 is the static rest of the scene
 
+/// What of light passes a segment, and a surface that ends it where nothing does (any one of those there are).
+struct Passing {
+  Rgb share{1.0f};
+  PrimitiveId blocker;
+};
+
 class RayTracer {
  public:
   virtual ~RayTracer() = default;
@@ -27,10 +33,13 @@ class RayTracer {
   /// Fraction of light that passes the segment straight on: product over thin-glass panes crossed, 0 behind opaque
   /// ones.
   virtual Rgb transmittance(const Ray&) const = 0;
+  /// The same, with a blocker.
+  virtual Passing passing(const Ray&) const = 0;
 
   /// Batches of incoherent rays; results at the same index. Sizes must agree.
   virtual void closestHits(std::span<const Ray>, std::span<Hit>) const;
   virtual void transmittances(std::span<const Ray>, std::span<Rgb>) const;
+  virtual void passings(std::span<const Ray>, std::span<Passing>) const;
 
   /// Puts `primitives` into a group of their own (out of the group they are in, which is rebuilt). Like rebuild(), not
   /// while other threads trace.

@@ -45,6 +45,36 @@ TEST(Passage, ProductOverPanes) {
   }
 }
 
+/// passing() lets through what transmittance() does, and what it names as a blocker blocks by itself.
+TEST(Passage, BlockersBlock) {
+  Scene scene = test::randomScene(60, {0, 0, 0}, 2, 1, 5);
+  for (std::size_t i = 0; i < scene.primitives.size(); i += 3) scene.primitives[i].material = MaterialId(kPane);
+  const std::unique_ptr<RayTracer> tracers[] = {makeEmbreeTracer(scene), makeBruteForceTracer(scene)};
+  std::vector<std::unique_ptr<RayTracer>> alone;
+  std::vector<Scene> scenes(scene.primitives.size(), test::emptyScene());
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    scenes[i].primitives.push_back(scene.primitives[i]);
+    alone.push_back(makeBruteForceTracer(scenes[i]));
+  }
+  Rng rng(3);
+  for (const auto& tracer : tracers) {
+    int blocked = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const Box space{Vec3(-3), Vec3(3)};
+      const Vec3 from = test::randomIn(space, rng), to = test::randomIn(space, rng);
+      Ray ray = rayTo(from, to);
+      ray.tFar = static_cast<float>(glm::distance(from, to));
+      const Passing passing = tracer->passing(ray);
+      EXPECT_EQ(passing.share, tracer->transmittance(ray));
+      EXPECT_EQ(passing.blocker.valid(), isBlack(passing.share));
+      if (!passing.blocker.valid()) continue;
+      ++blocked;
+      EXPECT_TRUE(isBlack(alone[passing.blocker.index()]->transmittance(ray)));
+    }
+    EXPECT_GT(blocked, 500);
+  }
+}
+
 TEST(Passage, PaneCountsOnceOnTheEdgeBetweenItsTriangles) {
   const Scene scene = stackOfPanes(3);
   const auto tracer = makeEmbreeTracer(scene);

@@ -32,9 +32,9 @@ void members(auto& archive, Is<Links> auto& l) {
 }
 
 void members(auto& archive, Is<Particles> auto& p) {
-  auto& [senderCells, nominal, links, link, sender, originTriangle, range, account, fate, vertices, primitive,
+  auto& [senderCells, nominal, links, link, sender, originTriangle, range, account, fate, vertices, met, primitive,
          triangleAndSide, uv, throughput, quantum, rays, looks] = p;
-  transferAll(archive, senderCells, nominal, links, link, sender, originTriangle, range, account, fate, vertices,
+  transferAll(archive, senderCells, nominal, links, link, sender, originTriangle, range, account, fate, vertices, met,
               primitive, triangleAndSide, uv, throughput, quantum, rays, looks);
 }
 
