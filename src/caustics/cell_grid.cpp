@@ -1,7 +1,6 @@
 #include "caustics/cell_grid.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 #include "base/check.hpp"
 
@@ -141,19 +140,40 @@ void CellGrid::shareDiagonals(const Chart& chart, std::span<const float> areas, 
 void CellGrid::findBorders(const Chart& chart, std::span<const float> areas) {
   std::vector<Shared> found = sharedSides(chart, areas);
   shareDiagonals(chart, areas, found);
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Shared& a, const Shared& b) { return std::tie(a.a, a.b) < std::tie(b.a, b.b); });
+  const std::vector<Shared> sorted = byFirst(found, area_.size());
   firstBorder_.assign(area_.size() + 1, 0);
-  for (std::size_t k = 0; k < found.size();) {
-    const Shared& first = found[k];
+  borders_.reserve(sorted.size());
+  for (std::size_t k = 0; k < sorted.size();) {
+    const Shared& first = sorted[k];
     float share = 0;
     std::size_t end = k;
-    for (; end < found.size() && found[end].a == first.a && found[end].b == first.b; ++end) share += found[end].share;
+    for (; end < sorted.size() && sorted[end].a == first.a && sorted[end].b == first.b; ++end) share += sorted[end].share;
     borders_.push_back({first.b, share, first.diagonal});
     ++firstBorder_[first.a + 1];
     k = end;
   }
   for (std::size_t c = 0; c < area_.size(); ++c) firstBorder_[c + 1] += firstBorder_[c];
+}
+
+/// In order of the first cell, then of the second.
+std::vector<CellGrid::Shared> CellGrid::byFirst(const std::vector<Shared>& shared, std::size_t cells) {
+  std::vector<std::uint32_t> next(cells + 1, 0);
+  for (const Shared& s : shared) ++next[s.a + 1];
+  for (std::size_t c = 0; c < cells; ++c) next[c + 1] += next[c];
+  std::vector<Shared> sorted(shared.size());
+  for (const Shared& s : shared) sorted[next[s.a]++] = s;
+  for (std::size_t begin = 0; begin < sorted.size();) {
+    const std::size_t end = next[sorted[begin].a];
+    // A few each: by insertion.
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      const Shared s = sorted[i];
+      std::size_t k = i;
+      for (; k > begin && sorted[k - 1].b > s.b; --k) sorted[k] = sorted[k - 1];
+      sorted[k] = s;
+    }
+    begin = end;
+  }
+  return sorted;
 }
 
 std::uint32_t CellGrid::texelNear(const Vec2& st) const {

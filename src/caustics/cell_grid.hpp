@@ -65,6 +65,7 @@ class CellGrid {
   };
   void findBorders(const Chart&, std::span<const float> areas);
   std::vector<Shared> sharedSides(const Chart&, std::span<const float> areas) const;
+  static std::vector<Shared> byFirst(const std::vector<Shared>&, std::size_t cells);
   void shareDiagonals(const Chart&, std::span<const float> areas, std::vector<Shared>&) const;
   int groupAt(const Chart&, int row) const;
 

@@ -49,19 +49,80 @@ std::vector<float> sampledAreas(const Raster& r, const std::vector<char>& marked
   return areas;
 }
 
+/// Signed area under a polygon's edges, texel by texel: what lies to the right of each, by rows; sums along a row give
+/// the share of each texel that is inside. Seams, walked there and back, cancel.
+class Outline {
+ public:
+  Outline(int width, int height)
+      : width_(width), height_(height), change_(static_cast<std::size_t>(width + 2) * height, 0.0) {}
+
+  /// An edge, in texels.
+  void add(Vec2 a, Vec2 b) {
+    const double sign = a.y < b.y ? 1 : -1;
+    if (a.y > b.y) std::swap(a, b);
+    const double slope = (b.x - a.x) / (b.y - a.y);
+    const int last = std::min(height_, static_cast<int>(std::ceil(b.y)));
+    for (int y = std::max(0, static_cast<int>(std::floor(a.y))); y < last; ++y) {
+      const double y0 = std::max<double>(y, a.y), y1 = std::min<double>(y + 1, b.y);
+      if (y1 > y0) addInRow(y, a.x + slope * (y0 - a.y), a.x + slope * (y1 - a.y), sign * (y1 - y0));
+    }
+  }
+
+  /// Share of each texel that is inside.
+  std::vector<float> shares() const {
+    std::vector<float> result;
+    result.reserve(static_cast<std::size_t>(width_) * height_);
+    for (int y = 0; y < height_; ++y) {
+      double sum = 0;
+      for (int x = 0; x < width_; ++x) {
+        sum += change_[indexOf(x, y)];
+        const double share = std::abs(sum);
+        result.push_back(share < kRounding ? 0.0f : share > 1 - kRounding ? 1.0f : static_cast<float>(share));
+      }
+    }
+    return result;
+  }
+
+ private:
+  static constexpr double kRounding = 1e-6;
+
+  std::size_t indexOf(int x, int y) const { return static_cast<std::size_t>(y) * (width_ + 2) + x; }
+
+  /// A part of an edge within a row, from x0 to x1 over the height `rise`.
+  void addInRow(int y, double x0, double x1, double rise) {
+    if (x0 > x1) std::swap(x0, x1);
+    const double perX = x1 > x0 ? rise / (x1 - x0) : 0.0;
+    double at = x0;
+    if (at < 0) {
+      const double end = std::min(x1, 0.0), part = x1 > x0 ? perX * (end - at) : rise;
+      change_[indexOf(0, y)] += part;
+      rise -= part, at = end;
+      if (x1 <= 0) return;
+    }
+    for (int x = static_cast<int>(at); x < width_; ++x) {
+      const double end = std::min<double>(x + 1, x1);
+      const double part = end >= x1 ? rise : perX * (end - at), inside = 1 - (0.5 * (at + end) - x);
+      change_[indexOf(x, y)] += part * inside, change_[indexOf(x + 1, y)] += part * (1 - inside);
+      rise -= part, at = end;
+      if (end >= x1) return;
+    }
+  }
+
+  int width_, height_;
+  std::vector<double> change_;  // of the share covered, from the texel before
+};
+
 std::vector<float> areasOf(const Polygon& p, const Chart& chart, std::size_t, const Charts&, const Raster& r) {
-  const PlaneChart& plane = std::get<PlaneChart>(chart.map);
-  std::vector<char> marked(static_cast<std::size_t>(r.width) * r.height, 0);
+  Outline outline(r.width, r.height);
   for (std::size_t i = 0, n = p.vertices.size(); i < n; ++i) {
     SurfacePoint from, to;
     from.position = p.vertices[i], to.position = p.vertices[(i + 1) % n];
-    markAlong(r, chart.place(from), chart.place(to), marked);
+    outline.add(r.toTexels(chart.place(from)), r.toTexels(chart.place(to)));
   }
-  const Shape shape = p;
-  return sampledAreas(r, marked, [&](const Vec2& st) {
-    const Vec3 d = plane.origin + st.x * plane.alongS + st.y * plane.alongT - p.origin;
-    return covers(shape, {glm::dot(d, p.dualU), glm::dot(d, p.dualV)});
-  });
+  std::vector<float> areas = outline.shares();
+  const auto whole = static_cast<float>(r.texel.x * r.texel.y);
+  for (float& a : areas) a *= whole;
+  return areas;
 }
 
 std::vector<float> areasOf(const Ring& ring, const Chart&, std::size_t, const Charts&, const Raster& r) {

@@ -119,9 +119,9 @@ void recur(std::uint32_t count, const float* x, float factor, float* __restrict 
 
 }  // namespace
 
-/// out(begin, count, X E of these cells) with X = 2 L / largest - 1, whose eigenvalues lie in [-1, 1].
+/// out(channel, begin, count, X E of these cells) with X = 2 L / largest - 1, whose eigenvalues lie in [-1, 1].
 template <class Out>
-void HeatFlow::step(const std::vector<float>& from, const Out& out) const {
+void HeatFlow::step(const Channels& from, const Out& out) const {
   float sums[kChunk];
   for (std::size_t r = 0; r < runs_.size();) {
     std::size_t next = r + 1;
@@ -129,58 +129,57 @@ void HeatFlow::step(const std::vector<float>& from, const Out& out) const {
     const std::uint32_t end = runs_[r].first + runs_[r].count;
     for (std::uint32_t begin = runs_[r].first; begin < end; begin += kChunk) {
       const std::uint32_t count = std::min<std::uint32_t>(kChunk, end - begin);
-      for (std::uint32_t i = 0; i < count; ++i) sums[i] = own_[begin + i] * from[begin + i];
-      for (std::size_t k = r; k < next; ++k) addChunk(runs_[k], begin, count, from.data(), sums);
-      out(begin, count, sums);
+      for (std::size_t c = 0; c < from.size(); ++c) {
+        const float* const light = from[c].data();
+        for (std::uint32_t i = 0; i < count; ++i) sums[i] = own_[begin + i] * light[begin + i];
+        for (std::size_t k = r; k < next; ++k) addChunk(runs_[k], begin, count, light, sums);
+        out(c, begin, count, sums);
+      }
     }
     r = next;
   }
 }
 
-void HeatFlow::run(std::vector<float>& E, double time, double negligible) const {
+void HeatFlow::run(Channels& E, double time, double negligible) const {
   const double z = 0.5 * largest_ * time;
   if (!(z > 0)) return;
   // exp(-z (x + 1)) = sum over k of (-1)^k (2 - [k = 0]) exp(-z) I_k(z) T_k(x)
   const std::vector<double> c = scaledBessel(z, negligible);
-  std::vector<float> before = E, now(E.size()), sum(E.size());
+  Channels before = E, now = E;
   const auto zeroth = static_cast<float>(c[0]), first = static_cast<float>(-2 * c[1]);
-  step(before, [&](std::uint32_t begin, std::uint32_t count, const float* x) {
+  step(before, [&](std::size_t channel, std::uint32_t begin, std::uint32_t count, const float* x) {
     for (std::uint32_t i = 0; i < count; ++i) {
-      now[begin + i] = x[i];
-      sum[begin + i] = zeroth * before[begin + i] + first * x[i];
+      now[channel][begin + i] = x[i];
+      E[channel][begin + i] = zeroth * before[channel][begin + i] + first * x[i];
     }
   });
   for (std::size_t k = 2; k < c.size(); ++k) {
     const auto factor = static_cast<float>(k % 2 == 0 ? 2 * c[k] : -2 * c[k]);
-    step(now, [&](std::uint32_t begin, std::uint32_t count, const float* x) {
-      recur(count, x, factor, before.data() + begin, sum.data() + begin);
+    step(now, [&](std::size_t channel, std::uint32_t begin, std::uint32_t count, const float* x) {
+      recur(count, x, factor, before[channel].data() + begin, E[channel].data() + begin);
     });
     std::swap(before, now);
   }
-  E = std::move(sum);
 }
 
-namespace {
-
-/// Channel by channel.
-template <class Value, class Flow>
-void eachChannel(std::vector<Value>& E, const Flow& flow) {
-  std::vector<float> channel(E.size());
-  for (int c = 0; c < Value::length(); ++c) {
-    for (std::size_t i = 0; i < E.size(); ++i) channel[i] = E[i][c];
-    flow(channel);
-    for (std::size_t i = 0; i < E.size(); ++i) E[i][c] = channel[i];
-  }
+void HeatFlow::apply(std::vector<float>& E, double time, double negligible) const {
+  Channels channels(1);
+  std::swap(channels[0], E);
+  run(channels, time, negligible);
+  std::swap(channels[0], E);
 }
 
-}  // namespace
+template <class Value>
+void HeatFlow::applyTo(std::vector<Value>& E, double time, double negligible) const {
+  Channels channels(static_cast<std::size_t>(Value::length()), std::vector<float>(E.size()));
+  for (std::size_t i = 0; i < E.size(); ++i)
+    for (int c = 0; c < Value::length(); ++c) channels[c][i] = E[i][c];
+  run(channels, time, negligible);
+  for (std::size_t i = 0; i < E.size(); ++i)
+    for (int c = 0; c < Value::length(); ++c) E[i][c] = channels[c][i];
+}
 
-void HeatFlow::apply(std::vector<float>& E, double time, double negligible) const { run(E, time, negligible); }
-void HeatFlow::apply(std::vector<glm::vec2>& E, double time, double negligible) const {
-  eachChannel(E, [&](std::vector<float>& channel) { run(channel, time, negligible); });
-}
-void HeatFlow::apply(std::vector<Rgb>& E, double time, double negligible) const {
-  eachChannel(E, [&](std::vector<float>& channel) { run(channel, time, negligible); });
-}
+void HeatFlow::apply(std::vector<glm::vec2>& E, double time, double negligible) const { applyTo(E, time, negligible); }
+void HeatFlow::apply(std::vector<Rgb>& E, double time, double negligible) const { applyTo(E, time, negligible); }
 
 }  // namespace deltalux

@@ -46,9 +46,12 @@ class HeatFlow {
 
   void addRuns(const CellGrid&, const std::vector<float>& edgeWeights);
   void addChunk(const Run&, std::uint32_t begin, std::uint32_t count, const float* light, float* __restrict sums) const;
+  using Channels = std::vector<std::vector<float>>;
   template <class Out>
-  void step(const std::vector<float>& from, const Out& out) const;
-  void run(std::vector<float>& E, double time, double negligible) const;
+  void step(const Channels& from, const Out& out) const;
+  void run(Channels& E, double time, double negligible) const;
+  template <class Value>
+  void applyTo(std::vector<Value>& E, double time, double negligible) const;
 
   std::vector<Run> runs_;
   std::vector<float> weights_;  // relative to the largest eigenvalue
