@@ -4,12 +4,16 @@
 
 namespace deltalux {
 
+namespace {
+constexpr double kMatters = 0.5;  // of what most of the light looks like: differences that are an edge
+}
+
 std::vector<Rgb> reconstructAdaptive(const CellGrid& grid, const CellLight& light, const BandwidthRule& rule) {
   std::vector<Rgb> first = light.E;
   const Walls walls = blurredWalls(grid, light);
   HeatFlow(grid, walls.bandwidth, walls.openness).apply(first, 1.0);
 
-  const double darkness = rule.error * (medianOfFlux(grid, first) + rule.background);
+  const double darkness = rule.error * (kMatters * medianOfFlux(grid, first) + rule.darkest);
   const std::vector<float> openness = sharpWalls(grid, first, darkness);
   std::vector<Rgb> E = light.E;
   HeatFlow(grid, chooseBandwidths(grid, light, openness, rule), openness).apply(E, 1.0);

@@ -38,7 +38,7 @@ void resolve(const ChartSurface& surface, ChartPart& part, double perTexel, int 
 class AdaptiveTextures {
  public:
   AdaptiveTextures(const Shape& shape, const CausticSettings& settings)
-      : shape_(shape), rule_{settings.error, settings.background} {
+      : shape_(shape), rule_{settings.error, settings.background, settings.darkest} {
     result_.charts = chartsOf(shape);
   }
 

@@ -15,8 +15,9 @@ namespace deltalux {
 
 struct CausticSettings {
   double error = 0.05;  // target relative error of irradiance
-  double background =
-      0;  // gray irradiance of all other light on this side [W/m2]: what errors are measured against too
+  // Gray irradiance of all other light on this side [W/m2]: what errors are measured against too.
+  double background = 0;  // on average
+  double darkest = 0;     // where there is little of it
 };
 
 /// Whether textures should show these impacts on one side of a surface, or the mesh: step 1.

@@ -9,6 +9,7 @@ namespace {
 constexpr double kNarrowest = 0.5;       // standard deviation in cells
 constexpr double kConfidence = 3;        // standard deviations of a difference that noise explains
 constexpr double kLeastParticles = 4.0;  // that a kernel expects when it is asked
+constexpr double kEnough = 16;           // particles that tell how noisy they are
 constexpr double kQuiet = 0.5;           // of the target error: noise that a kernel need not grow to reduce
 constexpr double kBlend = 1.0;           // standard deviation in cells, of the blending of widths
 
@@ -32,14 +33,23 @@ bool contradict(const ScaleLevel& wide, const ScaleLevel& narrow, const Place& a
   return difference * difference > kConfidence * kConfidence * variance;
 }
 
+/// Density of squares as seen by the narrowest kernel that holds particles enough to tell, or the widest one: where no
+/// particle fell, narrower ones know no noise.
+double squaresAround(const std::vector<ScaleLevel>& levels, std::size_t cell) {
+  for (const ScaleLevel& l : levels)
+    if (l.count(cell) >= kEnough) return l.squares(cell);
+  return levels.back().squares(cell);
+}
+
 /// The width of the widest kernel that all narrower ones bear out.
 double widthAt(const std::vector<ScaleLevel>& levels, const Place& at, const BandwidthRule& rule) {
+  const double around = squaresAround(levels, at.cell);
   std::size_t k = 1;
   for (; k < levels.size(); ++k) {
     const auto narrower = levels.begin() + static_cast<std::ptrdiff_t>(k);
     if (std::any_of(levels.begin(), narrower, [&](const ScaleLevel& l) { return contradict(levels[k], l, at); })) break;
-    const double allowed = kQuiet * rule.error * (levels[k].E(at.cell) + rule.background);
-    if (levels[k].squares(at.cell) * levels[k].overlap <= allowed * allowed) return levels[k].width;
+    const double allowed = kQuiet * rule.error * (levels[k].E(at.cell) + rule.darkest);
+    if (std::max(levels[k].squares(at.cell), around) * levels[k].overlap <= allowed * allowed) return levels[k].width;
   }
   return levels[k - 1].width;
 }

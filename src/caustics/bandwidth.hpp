@@ -14,8 +14,10 @@
 namespace deltalux {
 
 struct BandwidthRule {
-  double error = 0.05;    // relative noise that is small enough
-  double background = 0;  // gray irradiance of other light, which the noise may be compared with too [W/m2]
+  double error = 0.05;  // relative noise that is small enough
+  // Gray irradiance of other light, that differences and noise are compared with too [W/m2].
+  double background = 0;  // on average
+  double darkest = 0;     // where there is little of it: nowhere is noise larger than what is allowed there
 };
 
 /// Half the variance of the kernel of every cell [unit^2]: the conductivity that HeatFlow takes for a time of 1.

@@ -11,6 +11,8 @@ namespace deltalux {
 
 namespace {
 
+constexpr double kDarkest = 0.1;  // of a side's area
+
 std::size_t sideOf(PrimitiveId primitive, bool front) { return 2 * primitive.index() + (front ? 0 : 1); }
 
 /// Runs of impacts on one side.
@@ -31,13 +33,21 @@ std::vector<std::span<const Impact>> bySide(std::vector<Impact>& impacts) {
 
 /// body(side index, impacts, settings) for every side that has impacts, in parallel.
 template <class Body>
-void forEachSide(const Scene& scene, const std::vector<std::span<const Impact>>& sides,
-                 const std::vector<double>& background, double error, const Body& body) {
+void forEachSide(const Scene& scene, const std::vector<std::span<const Impact>>& sides, const OtherLight& other,
+                 double error, const Body& body) {
   parallelFor(sides.size(), 1, [&](std::size_t i) {
     const Impact& first = sides[i].front();
-    body(i, scene[first.primitive].shape, CausticSettings{error, background[sideOf(first.primitive, first.front)]});
+    const std::size_t side = sideOf(first.primitive, first.front);
+    body(i, scene[first.primitive].shape, CausticSettings{error, other.mean[side], other.darkest[side]});
   });
 }
+
+struct LitPart {
+  std::size_t side;
+  double E, area;
+};
+
+bool receives(const ElementTopology& t) { return t.kind == ElementKind::Patch && !t.emitter && !t.blocker; }
 
 /// Puts them in order, and the index with them.
 Caustics indexed(std::vector<SurfaceCaustics> surfaces, std::size_t primitives) {
@@ -54,7 +64,31 @@ Caustics indexed(std::vector<SurfaceCaustics> surfaces, std::size_t primitives) 
 
 }  // namespace
 
-std::vector<double> otherLight(const Scene& scene, const Elements& elements) {
+OtherLight otherLight(const Scene& scene, const Elements& elements) {
+  OtherLight result;
+  result.mean = meanOtherLight(scene, elements);
+  result.darkest.assign(result.mean.size(), 0.0);
+  std::vector<LitPart> parts;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const ElementTopology& t = elements.topology[i];
+    if (!receives(t) || t.childCount > 0) continue;
+    const ElementLight& l = elements.radiometry[i];
+    parts.push_back(
+        {sideOf(elements.domain[i].primitive, t.front), gray(l.direct + l.indirect), elements.geometry[i].litArea()});
+  }
+  std::sort(parts.begin(), parts.end(),
+            [](const LitPart& a, const LitPart& b) { return a.side != b.side ? a.side < b.side : a.E < b.E; });
+  for (std::size_t begin = 0, end = 0; begin < parts.size(); begin = end) {
+    double area = 0, below = 0;
+    for (end = begin; end < parts.size() && parts[end].side == parts[begin].side; ++end) area += parts[end].area;
+    std::size_t k = begin;
+    while (k + 1 < end && (below += parts[k].area) < kDarkest * area) ++k;
+    result.darkest[parts[begin].side] = parts[k].E;
+  }
+  return result;
+}
+
+std::vector<double> meanOtherLight(const Scene& scene, const Elements& elements) {
   std::vector<double> flux(2 * scene.primitives.size(), 0.0), area(flux.size(), 0.0);
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const ElementId e(i);
@@ -94,10 +128,10 @@ SurfaceSides sidesWithTextures(const Scene& scene, const Elements& elements, std
                                double error) {
   const auto sides = bySide(impacts);
   std::vector<char> chosen(sides.size(), 0);
-  const std::vector<double> background = otherLight(scene, elements);
-  forEachSide(scene, sides, background, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
-    chosen[i] = deservesTextures(shape, sides[i], settings);
-  });
+  forEachSide(scene, sides, otherLight(scene, elements), error,
+              [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
+                chosen[i] = deservesTextures(shape, sides[i], settings);
+              });
   SurfaceSides result(2 * scene.primitives.size(), false);
   for (std::size_t i = 0; i < sides.size(); ++i)
     if (chosen[i]) result[sideOf(sides[i].front().primitive, sides[i].front().front)] = true;
@@ -109,20 +143,21 @@ Caustics makeCaustics(const Scene& scene, const Elements& elements, std::vector<
   std::erase_if(impacts, [&](const Impact& i) { return !chosen[sideOf(i.primitive, i.front)]; });
   const auto sides = bySide(impacts);
   std::vector<SurfaceCaustics> made(sides.size());
-  const std::vector<double> background = otherLight(scene, elements);
-  forEachSide(scene, sides, background, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
-    made[i] = makeTextures(shape, sides[i], settings);
-    made[i].primitive = sides[i].front().primitive, made[i].front = sides[i].front().front;
-    DELTALUX_VALIDATED(validate(made[i]));
-  });
+  forEachSide(scene, sides, otherLight(scene, elements), error,
+              [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
+                made[i] = makeTextures(shape, sides[i], settings);
+                made[i].primitive = sides[i].front().primitive, made[i].front = sides[i].front().front;
+                DELTALUX_VALIDATED(validate(made[i]));
+              });
   return indexed(std::move(made), scene.primitives.size());
 }
 
-std::size_t remakeCaustics(Caustics& caustics, const Scene& scene, std::vector<Impact> impacts,
-                           const SidesToRemake& remake) {
+std::size_t remakeCaustics(Caustics& caustics, const Scene& scene, const Elements& elements,
+                           std::vector<Impact> impacts, double error, const std::vector<char>& remade) {
+  if (std::none_of(remade.begin(), remade.end(), [](char r) { return r; })) return 0;
   const auto sides = bySide(impacts);
   std::vector<std::optional<SurfaceCaustics>> made(sides.size());
-  forEachSide(scene, sides, remake.background, remake.error,
+  forEachSide(scene, sides, otherLight(scene, elements), error,
               [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
                 made[i] = makeCausticTextures(shape, sides[i], settings);
                 if (!made[i]) return;
@@ -131,7 +166,7 @@ std::size_t remakeCaustics(Caustics& caustics, const Scene& scene, std::vector<I
               });
   std::vector<SurfaceCaustics> all;
   for (SurfaceCaustics& s : caustics.surfaces)
-    if (!remake.sides[sideOf(s.primitive, s.front)]) all.push_back(std::move(s));
+    if (!remade[sideOf(s.primitive, s.front)]) all.push_back(std::move(s));
   std::size_t count = 0;
   for (std::optional<SurfaceCaustics>& s : made)
     if (s) count += s->textures.size(), all.push_back(std::move(*s));

@@ -39,18 +39,17 @@ SurfaceSides sidesWithTextures(const Scene&, const Elements&, std::vector<Impact
 Caustics makeCaustics(const Scene&, const Elements&, std::vector<Impact>, double error, const SurfaceSides&);
 
 /// Gray irradiance of all light but the particles', by side: errors are measured against it, too. [W/m2]
-std::vector<double> otherLight(const Scene&, const Elements&);
-
-/// Sides to look at anew.
-struct SidesToRemake {
-  double error = 0.05;
-  const std::vector<double>& background;  // otherLight
-  const std::vector<char>& sides;
+struct OtherLight {
+  std::vector<double> mean;
+  std::vector<double> darkest;  // in the darkest tenth of what light can reach
 };
+OtherLight otherLight(const Scene&, const Elements&);
+std::vector<double> meanOtherLight(const Scene&, const Elements&);
 
-/// Judges all that landed on some sides, and makes the textures of those that need them; others are not touched.
-/// Returns how many textures it made.
-std::size_t remakeCaustics(Caustics&, const Scene&, std::vector<Impact>, const SidesToRemake&);
+/// Judges all that landed on the sides `remade`, and makes the textures of those that need them; others are not
+/// touched. Returns how many textures it made.
+std::size_t remakeCaustics(Caustics&, const Scene&, const Elements&, std::vector<Impact>, double error,
+                           const std::vector<char>& remade);
 
 /// Multiplies the textures of a side so that they hold `flux`, when they are off by more than `tolerance` of it.
 bool rescale(SurfaceCaustics&, const RgbSum& flux, double tolerance);

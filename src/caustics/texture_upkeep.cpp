@@ -58,7 +58,7 @@ TextureUpkeep::TextureUpkeep(const Parts& parts, const ParticleTransfer& transfe
   weigh(transfer);
   then_.assign(now_.size(), 0.0f);
   looks_.resize(tiles_.sides().size());
-  remember(std::vector<char>(looks_.size(), 1), otherLight(parts_.scene, parts_.elements));
+  remember(std::vector<char>(looks_.size(), 1), meanOtherLight(parts_.scene, parts_.elements));
 }
 
 TextureUpkeep::Report TextureUpkeep::follow(const ParticleUpdate& update, const ParticleTransfer& transfer,
@@ -67,7 +67,7 @@ TextureUpkeep::Report TextureUpkeep::follow(const ParticleUpdate& update, const 
   takeIn(update);
   weigh(transfer);
   compare();
-  const std::vector<double> background = otherLight(parts_.scene, parts_.elements);
+  const std::vector<double> background = meanOtherLight(parts_.scene, parts_.elements);
   std::vector<char> sides(looks_.size(), 0);
   parallelFor(sides.size(), 64, [&](std::size_t side) {
     sides[side] = changed(side, background[side], caustics.of(PrimitiveId(side / 2), side % 2 == 0));
@@ -77,7 +77,7 @@ TextureUpkeep::Report TextureUpkeep::follow(const ParticleUpdate& update, const 
   for (SurfaceCaustics& s : caustics.surfaces)
     if (const std::size_t side = 2 * s.primitive.index() + (s.front ? 0 : 1); !sides[side])
       report.scaled += rescale(s, fluxOf(side), kMatters * error_);
-  report.rebuilt = remakeCaustics(caustics, parts_.scene, landedOn(sides, transfer), {error_, background, sides});
+  report.rebuilt = remakeCaustics(caustics, parts_.scene, parts_.elements, landedOn(sides, transfer), error_, sides);
   remember(sides, background);
   return report;
 }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kLevels = 8;
 constexpr std::uint32_t kFewest = 32;  // impacts in a leaf that is split: fewer cannot show detail
+constexpr int kShownDepth = 5;         // of sides whose particles textures show: enough to send their light on
 constexpr double kClearly = 1.5;       // a histogram's noise counts this much more than for placing particles
 
 struct Quarter {
@@ -38,7 +39,6 @@ std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const 
     parallelFor(p.paths(), 1024, [&](std::size_t path) {
       const float power = p.links[p.link[path]].scale * p.nominal[p.sender[path]];
       for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
-        if (coarse[2 * p.primitive[i].index() + (p.triangleAndSide[i] & 1)]) continue;
         const ElementId side = locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
         if (side.valid()) leaf[i] = locator.leafAt(side, Vec2(p.uv[i]));
         weights[i] = power * gray(p.throughput[i]);
@@ -60,6 +60,8 @@ std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const 
     for (std::size_t e = 0; e < tallies.size(); ++e) {
       const Tally& t = tallies[e];
       if (t.count < kFewest) continue;
+      const bool shown = coarse[2 * elements.domain[e].primitive.index() + (elements.topology[e].front ? 0 : 1)];
+      if (shown && elements.topology[e].depth >= kShownDepth) continue;
       const double A = elements.geometry[e].area;
       Quarter whole;
       double parts = 0;

@@ -7,8 +7,8 @@
 
 namespace deltalux {
 
-/// Returns how many patches were split. `coarse`: sides that are left as they are, because textures show their
-/// particles; by 2 * primitive + (front ? 0 : 1).
+/// Returns how many patches were split. `coarse`: sides that stay coarse, because textures show their particles; by
+/// 2 * primitive + (front ? 0 : 1). They are split as far as others need to be lit by them, to a thirty-second part.
 std::size_t subdivideForParticles(Elements&, const Scene&, const Particles&, const std::vector<bool>& coarse);
 
 }  // namespace deltalux
