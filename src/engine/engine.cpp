@@ -326,12 +326,10 @@ struct Engine::State {
     inputs.insert(inputs.end(), lights.begin(), lights.end());
     change.setMoved(subtrees(s.elements, inputs));
 
-    LinkMarks marks;
-    LineSpace(s.links, s.elements, s.scene, change).visit(before, false, marks);
+    LinkMarks marks = LineSpace(s.links, s.elements, s.scene, change, before, after).visit();
     reshape(s.elements, s.scene, inputs);
     // Nobody traces now, and who holds the solution holds the engine's tracer.
     std::const_pointer_cast<RayTracer>(s.tracer)->rebuild(GroupId(std::size_t{0}));
-    LineSpace(s.links, s.elements, s.scene, change).visit(after, true, marks);
     step.linksVisited = marks.visited;
     step.times.visibility = time.seconds();
 
@@ -339,7 +337,7 @@ struct Engine::State {
     OracleSettings oracle;
     oracle.error = s.settings.error * kLastError;
     std::vector<LinkId> changed;
-    const RefineReport refined = rejudge(s.links, s.elements, s.scene, *s.tracer, oracle, marks, changed);
+    const RefineReport refined = rejudge(s.links, s.elements, s.scene, *s.tracer, oracle, change, marks, changed);
     DELTALUX_VALIDATED(validate(s.links, s.elements));
     step.linksChanged = changed.size();
     step.times.refine = refining.seconds();

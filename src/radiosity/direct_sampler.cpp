@@ -28,6 +28,15 @@ struct DirectSampler::Term {
   float open = 0, weight = 0;
 };
 
+/// What the shadow rays of a light find.
+struct DirectSampler::Passage {
+  Rgb T{0.0f};
+  double weights = 0;
+  std::array<double, 4> seen{}, all{};  // by quadrant of the leaf
+  std::array<int, 4> count{};
+  int used = 0;
+};
+
 /// Irradiance by quadrant, and the variance that chance gives it.
 struct DirectSampler::Quadrants {
   std::array<double, 4> E{}, chance{};
@@ -41,19 +50,29 @@ DirectSampler::DirectSampler(const Scene& scene, const Elements& elements, const
       senders_(elements, links, scene),
       lights_(scene) {}
 
+bool DirectSampler::curved(ElementId sender) const { return elements_.isPatch(sender) && !elements_.at(sender).flat; }
+
+std::uint64_t DirectSampler::rayKey(ElementId leaf, ElementId sender) const {
+  return combineKeys(combineKeys(elements_.key[leaf.index()], 5), elements_.key[sender.index()]);
+}
+
+void DirectSampler::setKernel(ElementId leaf, Term& t) const {
+  const ElementNodes& n = elements_.nodes[leaf.index()];
+  for (std::size_t q = 0; q < 4; ++q) {
+    if (n.weight[q] <= 0) continue;
+    t.at[q] = static_cast<float>(kernelAtPoint(elements_, scene_, n.position[q], n.normal[q], t.sender));
+    t.K += n.weight[q] * t.at[q];
+  }
+}
+
 DirectSampler::Term DirectSampler::term(ElementId leaf, const PossibleSender& s) const {
   Term t;
   t.link = s.link, t.sender = s.sender;
   t.clear = s.rays == 0 && s.open >= 1.0f;
   t.seen = s.open > 0;
-  t.curved = elements_.isPatch(s.sender) && !elements_.at(s.sender).flat;
+  t.curved = curved(s.sender);
   t.open = t.clear ? 1.0f : (s.open * s.rays + 0.5f) / (s.rays + 1.0f);
-  const ElementNodes& n = elements_.nodes[leaf.index()];
-  for (std::size_t q = 0; q < 4; ++q) {
-    if (n.weight[q] <= 0) continue;
-    t.at[q] = static_cast<float>(kernelAtPoint(elements_, scene_, n.position[q], n.normal[q], s.sender));
-    t.K += n.weight[q] * t.at[q];
-  }
+  setKernel(leaf, t);
   const float B = gray(elements_.radiometry[s.sender.index()].B);
   t.weight = std::max(t.K * B, t.curved ? s.potential : 0.0f) * std::sqrt(t.open);
   return t;
@@ -74,9 +93,8 @@ DirectRow DirectSampler::at(ElementId leaf, int rays) const {
     total += t.clear && !t.curved ? 0.0f : t.weight;
   }
   Quadrants quadrants;
-  const std::uint64_t place = combineKeys(elements_.key[leaf.index()], 5);
   for (const Term& t : terms) {
-    const std::uint64_t key = combineKeys(place, elements_.key[t.sender.index()]);
+    const std::uint64_t key = rayKey(leaf, t.sender);
     if (t.clear && !t.curved) {
       row.row.terms.push_back({t.link, t.sender, 1.0f, 0, 1, true});
       row.row.transfers.push_back({t.sender, Rgb(t.K)});
@@ -144,71 +162,97 @@ DirectSampler::Shot DirectSampler::shoot(ElementId leaf, ElementId sender, std::
   return shot;
 }
 
-bool DirectSampler::mustRenew(ElementId leaf, const TransferRow& row, const LinkChanges& links,
-                              const SpaceChange& space) const {
-  const ElementGeometry& r = elements_.shape(leaf);
-  if (space.meets(r.center, r.radius, r.center, r.radius)) return true;  // what covers the leaf
-  const std::uint64_t place = combineKeys(elements_.key[leaf.index()], 5);
-  for (const RowTerm& t : row.terms) {
-    const LinkChange change = changeOf(links, t.link);
-    if (change == LinkChange::Changed || space.moved(t.sender)) return true;
-    if (change == LinkChange::None || t.clear) continue;
-    const ElementGeometry& s = elements_.shape(t.sender);
-    if (!elements_.isDistant(t.sender) && !space.meets(r.center, r.radius, s.center, s.radius)) continue;
-    const std::uint64_t key = combineKeys(place, elements_.key[t.sender.index()]);
-    const bool byAngle = sampledByAngle(t.sender);
-    int used = 0;
-    for (int i = 0; i < t.index + (byAngle ? 0 : kFacingTries) && used < t.index; ++i) {
-      const Shot shot = shoot(leaf, t.sender, key, i);
-      if (shot.weight > 0 && space.meets(shot.ray)) return true;
-      used += byAngle || shot.weight > 0;
-    }
+bool DirectSampler::meets(ElementId leaf, const RowTerm& t, const SpaceChange& space) const {
+  const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(t.sender);
+  if (!elements_.isDistant(t.sender) && !space.meets(r.center, r.radius, s.center, s.radius)) return false;
+  const std::uint64_t key = rayKey(leaf, t.sender);
+  const bool byAngle = sampledByAngle(t.sender);
+  int used = 0;
+  for (int i = 0; i < t.index + (byAngle ? 0 : kFacingTries) && used < t.index; ++i) {
+    const Shot shot = shoot(leaf, t.sender, key, i);
+    if (shot.weight > 0 && space.meets(shot.ray)) return true;
+    used += byAngle || shot.weight > 0;
   }
   return false;
+}
+
+DirectUpdate DirectSampler::update(ElementId leaf, const LinkChanges& links, const SpaceChange& space, TransferRow& row,
+                                   std::uint64_t& traced) const {
+  DirectUpdate update;
+  std::vector<LeafTransfer> next;
+  auto at = row.transfers.begin();
+  for (RowTerm& t : row.terms) {
+    const auto begin = at;
+    at += t.count;
+    const LinkChange change = changeOf(links, t.link);
+    if (change == LinkChange::Changed || space.moved(t.sender)) return {true, false, 0.0};
+    if (change == LinkChange::None || t.clear || !meets(leaf, t, space)) {
+      if (update.any) next.insert(next.end(), begin, at);
+      continue;
+    }
+    if (!update.any) next.assign(row.transfers.begin(), begin);
+    update.any = true;
+    Term same;
+    same.sender = t.sender, same.curved = curved(t.sender);
+    setKernel(leaf, same);
+    const Passage p = pass(leaf, same, t.index, rayKey(leaf, t.sender), traced);
+    const Rgb T = t.gain * p.T, before = t.count > 0 ? begin->T : Rgb(0.0f);
+    update.change += std::abs(gray((T - before) * elements_.radiometry[t.sender.index()].B));
+    t.count = !isBlack(T);
+    if (t.count > 0) next.push_back({t.sender, T});
+  }
+  if (update.any) row.transfers = std::move(next);
+  return update;
+}
+
+DirectSampler::Passage DirectSampler::pass(ElementId leaf, const Term& t, int rays, std::uint64_t key,
+                                           std::uint64_t& traced) const {
+  const bool byAngle = sampledByAngle(t.sender);
+  Passage p;
+  RgbSum passed(0.0);
+  for (int i = 0; i < rays + (byAngle ? 0 : kFacingTries) && p.used < rays; ++i) {
+    const Shot shot = shoot(leaf, t.sender, key, i);
+    p.used += byAngle || shot.weight > 0;
+    if (!(shot.weight > 0)) continue;
+    Rgb V(1.0f);
+    if (!t.clear) V = tracer_.transmittance(shot.ray), ++traced;
+    if (byAngle) V *= shot.radiance;
+    passed += shot.weight * RgbSum(V);
+    p.weights += shot.weight;
+    p.seen[shot.quadrant] += shot.weight * gray(V), p.all[shot.quadrant] += shot.weight;
+    ++p.count[shot.quadrant];
+  }
+  if (!(p.weights > 0)) return p;
+  p.T = byAngle ? Rgb(passed / double(p.used)) : Rgb(double(t.K) * passed / p.weights);
+  if (!byAngle) return p;
+  const Rgb B = elements_.radiometry[t.sender.index()].B;
+  for (int c = 0; c < 3; ++c) p.T[c] = B[c] > 0 ? p.T[c] / B[c] : 0.0f;
+  return p;
 }
 
 void DirectSampler::sample(ElementId leaf, const Term& t, int rays, float gain, std::uint64_t key, DirectRow& row,
                            Quadrants& quadrants) const {
   const Rgb B = elements_.radiometry[t.sender.index()].B;
-  const bool byAngle = sampledByAngle(t.sender);
-  RgbSum passed(0.0);
-  double weights = 0;
-  std::array<double, 4> seen{}, all{};
-  std::array<int, 4> count{};
-  int used = 0;
-  for (int i = 0; i < rays + (byAngle ? 0 : kFacingTries) && used < rays; ++i) {
-    const Shot shot = shoot(leaf, t.sender, key, i);
-    used += byAngle || shot.weight > 0;
-    if (!(shot.weight > 0)) continue;
-    Rgb V(1.0f);
-    if (!t.clear) V = tracer_.transmittance(shot.ray), ++row.rays;
-    if (byAngle) V *= shot.radiance;
-    passed += shot.weight * RgbSum(V);
-    weights += shot.weight;
-    seen[shot.quadrant] += shot.weight * gray(V), all[shot.quadrant] += shot.weight;
-    ++count[shot.quadrant];
-  }
+  const Passage s = pass(leaf, t, rays, key, row.rays);
   row.row.terms.push_back({t.link, t.sender, gain, static_cast<std::uint8_t>(rays), 0, t.clear});
-  if (!(weights > 0)) return;
-  const double n = used;
-  Rgb T = byAngle ? Rgb(passed / n) : Rgb(double(t.K) * passed / weights);
-  const double p = std::clamp((seen[0] + seen[1] + seen[2] + seen[3]) / weights, 0.0, 1.0);
+  if (!(s.weights > 0)) return;
+  const bool byAngle = sampledByAngle(t.sender);
+  const double n = s.used;
+  const double p = std::clamp((s.seen[0] + s.seen[1] + s.seen[2] + s.seen[3]) / s.weights, 0.0, 1.0);
   for (std::size_t q = 0; q < 4; ++q) {
     if (byAngle) {
-      quadrants.E[q] += gain * (count[q] > 0 ? seen[q] / count[q] : gray(T));
+      quadrants.E[q] += gain * (s.count[q] > 0 ? s.seen[q] / s.count[q] : gray(s.T * B));
       continue;
     }
     const double E = gain * t.at[q] * gray(B);
-    const double V = all[q] > 0 ? seen[q] / all[q] : p, known = count[q] > 0 ? count[q] : n;
+    const double V = s.all[q] > 0 ? s.seen[q] / s.all[q] : p, known = s.count[q] > 0 ? s.count[q] : n;
     const double q1 = std::clamp((p * n + 0.5) / (n + 1), 0.0, 1.0);
     quadrants.E[q] += E * V;
     quadrants.chance[q] += E * E * q1 * (1 - q1) / known;
   }
-  if (byAngle)
-    for (int c = 0; c < 3; ++c) T[c] = B[c] > 0 ? T[c] / B[c] : 0.0f;
-  if (isBlack(T)) return;
+  if (isBlack(s.T)) return;
   row.row.terms.back().count = 1;
-  row.row.transfers.push_back({t.sender, gain * T});
+  row.row.transfers.push_back({t.sender, gain * s.T});
 }
 
 }  // namespace deltalux

@@ -28,6 +28,13 @@ struct DirectRow {
   std::uint64_t rays = 0;
 };
 
+/// What a move has done to the direct row of a leaf.
+struct DirectUpdate {
+  bool anew = false;  // nothing was done: a link is another, or a light moved; the row must be sampled anew
+  bool any = false;   // terms were
+  double change = 0;  // of irradiance, gray, each term's counted positive
+};
+
 class DirectSampler {
  public:
   /// All must outlive this.
@@ -35,16 +42,23 @@ class DirectSampler {
 
   /// By about `rays` shadow rays.
   DirectRow at(ElementId leaf, int rays) const;
-  /// Whether a ray of the leaf's row meets what has moved, or samples a link that is another.
-  bool mustRenew(ElementId leaf, const TransferRow&, const LinkChanges&, const SpaceChange&) const;
+  /// Traces those terms of the leaf's row again whose rays meet what has moved.
+  DirectUpdate update(ElementId leaf, const LinkChanges&, const SpaceChange&, TransferRow&,
+                      std::uint64_t& traced) const;
 
  private:
   struct Term;
   struct Quadrants;
   Term term(ElementId leaf, const PossibleSender&) const;
+  void setKernel(ElementId leaf, Term&) const;
+  std::uint64_t rayKey(ElementId leaf, ElementId sender) const;
   struct Shot;
+  struct Passage;
+  bool curved(ElementId sender) const;
   bool sampledByAngle(ElementId sender) const;
   Shot shoot(ElementId leaf, ElementId sender, std::uint64_t key, int i) const;
+  bool meets(ElementId leaf, const RowTerm&, const SpaceChange&) const;
+  Passage pass(ElementId leaf, const Term&, int rays, std::uint64_t key, std::uint64_t& traced) const;
   void sample(ElementId leaf, const Term&, int rays, float gain, std::uint64_t key, DirectRow&, Quadrants&) const;
 
   const Scene& scene_;

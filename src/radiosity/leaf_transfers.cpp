@@ -24,15 +24,33 @@ bool receives(const Elements& elements, std::size_t e) {
   return t.kind == ElementKind::Patch && t.childCount == 0 && !t.emitter && !t.blocker;
 }
 
-/// Whether direct light varies over the leaf by more than its surroundings can stand.
-bool varies(const Elements& elements, ElementId leaf, const DirectRow& s, const LeafTransferSettings& settings) {
+/// Whether a variation of direct light over the leaf is more than its surroundings can stand.
+bool exceeds(double variation, double mean, const Elements& elements, ElementId leaf,
+             const LeafTransferSettings& settings) {
   const ElementGeometry& g = elements.shape(leaf);
   const ElementLight& l = elements.radiometry[leaf.index()];
   const double side = settings.scale * g.meanFreePath, area = side * side;
   if (g.area < settings.finest * settings.error * area) return false;
-  const double tolerated =
-      settings.variation * settings.error * std::max<double>(l.tolerance, s.mean + gray(l.indirect));
-  return s.variation * g.area > tolerated * std::max<double>(area, g.area);
+  const double tolerated = settings.variation * settings.error * std::max<double>(l.tolerance, mean + gray(l.indirect));
+  return variation * g.area > tolerated * std::max<double>(area, g.area);
+}
+
+/// Whether the leaf is to be split for its direct light.
+bool varies(const Elements& elements, ElementId leaf, const DirectRow& s, const LeafTransferSettings& settings) {
+  return exceeds(s.variation, s.mean, elements, leaf, settings);
+}
+
+/// Whether a change of the leaf's direct light may be worth a split: all of it may come to one quadrant.
+bool mayVary(const Elements& elements, ElementId leaf, double change, const LeafTransferSettings& settings) {
+  constexpr double kOneOfFour = 1.7320508;  // standard deviation over quadrants, per mean, of what one of them has
+  return change > 0 && exceeds(kOneOfFour * change, 0.0, elements, leaf, settings);
+}
+
+/// Whether what moved may have covered some of the leaf, or may cover it now.
+bool uncovers(const Elements& elements, ElementId leaf, const SpaceChange& space) {
+  constexpr float kNear = 0.1f;  // of the leaf's radius
+  const ElementGeometry& g = elements.shape(leaf);
+  return space.meets(g.lower - kNear * g.radius, g.upper + kNear * g.radius);
 }
 
 void require(bool holds, const char* what) {
@@ -170,19 +188,27 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
     return out;
   };
 
-  std::vector<char> renew(candidates.size(), 0);
+  std::vector<char> anew(candidates.size(), 0);
+  std::vector<DirectUpdate> renewed(candidates.size());
+  std::vector<std::uint64_t> directRays(candidates.size(), 0);
   {
     const DirectSampler sampler(scene, elements, links, tracer);
     parallelFor(candidates.size(), kBlock, [&](std::size_t i) {
       const ElementId leaf = candidates[i];
-      renew[i] = isNew(leaf) || !changedAt(leaf, true).empty() ||
-                 sampler.mustRenew(leaf, rows_[rowOf[leaf.index()]].direct, marks.changes, space);
+      anew[i] = isNew(leaf) || !changedAt(leaf, true).empty() || uncovers(elements, leaf, space);
+      if (anew[i]) return;
+      renewed[i] = sampler.update(leaf, marks.changes, space, rows_[rowOf[leaf.index()]].direct, directRays[i]);
+      anew[i] = renewed[i].anew || mayVary(elements, leaf, renewed[i].change, settings);
     });
   }
+
   std::vector<ElementId> fresh;
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (renew[i]) fresh.push_back(candidates[i]);
-  report.direct = fresh.size();
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (anew[i]) fresh.push_back(candidates[i]);
+    report.direct += renewed[i].any && !anew[i];
+    report.rays += directRays[i];
+  }
+  report.direct += fresh.size();
   LeafTransferReport direct;
   sampleDirect(std::move(fresh), elements, links, scene, tracer, settings, direct,
                [&](ElementId leaf, TransferRow row) {
@@ -194,10 +220,9 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
                  }
                  rows_[rowOf[leaf.index()]].direct = std::move(row);
                });
-  report.rays = direct.rays, report.split = direct.split;
+  report.rays += direct.rays, report.split = direct.split;
   gatherDirect(elements);
   pull(elements);
-
   const IndirectSampler sampler(scene, elements, links, tracer);
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());

@@ -1,8 +1,8 @@
 #pragma once
 // Line-space traversal [GD01 5; DS97]: which links what moves can touch. Descends the link tree from its roots; a link
 // whose shaft misses the bounds of what moved is pruned with all below it. No shaft is stored: they are rebuilt from
-// the two boxes on the way down. Run before the elements move, with the old bounds, and after, with the new ones, on
-// the same marks.
+// the two boxes on the way down. Run before the elements move: the ends of all links but those that are marked anyway
+// stay where they are, so each shaft is built once and tested against the old bounds and the new.
 //
 // A touched link is looked at anew only when that can tell another story: an end of it moved, a ray that sampled its
 // visibility meets the bounds, it was proven clear, or proven blocked by what now goes.
@@ -14,31 +14,30 @@ namespace deltalux {
 struct LinkMarks {
   LinkChanges changes;          // by link: Touched so far
   std::vector<LinkId> touched;  // active links
-  std::vector<LinkId> anew;     // to be judged anew
-  std::vector<char> isAnew;     // by link
+  std::vector<LinkId> anew;     // to be judged anew: what lies between their ends has changed
+  std::vector<LinkId> moved;    // to be judged anew: an end of theirs moved, or holds what moved
   std::vector<LinkId> lit;      // from lights of which some moved: Changed in any case
   std::uint64_t visited = 0;
 };
 
 class LineSpace {
  public:
-  /// `change` says which elements moved.
-  LineSpace(const Links&, const Elements&, const Scene&, const SpaceChange& change);
+  /// `change` says which elements move, `before` and `after` the bounds of those where they are and will be.
+  LineSpace(const Links&, const Elements&, const Scene&, const SpaceChange& change, const SpaceChange& before,
+            const SpaceChange& after);
 
-  /// Adds to `marks` what these bounds touch. `arriving`: what moved comes to them, rather than leaving them.
-  void visit(const SpaceChange& bounds, bool arriving, LinkMarks& marks) const;
+  LinkMarks visit() const;
 
  private:
   struct Finding;
-  Finding examine(LinkId, const SpaceChange&, bool arriving) const;
-  bool moves(const Link&) const;
+  Finding examine(LinkId) const;
   bool heldBack(const Link&) const;
 
   const Links& links_;
   const Elements& elements_;
   const Scene& scene_;
-  const SpaceChange& change_;
-  std::vector<char> holds_;          // by element: a cluster with some of what moved
+  const SpaceChange &change_, &before_, &after_;
+  std::vector<char> involved_;       // by element: what moves, and clusters with some of it
   std::vector<ElementId> blockers_;  // input-level patches of what moved
 };
 

@@ -17,7 +17,12 @@ constexpr int kFewSamples = 4, kSomeSamples = 8, kManySamples = 16;
 constexpr float kFineCell = 0.2f;     // radians: sky cells larger than this are split before the surface they light
 constexpr float kFinestCell = 0.06f;  // radians: smaller ones are not split
 
-enum class Mark : char { None, Path, Anew };
+enum class Mark : char {
+  None,
+  Path,     // on the way to others
+  Between,  // what lies between its ends has changed
+  Ends,     // so has an end
+};
 
 enum class Split : std::uint8_t { None, Receiver, Sender, Both };
 
@@ -58,30 +63,22 @@ class Judge {
       return v;
     }
     link.K = k.K, link.receiverSpread = k.receiverSpread, link.senderSpread = k.senderSpread;
-    const auto shrink = [&] {
-      v.blockers.begin = static_cast<std::uint32_t>(arena.size());
-      shrinkBlockers(elements_, scene_, link.receiver, link.sender, candidates, count, arena);
-      v.blockers.count = static_cast<std::uint32_t>(arena.size()) - v.blockers.begin;
-    };
     if (k.overlapping) {
-      shrink();
+      shrink(link, candidates, count, v, arena);
       v.split = link.receiver == link.sender ? Split::Both : splitOverlapping(link);
       v.link = link;
       return v;
     }
     if (!leaf) {
-      shrink();
+      shrink(link, candidates, count, v, arena);
       v.link = link;
       return v;
     }
     if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) {
-      shrink();
+      shrink(link, candidates, count, v, arena);
       const ElementId* own = arena.data() + v.blockers.begin;
-      const bool solidEnds = !elements_.isCluster(link.receiver) && !elements_.isCluster(link.sender);
-      if (v.blockers.count == 0 && solidEnds) {
-        link.visibility = Visibility::Clear;
-        link.V = Rgb(1.0f);
-        link.visibilitySpread = 0;
+      if (v.blockers.count == 0 && solidEnds(link)) {
+        seeClear(link);
       } else if (link.visibility == Visibility::Unknown &&
                  provablyBlocked(elements_, scene_, link.receiver, link.sender, own, v.blockers.count)) {
         link.visibility = Visibility::Blocked;
@@ -95,6 +92,37 @@ class Judge {
     return v;
   }
 
+  /// A link between whose ends something has moved. Its kernel stands, and so do the samples that did not meet it.
+  Verdict judgeBetween(Link link, const SpaceChange& change, const ElementId* candidates, std::size_t count,
+                       Blockers& arena) const {
+    if (link.visibility != Visibility::Sampled) {
+      link.state = LinkState::Active, link.visibility = Visibility::Unknown, link.samples = 0;
+      return judge(link, 0, candidates, count, arena);
+    }
+    Verdict v;
+    int rays = 0;
+    const VisibilityEstimate e = resampleVisibility(elements_, scene_, tracer_, link, change, rays);
+    v.rays = static_cast<std::uint16_t>(rays);
+    const bool same = e.V == link.V && e.mask == link.sampleMask;
+    link.V = e.V, link.sampleMask = e.mask, link.visibilitySpread = e.spread;
+    if (!same || link.state == LinkState::Interior) shrink(link, candidates, count, v, arena);
+    if (!same) {
+      const ElementId* own = arena.data() + v.blockers.begin;
+      if (isBlack(e.V) && provablyBlocked(elements_, scene_, link.receiver, link.sender, own, v.blockers.count)) {
+        link.visibility = Visibility::Blocked;
+        link.visibilitySpread = 0;
+      } else if (v.blockers.count == 0 && solidEnds(link)) {
+        seeClear(link);
+      } else {
+        look(link, link.samples, v);
+      }
+      link.state = LinkState::Active;
+      v.split = choose(link);
+    }
+    v.link = link;
+    return v;
+  }
+
   /// Whether an active link, as it stands, would be worth another look.
   bool unsettled(const Link& link) const {
     if (link.state != LinkState::Active || link.visibility == Visibility::Blocked) return false;
@@ -103,6 +131,22 @@ class Judge {
   }
 
  private:
+  void shrink(const Link& link, const ElementId* candidates, std::size_t count, Verdict& v, Blockers& arena) const {
+    v.blockers.begin = static_cast<std::uint32_t>(arena.size());
+    shrinkBlockers(elements_, scene_, link.receiver, link.sender, candidates, count, arena);
+    v.blockers.count = static_cast<std::uint32_t>(arena.size()) - v.blockers.begin;
+  }
+
+  bool solidEnds(const Link& link) const {
+    return !elements_.isCluster(link.receiver) && !elements_.isCluster(link.sender);
+  }
+
+  static void seeClear(Link& link) {
+    link.visibility = Visibility::Clear;
+    link.V = Rgb(1.0f);
+    link.visibilitySpread = 0;
+  }
+
   bool sends(ElementId sender) const {
     const ElementTopology& s = elements_.at(sender);
     if (s.kind != ElementKind::Patch || s.emitter) return true;
@@ -263,13 +307,14 @@ bool samePlan(const Link& before, const Link& after) {
 class Descent {
  public:
   Descent(Links& links, Elements& elements, const Scene& scene, const RayTracer& tracer, const OracleSettings& settings,
-          std::vector<Mark> marks)
+          std::vector<Mark> marks, const SpaceChange* change = nullptr)
       : links_(links),
         elements_(elements),
         scene_(scene),
         tracer_(tracer),
         settings_(settings),
-        marks_(std::move(marks)) {}
+        marks_(std::move(marks)),
+        change_(change) {}
 
   /// Told of every link that is freed or made, and of every one whose transfer or children are others than before.
   std::function<void(LinkId)> renewed = [](LinkId) {}, changed = [](LinkId) {};
@@ -287,12 +332,7 @@ class Descent {
       parallelBlocks(tasks.size(), kBlock, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           const Task& t = tasks[i];
-          Link link = links_[t.link];
-          if (t.mark == Mark::Anew)
-            link.state = LinkState::Active, link.visibility = Visibility::Unknown, link.samples = 0;
-          const int least = t.mark == Mark::Anew ? links_[t.link].samples : 0;
-          verdicts[i] =
-              judge.judge(link, least, arena.data() + t.candidates.begin, t.candidates.count, blocks[begin / kBlock]);
+          verdicts[i] = verdictOf(judge, t, arena.data() + t.candidates.begin, blocks[begin / kBlock]);
         }
       });
       report_.judged += tasks.size();
@@ -316,15 +356,24 @@ class Descent {
  private:
   static constexpr std::size_t kBlock = 256;
 
+  Verdict verdictOf(const Judge& judge, const Task& t, const ElementId* candidates, Blockers& arena) const {
+    Link link = links_[t.link];
+    if (t.mark == Mark::Between) return judge.judgeBetween(link, *change_, candidates, t.candidates.count, arena);
+    const int least = t.mark == Mark::Ends ? link.samples : 0;
+    if (t.mark == Mark::Ends) link.state = LinkState::Active, link.visibility = Visibility::Unknown, link.samples = 0;
+    return judge.judge(link, least, candidates, t.candidates.count, arena);
+  }
+
   void commit(const Task& task, Verdict& v, bool stopping, std::vector<Task>& next) {
     const LinkId id = task.link;
     report_.rays += v.rays;
-    if (task.mark == Mark::Anew && sameTransfer(links_[id], v.link)) {
+    const bool anew = task.mark != Mark::Path;
+    if (anew && sameTransfer(links_[id], v.link)) {
       if (links_[id].state == LinkState::Interior) descend(task, v, next, false);
       return;
     }
-    if (links_[id].state == LinkState::Interior && (task.mark != Mark::Anew || v.split != Split::None)) {
-      if (task.mark == Mark::Anew) links_.judged(id, v.link);
+    if (links_[id].state == LinkState::Interior && (!anew || v.split != Split::None)) {
+      if (anew) links_.judged(id, v.link);
       descend(task, v, next, false);
       return;
     }
@@ -366,6 +415,7 @@ class Descent {
   const RayTracer& tracer_;
   const OracleSettings& settings_;
   std::vector<Mark> marks_;
+  const SpaceChange* change_;  // of links marked Between
   RefineReport report_;
 };
 
@@ -387,11 +437,14 @@ RefineReport refine(Links& links, Elements& elements, const Scene& scene, const 
 }
 
 RefineReport rejudge(Links& links, Elements& elements, const Scene& scene, const RayTracer& tracer,
-                     const OracleSettings& settings, LinkMarks& marked, std::vector<LinkId>& changed) {
+                     const OracleSettings& settings, const SpaceChange& change, LinkMarks& marked,
+                     std::vector<LinkId>& changed) {
   std::vector<Mark> marks(links.size(), Mark::None);
-  for (const LinkId id : marked.anew) marks[id.index()] = Mark::Anew;
-  for (const LinkId id : marked.anew) markPaths(links, marks, id);
-  Descent descent(links, elements, scene, tracer, settings, std::move(marks));
+  for (const LinkId id : marked.anew) marks[id.index()] = Mark::Between;
+  for (const LinkId id : marked.moved) marks[id.index()] = Mark::Ends;
+  for (const auto* list : {&marked.anew, &marked.moved})
+    for (const LinkId id : *list) markPaths(links, marks, id);
+  Descent descent(links, elements, scene, tracer, settings, std::move(marks), &change);
   const std::size_t known = links.size();
   descent.renewed = [&](LinkId id) {
     if (id.index() < known) marked.changes[id.index()] = LinkChange::Changed;

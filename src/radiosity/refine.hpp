@@ -24,11 +24,11 @@ struct RefineReport {
 /// Makes the root links of `elements` if there are none yet.
 void makeRootLinks(Links&, const Elements&);
 
-/// Judges the marked links anew after a move: active ones whose ends or visibility changed, interior ones that may no
-/// longer need to be refined, which collapse. Sets `marks.changes` to Changed where a link is another than before, and
-/// returns the topmost of those in `changed`.
-RefineReport rejudge(Links&, Elements&, const Scene&, const RayTracer&, const OracleSettings&, LinkMarks& marks,
-                     std::vector<LinkId>& changed);
+/// Judges the marked links anew after a move (`change`: the bounds before and after): active ones whose ends or
+/// visibility changed, interior ones that may no longer need to be refined, which collapse. Sets `marks.changes` to
+/// Changed where a link is another than before, and returns the topmost of those in `changed`.
+RefineReport rejudge(Links&, Elements&, const Scene&, const RayTracer&, const OracleSettings&,
+                     const SpaceChange& change, LinkMarks& marks, std::vector<LinkId>& changed);
 
 /// `stop` is asked between levels; true ends refinement with a consistent tree.
 RefineReport refine(Links&, Elements&, const Scene&, const RayTracer&, const OracleSettings&,

@@ -45,6 +45,13 @@ bool SpaceChange::meets(const Ray& ray) const {
   return std::any_of(parts_.begin(), parts_.end(), [&](const Part& p) { return segmentMeets(p.lower, p.upper, ray); });
 }
 
+bool SpaceChange::meets(const Vec3f& lower, const Vec3f& upper) const {
+  const auto overlap = [&](const Part& p) {
+    return glm::all(glm::lessThanEqual(p.lower, upper)) && glm::all(glm::lessThanEqual(lower, p.upper));
+  };
+  return overlap(all_) && std::any_of(parts_.begin(), parts_.end(), overlap);
+}
+
 bool SpaceChange::meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const {
   if (parts_.empty()) return false;
   // The hull lies within the larger radius of the axis, and the box within its half diagonal of its centre.

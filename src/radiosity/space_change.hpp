@@ -23,6 +23,8 @@ class SpaceChange {
   /// Conservative: never false when what moved is met.
   bool meets(const Shaft&) const;
   bool meets(const Ray&) const;
+  /// Of a box.
+  bool meets(const Vec3f& lower, const Vec3f& upper) const;
   /// Of the convex hull of two balls.
   bool meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const;
 

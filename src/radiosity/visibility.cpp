@@ -58,8 +58,12 @@ bool samplesMeet(const Elements& elements, const Scene& scene, const Link& link,
   return false;
 }
 
-VisibilityEstimate sampleVisibility(const Elements& elements, const Scene& scene, const RayTracer& tracer,
-                                    ElementId receiver, ElementId sender, int samples) {
+namespace {
+
+/// Of what through(i, ray) says of each ray.
+template <class Through>
+VisibilityEstimate estimate(const Elements& elements, const Scene& scene, ElementId receiver, ElementId sender,
+                            int samples, const Through& passes) {
   VisibilityEstimate result;
   const std::uint64_t key = combineKeys(elements.key[receiver.index()], elements.key[sender.index()]);
   RgbSum passed(0.0);
@@ -68,7 +72,7 @@ VisibilityEstimate sampleVisibility(const Elements& elements, const Scene& scene
   for (int i = 0; i < samples; ++i) {
     const auto [ray, weight, quadrant] = sampleOf(elements, scene, receiver, sender, key, i);
     if (!(weight > 0)) continue;
-    const Rgb through = tracer.transmittance(ray);
+    const Rgb through = passes(i, ray);
     const double seen = maxChannel(through) > 0 ? weight : 0.0;
     if (seen > 0) result.mask |= 1u << i;
     passed += weight * RgbSum(through);
@@ -100,6 +104,27 @@ VisibilityEstimate sampleVisibility(const Elements& elements, const Scene& scene
     result.spread = static_cast<float>(0.5 / (effective + 1));
   }
   return result;
+}
+
+}  // namespace
+
+VisibilityEstimate sampleVisibility(const Elements& elements, const Scene& scene, const RayTracer& tracer,
+                                    ElementId receiver, ElementId sender, int samples) {
+  return estimate(elements, scene, receiver, sender, samples,
+                  [&](int, const Ray& ray) { return tracer.transmittance(ray); });
+}
+
+VisibilityEstimate resampleVisibility(const Elements& elements, const Scene& scene, const RayTracer& tracer,
+                                      const Link& link, const SpaceChange& space, int& rays) {
+  const auto passed = [&](int i) { return Rgb(link.sampleMask >> i & 1u ? 1.0f : 0.0f); };
+  const auto known =
+      estimate(elements, scene, link.receiver, link.sender, link.samples, [&](int i, const Ray&) { return passed(i); });
+  const bool tinted = known.V != link.V;  // by glass: then the mask does not say what passed
+  return estimate(elements, scene, link.receiver, link.sender, link.samples, [&](int i, const Ray& ray) {
+    if (!tinted && !space.meets(ray)) return passed(i);
+    ++rays;
+    return tracer.transmittance(ray);
+  });
 }
 
 }  // namespace deltalux

@@ -21,6 +21,11 @@ struct VisibilityEstimate {
 VisibilityEstimate sampleVisibility(const Elements&, const Scene&, const RayTracer&, ElementId receiver,
                                     ElementId sender, int samples);
 
+/// The link's samples as they are after a move: only those rays are traced that meet what has moved. `rays` counts
+/// them.
+VisibilityEstimate resampleVisibility(const Elements&, const Scene&, const RayTracer&, const Link&, const SpaceChange&,
+                                      int& rays);
+
 /// Whether a ray that the link's visibility was sampled by meets what has moved.
 bool samplesMeet(const Elements&, const Scene&, const Link&, const SpaceChange&);
 
