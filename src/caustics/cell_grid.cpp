@@ -85,35 +85,61 @@ void CellGrid::numberCells(std::span<const float> areas) {
   for (const float a : area_) totalArea_ += a;
 }
 
-std::vector<CellGrid::Shared> CellGrid::sharedSides(const Chart& chart, std::span<const float> areas) const {
-  std::vector<Shared> found;
-  found.reserve(12 * areas.size());
+/// What texels share with the one to the right, above, above to the right, and above to the left.
+struct CellGrid::Shares {
+  std::vector<float> right, above, aboveRight, aboveLeft;
+};
+
+void CellGrid::findBorders(const Chart& chart, std::span<const float> areas) {
+  Shares shares;
+  for (auto* s : {&shares.right, &shares.above, &shares.aboveRight, &shares.aboveLeft}) s->assign(areas.size(), 0.0f);
+  shareSides(chart, areas, shares);
+  shareDiagonals(chart, areas, shares);
+
+  // The texels of each cell.
+  std::vector<std::uint32_t> first(area_.size() + 1, 0), texels(areas.size());
+  for (const std::uint32_t cell : cellOf_)
+    if (cell != kNone) ++first[cell + 1];
+  for (std::size_t c = 0; c < area_.size(); ++c) first[c + 1] += first[c];
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (std::uint32_t i = 0; i < cellOf_.size(); ++i)
+    if (cellOf_[i] != kNone) texels[next[cellOf_[i]]++] = i;
+
+  borders_.reserve(8 * area_.size());
+  firstBorder_.assign(1, 0);
+  std::vector<Border> found;
+  for (std::size_t c = 0; c < area_.size(); ++c) {
+    found.clear();
+    for (std::uint32_t k = first[c]; k < first[c + 1]; ++k) addNeighbours(texels[k], shares, found);
+    addMerged(found);
+    firstBorder_.push_back(static_cast<std::uint32_t>(borders_.size()));
+  }
+}
+
+void CellGrid::shareSides(const Chart& chart, std::span<const float> areas, Shares& shares) const {
   const Vec2 texel = region_.size() / Vec2(width_, height_);
   const float whole = areas.empty() ? 0.0f : *std::max_element(areas.begin(), areas.end());
-  const auto add = [&](std::size_t i, std::size_t j, double share) {
-    const std::uint32_t a = cellOf_[i], b = cellOf_[j];
-    if (a == kNone || b == kNone || a == b || !(share > 0)) return;
+  const auto between = [&](std::size_t i, std::size_t j, double share) {
     // Where an outline cuts texels, it cuts their border too.
     if (!chart.closed()) share *= std::min(1.0, double(std::min(areas[i], areas[j])) / whole);
-    found.push_back({a, b, static_cast<float>(share), false}),
-        found.push_back({b, a, static_cast<float>(share), false});
+    return static_cast<float>(share);
   };
   for (int y = 0; y < height_; ++y) {
     const double t = region_.lower.y + y * texel.y;
     const double across = texel.x * chart.stretch(t + 0.5 * texel.y) * groupAt(chart, y);
     const double above = texel.x * chart.stretch(t + texel.y);
     for (int x = 0; x < width_; ++x) {
+      const std::size_t i = texelAt(x, y);
       const int right = x + 1 < width_ ? x + 1 : (closed_ && width_ > 1 ? 0 : -1);
-      if (right >= 0) add(texelAt(x, y), texelAt(right, y), texel.y / across);
-      if (y + 1 < height_) add(texelAt(x, y), texelAt(x, y + 1), above / texel.y);
+      if (right >= 0) shares.right[i] = between(i, texelAt(right, y), texel.y / across);
+      if (y + 1 < height_) shares.above[i] = between(i, texelAt(x, y + 1), above / texel.y);
     }
   }
-  return found;
 }
 
 /// The nine-point form of the flow in squares of four whole cells: each diagonal takes over as much as the four sides
 /// give, which leaves the flow of smooth light as it is and lets it run along slanting edges.
-void CellGrid::shareDiagonals(const Chart& chart, std::span<const float> areas, std::vector<Shared>& found) const {
+void CellGrid::shareDiagonals(const Chart& chart, std::span<const float> areas, Shares& shares) const {
   if (width_ < 3) return;
   const Vec2 texel = region_.size() / Vec2(width_, height_);
   const float whole = areas.empty() ? 0.0f : *std::max_element(areas.begin(), areas.end());
@@ -128,52 +154,44 @@ void CellGrid::shareDiagonals(const Chart& chart, std::span<const float> areas, 
       const int right = x + 1 < width_ ? x + 1 : 0;
       const std::size_t a = texelAt(x, y), b = texelAt(right, y), c = texelAt(x, y + 1), d = texelAt(right, y + 1);
       if (!isWhole(a) || !isWhole(b) || !isWhole(c) || !isWhole(d)) continue;
-      const auto both = [&](std::size_t i, std::size_t j, float s, bool diagonal) {
-        found.push_back({cellOf_[i], cellOf_[j], s, diagonal}), found.push_back({cellOf_[j], cellOf_[i], s, diagonal});
-      };
-      both(a, d, share, true), both(b, c, share, true);
-      both(a, b, -share, false), both(c, d, -share, false), both(a, c, -share, false), both(b, d, -share, false);
+      shares.aboveRight[a] += share, shares.aboveLeft[b] += share;
+      shares.right[a] -= share, shares.right[c] -= share, shares.above[a] -= share, shares.above[b] -= share;
     }
   }
 }
 
-void CellGrid::findBorders(const Chart& chart, std::span<const float> areas) {
-  std::vector<Shared> found = sharedSides(chart, areas);
-  shareDiagonals(chart, areas, found);
-  const std::vector<Shared> sorted = byFirst(found, area_.size());
-  firstBorder_.assign(area_.size() + 1, 0);
-  borders_.reserve(sorted.size());
-  for (std::size_t k = 0; k < sorted.size();) {
-    const Shared& first = sorted[k];
-    float share = 0;
-    std::size_t end = k;
-    for (; end < sorted.size() && sorted[end].a == first.a && sorted[end].b == first.b; ++end) share += sorted[end].share;
-    borders_.push_back({first.b, share, first.diagonal});
-    ++firstBorder_[first.a + 1];
-    k = end;
+/// Cells around a texel that share something with it.
+void CellGrid::addNeighbours(std::size_t texel, const Shares& shares, std::vector<Border>& found) const {
+  const int x = static_cast<int>(texel) % width_, y = static_cast<int>(texel) / width_;
+  const bool turns = closed_ && width_ > 1;
+  const int left = x > 0 ? x - 1 : turns ? width_ - 1 : -1, right = x + 1 < width_ ? x + 1 : turns ? 0 : -1;
+  const auto add = [&](int nx, int ny, const std::vector<float>& share, std::size_t of, bool diagonal) {
+    const std::uint32_t cell = cellOf_[texelAt(nx, ny)];
+    if (cell != kNone && cell != cellOf_[texel] && share[of] > 0) found.push_back({cell, share[of], diagonal});
+  };
+  if (y > 0) {
+    if (left >= 0) add(left, y - 1, shares.aboveRight, texelAt(left, y - 1), true);
+    add(x, y - 1, shares.above, texelAt(x, y - 1), false);
+    if (right >= 0) add(right, y - 1, shares.aboveLeft, texelAt(right, y - 1), true);
   }
-  for (std::size_t c = 0; c < area_.size(); ++c) firstBorder_[c + 1] += firstBorder_[c];
+  if (left >= 0) add(left, y, shares.right, texelAt(left, y), false);
+  if (right >= 0) add(right, y, shares.right, texel, false);
+  if (y + 1 < height_) {
+    if (left >= 0) add(left, y + 1, shares.aboveLeft, texel, true);
+    add(x, y + 1, shares.above, texel, false);
+    if (right >= 0) add(right, y + 1, shares.aboveRight, texel, true);
+  }
 }
 
-/// In order of the first cell, then of the second.
-std::vector<CellGrid::Shared> CellGrid::byFirst(const std::vector<Shared>& shared, std::size_t cells) {
-  std::vector<std::uint32_t> next(cells + 1, 0);
-  for (const Shared& s : shared) ++next[s.a + 1];
-  for (std::size_t c = 0; c < cells; ++c) next[c + 1] += next[c];
-  std::vector<Shared> sorted(shared.size());
-  for (const Shared& s : shared) sorted[next[s.a]++] = s;
-  for (std::size_t begin = 0; begin < sorted.size();) {
-    const std::size_t end = next[sorted[begin].a];
-    // A few each: by insertion.
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      const Shared s = sorted[i];
-      std::size_t k = i;
-      for (; k > begin && sorted[k - 1].b > s.b; --k) sorted[k] = sorted[k - 1];
-      sorted[k] = s;
-    }
-    begin = end;
-  }
-  return sorted;
+/// One border for each of the cells, ascending.
+void CellGrid::addMerged(std::vector<Border>& found) {
+  std::stable_sort(found.begin(), found.end(), [](const Border& a, const Border& b) { return a.cell < b.cell; });
+  const std::size_t first = borders_.size();
+  for (const Border& b : found)
+    if (borders_.size() > first && borders_.back().cell == b.cell)
+      borders_.back().share += b.share;
+    else
+      borders_.push_back(b);
 }
 
 std::uint32_t CellGrid::texelNear(const Vec2& st) const {

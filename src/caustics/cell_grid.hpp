@@ -63,10 +63,12 @@ class CellGrid {
     float share;
     bool diagonal;
   };
+  struct Shares;
   void findBorders(const Chart&, std::span<const float> areas);
-  std::vector<Shared> sharedSides(const Chart&, std::span<const float> areas) const;
-  static std::vector<Shared> byFirst(const std::vector<Shared>&, std::size_t cells);
-  void shareDiagonals(const Chart&, std::span<const float> areas, std::vector<Shared>&) const;
+  void shareSides(const Chart&, std::span<const float> areas, Shares&) const;
+  void shareDiagonals(const Chart&, std::span<const float> areas, Shares&) const;
+  void addNeighbours(std::size_t texel, const Shares&, std::vector<Border>& found) const;
+  void addMerged(std::vector<Border>& found);
   int groupAt(const Chart&, int row) const;
 
   std::size_t texelAt(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }

@@ -27,6 +27,19 @@ struct ScaleLevel {
 /// Integral of the product of two Gaussian kernels at one place, over cells of `area`.
 double kernelOverlap(double widthA, double widthB, double area);
 
-std::vector<ScaleLevel> scaleSpace(const CellGrid&, const CellLight&, Openness);
+class ScaleSpace {
+ public:
+  /// The cells as they are. `widest`: in cells. The grid must outlive this.
+  ScaleSpace(const CellGrid&, const CellLight&, Openness, double widest);
+
+  /// Adds the next level; false when there is none.
+  bool widen();
+  const std::vector<ScaleLevel>& levels() const { return levels_; }
+
+ private:
+  HeatFlow flow_;
+  double area_, limit_;
+  std::vector<ScaleLevel> levels_;
+};
 
 }  // namespace deltalux

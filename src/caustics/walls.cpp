@@ -7,6 +7,7 @@ namespace deltalux {
 namespace {
 
 constexpr double kParticles = 30;       // of a kernel that edges are looked for with
+constexpr double kWidest = 6;           // of its kernel, in cells
 constexpr double kContrast = 2;         // jumps of a blurred edge, in units of noise
 constexpr double kSharpParticles = 16;  // whose noise a sharp edge must stand out from,
 constexpr double kSharpContrast = 2;    // and by how much
@@ -57,7 +58,10 @@ float medianAround(const CellGrid& grid, const std::vector<Rgb>& E, std::size_t 
 }  // namespace
 
 Walls blurredWalls(const CellGrid& grid, const CellLight& light) {
-  const std::vector<ScaleLevel> levels = scaleSpace(grid, light, {});
+  ScaleSpace space(grid, light, {}, kWidest);
+  while (space.widen()) {
+  }
+  const std::vector<ScaleLevel>& levels = space.levels();
   std::vector<Estimate> estimates;
   Walls walls;
   for (std::size_t i = 0; i < grid.size(); ++i) {
