@@ -29,7 +29,8 @@ class Engine {
   /// before.
   Restore apply(const Edit&);
   /// Brings the solution to what all edits since have made of the scene: what a fresh solve would give, within the
-  /// error target's own noise. Solves first what is not solved. Things that were added make it solve the scene afresh.
+  /// error target's own noise. Solves first what is not solved. Lights that were added, or that are many times brighter
+  /// than when they were solved for, make it solve the scene afresh.
   StepReport update(Progress* progress = nullptr);
 
   SolutionView solution() const;

@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "caustics/texture_upkeep.hpp"
 #include "engine/energy_balance.hpp"
+#include "engine/growth.hpp"
 #include "engine/particle_count.hpp"
 #include "engine/scene_update.hpp"
 #include "engine/time_budget.hpp"
@@ -38,6 +39,7 @@ constexpr double kHasty = 8.0;         // first round when time is limited, agai
 constexpr double kSettled = 1e-3;      // unsettled power, relative to emitted
 constexpr double kSettledRows = 1e-4;  // over rows, where an iteration costs next to nothing
 constexpr int kMaxIterations = 64;
+constexpr float kBrighter = 8.0f;  // times as bright as when it was solved for, a light is solved for anew
 constexpr int kMaxRowIterations = 1024;
 
 class Clock {
@@ -216,14 +218,18 @@ struct Engine::State {
     StepReport step;
     step.op = pending.op, step.object = pending.subject;
     const SceneUpdate edits = std::exchange(pending, {});
-    if (edits.grown) {
+    if (!haveElements(solution->elements, solution->scene, edits) || outshines(edits)) {
       solveAfresh(progress);
       step.times.total = time.seconds();
       return step;
     }
-    relight(edits);
-    if (!edits.moved.empty() || !edits.movedLights.empty()) move(edits, step);
+    const std::vector<ElementId> reflecting = relight(edits);
+    Motion motion = leave(edits, step);
     const ParticleUpdate followed = followWithParticles(edits, step);
+    Growth growth = grow(edits, followed, step);
+    growth.woken.insert(growth.woken.end(), reflecting.begin(), reflecting.end());
+    arrive(motion, growth, step);
+    placeParticles(followed, step);
     const Clock gathering;
     settleRows(progress);
     step.times.gather += gathering.seconds();
@@ -233,25 +239,47 @@ struct Engine::State {
     return step;
   }
 
+  /// Whether a light is so much brighter than when links were refined and rows sampled that it needs its own.
+  bool outshines(const SceneUpdate& edits) const {
+    const Solution& s = *solution;
+    return std::any_of(edits.dimmed.begin(), edits.dimmed.end(), [&](LightId light) {
+      return gray(s.scene[light].scale) > kBrighter * gray(s.sampledScale[light.index()]);
+    });
+  }
+
   /// Retraces the particles that the edits can touch. [GD01 4]
   ParticleUpdate followWithParticles(const SceneUpdate& edits, StepReport& step) {
     Solution& s = *solution;
-    if (!tracing) {
-      transfer.reset();  // no particles, on a mesh that may have changed
-      return {};
-    }
+    if (!tracing) return {};
     const Clock time;
     ParticleUpdate followed = tracing->follow(s.particles, edits.whole);
     DELTALUX_VALIDATED(validate(s.particles, s.scene));
-    if (followed.all)
-      transfer.reset();
-    else if (transfer)
-      transfer->follow(s.particles, followed, s.elements, s.scene);
     countParticles();
     step.particlesRetraced = followed.all ? s.particles.arrived() : followed.particles;
     step.particlesTotal = s.particles.arrived();
     step.times.particles += time.seconds();
     return followed;
+  }
+
+  /// On the mesh as it is now.
+  void placeParticles(const ParticleUpdate& followed, StepReport& step) {
+    if (!transfer) return;
+    const Clock time;
+    if (!tracing || followed.all)
+      transfer.reset();  // none, on a mesh that may have changed; or all of them
+    else
+      transfer->follow(solution->particles, followed, solution->elements, solution->scene);
+    step.times.particles += time.seconds();
+  }
+
+  /// Elements for what the edits brought into the light.
+  Growth grow(const SceneUpdate& edits, const ParticleUpdate& followed, StepReport& step) {
+    const Clock time;
+    const Growth growth = growInLight(*solution, edits, followed);
+    DELTALUX_VALIDATED(validate(solution->elements));
+    if (!growth.empty()) transfer.reset();  // particles may have landed there all the while
+    step.times.hierarchy = time.seconds();
+    return growth;
   }
 
   /// Makes the textures anew whose light has changed.
@@ -297,53 +325,88 @@ struct Engine::State {
     while (!finished) step(progress);
   }
 
-  /// Emission and reflectance of what stays where it was.
-  void relight(const SceneUpdate& edits) {
+  /// Emission and reflectance of what stays where it was. Returns what was black and reflects now: links took it for no
+  /// sender.
+  std::vector<ElementId> relight(const SceneUpdate& edits) {
     Solution& s = *solution;
+    std::vector<ElementId> reflecting;
     for (const ElementId e : elementsOf(s.elements, edits.dimmed)) setEmission(s.elements, s.scene, e);
+    for (const LightId light : edits.movedLights) s.sampledScale[light.index()] = s.scene[light].scale;
     std::vector<PrimitiveId> repainted;
     for (std::size_t i = 0; i < s.scene.primitives.size(); ++i)
       if (std::find(edits.materials.begin(), edits.materials.end(), s.scene.primitives[i].material) !=
           edits.materials.end())
         repainted.emplace_back(i);
-    for (const ElementId e : elementsOf(s.elements, repainted))
-      if (!s.elements.at(e).emitter) setReflectance(s.elements, s.scene, e);
+    for (const ElementId e : elementsOf(s.elements, repainted)) {
+      if (s.elements.at(e).emitter) continue;
+      const ElementLight& l = s.elements.radiometry[e.index()];
+      const bool wasBlack = isBlack(l.rho) && isBlack(l.tau);
+      setReflectance(s.elements, s.scene, e);
+      if (wasBlack && !(isBlack(l.rho) && isBlack(l.tau))) reflecting.push_back(e);
+    }
+    return reflecting;
   }
 
-  void move(const SceneUpdate& edits, StepReport& step) {
+  struct Motion {
+    SpaceChange all;                // bounds before and after
+    std::vector<ElementId> inputs;  // of what moves
+    LinkMarks marks;
+  };
+
+  /// What moves leaves its place: the links that it touches there, and the shapes of its elements.
+  Motion leave(const SceneUpdate& edits, StepReport& step) {
     Solution& s = *solution;
     const Clock time;
+    Motion motion;
     std::vector<PrimitiveId> primitives;
-    SpaceChange before, after, change;
+    SpaceChange before, after;
     for (const SceneChange::Moved& m : edits.moved) {
       primitives.push_back(m.primitive);
-      before.add(m.before), change.add(m.before);
+      before.add(m.before), motion.all.add(m.before);
     }
     for (const PrimitiveId id : primitives)
-      if (const Box box = bounds(s.scene[id].shape); !box.empty()) after.add(box), change.add(box);
-    std::vector<ElementId> inputs = elementsOf(s.elements, primitives);
+      if (const Box box = bounds(s.scene[id].shape); !box.empty()) after.add(box), motion.all.add(box);
+    motion.inputs = elementsOf(s.elements, primitives);
     const std::vector<ElementId> lights = elementsOf(s.elements, edits.movedLights);
-    inputs.insert(inputs.end(), lights.begin(), lights.end());
-    change.setMoved(subtrees(s.elements, inputs));
-
-    LinkMarks marks = LineSpace(s.links, s.elements, s.scene, change, before, after).visit();
-    reshape(s.elements, s.scene, inputs);
+    motion.inputs.insert(motion.inputs.end(), lights.begin(), lights.end());
+    motion.all.setMoved(subtrees(s.elements, motion.inputs));
+    if (primitives.empty() && motion.inputs.empty()) return motion;
+    motion.marks = LineSpace(s.links, s.elements, s.scene, motion.all, before, after).visit();
+    reshape(s.elements, s.scene, motion.inputs);
     // Nobody traces now, and who holds the solution holds the engine's tracer.
-    std::const_pointer_cast<RayTracer>(s.tracer)->rebuild(GroupId(std::size_t{0}));
-    step.linksVisited = marks.visited;
+    if (!primitives.empty()) std::const_pointer_cast<RayTracer>(s.tracer)->rebuild(GroupId(std::size_t{0}));
     step.times.visibility = time.seconds();
+    return motion;
+  }
+
+  /// It comes to its new place, and what has grown in the light with it: links and rows follow.
+  void arrive(Motion& motion, const Growth& growth, StepReport& step) {
+    Solution& s = *solution;
+    if (motion.marks.changes.empty() && growth.empty()) return;
+    const Clock time;
+    LinkMarks& marks = motion.marks;
+    if (marks.changes.empty() || !growth.woken.empty()) {
+      SpaceChange woken;
+      woken.setMoved(subtrees(s.elements, growth.woken));
+      add(LineSpace(s.links, s.elements, s.scene, woken, {}, {}).visit(), marks);
+      motion.inputs.insert(motion.inputs.end(), growth.woken.begin(), growth.woken.end());
+      motion.all.setMoved(subtrees(s.elements, motion.inputs));
+    }
+    if (growth.root.valid()) addRootLinks(s.links, s.elements, growth.root);
+    step.linksVisited = marks.visited;
+    step.times.visibility += time.seconds();
 
     const Clock refining;
     OracleSettings oracle;
     oracle.error = s.settings.error * kLastError;
     std::vector<LinkId> changed;
-    const RefineReport refined = rejudge(s.links, s.elements, s.scene, *s.tracer, oracle, change, marks, changed);
+    const RefineReport refined = rejudge(s.links, s.elements, s.scene, *s.tracer, oracle, motion.all, marks, changed);
     DELTALUX_VALIDATED(validate(s.links, s.elements));
     step.linksChanged = changed.size();
     step.times.refine = refining.seconds();
     const Clock gathering;
     const LeafUpdateReport rows =
-        s.transfers.update(s.elements, s.links, s.scene, *s.tracer, leafSettings(), marks, changed, change);
+        s.transfers.update(s.elements, s.links, s.scene, *s.tracer, leafSettings(), marks, changed, motion.all);
     DELTALUX_VALIDATED(s.transfers.validate(s.elements, s.links));
     s.report.counts.raysVisibility += refined.rays + rows.rays;
     step.leavesExamined = rows.examined, step.leavesRenewed = std::max(rows.direct, rows.indirect);
@@ -372,6 +435,8 @@ struct Engine::State {
     transfer.reset();
     const LeafTransferReport r = s.transfers.build(s.elements, s.links, s.scene, *s.tracer, settings);
     s.report.counts.raysVisibility += r.rays;
+    s.sampledScale.clear();
+    for (const Light& light : s.scene.lights) s.sampledScale.push_back(light.scale);
     return settleRows(progress);
   }
 

@@ -1,5 +1,9 @@
 #include "engine/scene_update.hpp"
 
+#include <algorithm>
+
+#include "scene/edit/plan.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -28,20 +32,29 @@ bool alike(const A&, const B&) {
 
 }  // namespace
 
+bool haveElements(const Elements& elements, const Scene& scene, const SceneUpdate& update) {
+  const bool nothing = update.moved.empty() && update.movedLights.empty();
+  if (!elements.sceneRoot.valid()) return nothing;  // nothing was lit
+  std::vector<char> has(scene.lights.size(), 0);    // by light: an element of its kind
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const LightId light = elements.light[i];
+    if (!light.valid()) continue;
+    // A surface that is no more is a dark point, whose element is a patch still; and the other way round.
+    const bool surface = std::holds_alternative<AreaLight>(scene[light].emitter);
+    if (surface == elements.isPatch(ElementId(i))) has[light.index()] = 1;
+  }
+  return std::all_of(update.movedLights.begin(), update.movedLights.end(),
+                     [&](LightId light) { return has[light.index()] || edits::isDark(scene[light]); });
+}
+
 Restore applyInto(SceneUpdate& update, Scene& scene, const Edit& edit) {
   const std::vector<Light> before = scene.lights;
-  const std::size_t primitives = scene.primitives.size();
   const AppliedEdit applied = applyEdit(scene, edit);
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(update.whole.moved, applied.change.moved);
   append(update.whole.lights, applied.change.lights);
   append(update.whole.materials, applied.change.materials);
-  update.grown |= scene.primitives.size() > primitives;
-  for (const SceneChange::Moved& m : applied.change.moved) {
-    update.moved.push_back(m);
-    // What was not there may have no element to come back to.
-    update.grown |= m.before.empty() && !m.after.empty();
-  }
+  append(update.moved, applied.change.moved);
   for (const LightId light : applied.change.lights) {
     const bool stays =
         light.index() < before.size() && std::visit([](const auto& a, const auto& b) { return alike(a, b); },

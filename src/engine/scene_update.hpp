@@ -3,6 +3,8 @@
 // lights and materials that are otherwise where they were.
 #include <deltalux/edit.hpp>
 
+#include "hierarchy/element.hpp"
+
 namespace deltalux {
 
 struct SceneUpdate {
@@ -11,11 +13,14 @@ struct SceneUpdate {
   std::vector<LightId> movedLights;  // stand or aim elsewhere
   std::vector<LightId> dimmed;       // send another power
   std::vector<MaterialId> materials;
-  bool grown = false;  // there are surfaces that no element stands for
   std::string op, subject;
 
-  bool empty() const { return moved.empty() && movedLights.empty() && dimmed.empty() && materials.empty() && !grown; }
+  bool empty() const { return moved.empty() && movedLights.empty() && dimmed.empty() && materials.empty(); }
 };
+
+/// Whether all lights of the edits have elements to send from: new ones have none. Surfaces can get theirs
+/// (growth.hpp).
+bool haveElements(const Elements&, const Scene&, const SceneUpdate&);
 
 /// Applies the edit, adds what it did, and returns its inverse.
 Restore applyInto(SceneUpdate&, Scene&, const Edit&);

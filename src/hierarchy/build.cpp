@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <map>
 #include <memory>
+#include <tuple>
 
 #include "base/check.hpp"
 #include "base/random.hpp"
@@ -18,6 +20,7 @@ namespace {
 constexpr std::size_t kLeafGroups = 4;  // surfaces that a cluster may hold directly without looking at their sizes
 constexpr float kSlot = 0.5f;           // least mean free path, relative to that of the surroundings
 constexpr double kLarge = 0.5;          // a surface this large against its cluster stays in it
+constexpr std::uint64_t kSceneKey = 1, kLightKey = 2, kGrownKey = 64;
 
 /// The sides of one surface (front, back) travel together.
 struct Group {
@@ -101,7 +104,7 @@ class Builder {
  public:
   Builder(const Scene& scene, Elements& elements) : scene_(scene), elements_(elements) {}
 
-  ElementId build(const std::vector<SurfaceSide>& sides, bool emitter, std::vector<LightId> points) {
+  ElementId build(const std::vector<SurfaceSide>& sides, std::uint64_t key, bool emitter, std::vector<LightId> points) {
     std::vector<Group> groups;
     for (std::uint32_t i = 0; i < sides.size(); ++i) {
       const bool sameSurface =
@@ -113,7 +116,7 @@ class Builder {
     const auto root = cluster(std::move(groups));
     const ElementId first = elements_.addChildren({}, ElementKind::Cluster, 1);
     elements_.topology[first.index()].emitter = emitter;
-    elements_.key[first.index()] = emitter ? 2 : 1;
+    elements_.key[first.index()] = key;
     emit(*root, first, sides, emitter, points);
     pull(first);
     widenPaths(first);
@@ -240,7 +243,7 @@ Elements buildElements(const Scene& scene, const std::vector<SurfaceSide>& reach
   Elements elements;
   elements.sceneBox = bounds(scene);
   Builder builder(scene, elements);
-  elements.sceneRoot = builder.build(reachable, false, {});
+  elements.sceneRoot = builder.build(reachable, kSceneKey, false, {});
 
   std::vector<SurfaceSide> emitting;
   std::vector<LightId> points;
@@ -257,7 +260,7 @@ Elements buildElements(const Scene& scene, const std::vector<SurfaceSide>& reach
       points.push_back(LightId(i));
     }
   }
-  elements.lightRoot = builder.build(emitting, true, points);
+  elements.lightRoot = builder.build(emitting, kLightKey, true, points);
 
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const auto& emitter = scene.lights[i].emitter;
@@ -270,6 +273,35 @@ Elements buildElements(const Scene& scene, const std::vector<SurfaceSide>& reach
     elements.distant.push_back(e);
   }
   return elements;
+}
+
+std::vector<ElementId> elementsOf(const Elements& elements, std::span<const SurfaceSide> sides) {
+  std::vector<ElementId> found(sides.size());
+  if (sides.empty()) return found;
+  const auto place = [](PrimitiveId primitive, std::uint32_t triangle, bool front) {
+    return std::tuple(primitive, triangle, front);
+  };
+  std::map<std::tuple<PrimitiveId, std::uint32_t, bool>, std::size_t> index;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    index[place(sides[i].primitive, sides[i].triangle, sides[i].front)] = i;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const ElementId e(i);
+    if (!elements.isInputLevel(e) || elements.at(e).emitter) continue;
+    const PatchDomain& d = elements.domain[i];
+    const auto at = index.find(place(d.primitive, d.triangle, elements.at(e).front));
+    if (at != index.end()) found[at->second] = e;
+  }
+  return found;
+}
+
+ElementId growElements(Elements& elements, const Scene& scene, const std::vector<SurfaceSide>& sides) {
+  DELTALUX_CHECK(!sides.empty(), "something to grow");
+  const SurfaceSide& first = sides.front();
+  const std::uint64_t key =
+      combineKeys(combineKeys(first.primitive.value, first.triangle), kGrownKey + (first.front ? 0u : 1u));
+  const ElementId root = Builder(scene, elements).build(sides, key, false, {});
+  (elements.sceneRoot.valid() ? elements.grown.emplace_back() : elements.sceneRoot) = root;
+  return root;
 }
 
 }  // namespace deltalux

@@ -23,4 +23,10 @@ std::vector<SurfaceSide> surfaceSides(const Scene&);
 
 Elements buildElements(const Scene&, const std::vector<SurfaceSide>& reachable);
 
+/// Their elements, asleep or not; none where there are none.
+std::vector<ElementId> elementsOf(const Elements&, std::span<const SurfaceSide>);
+/// Gives sides that have none yet elements, below a root of their own, which is returned: what edits uncover or add. In
+/// the order of surfaceSides(), at least one.
+ElementId growElements(Elements&, const Scene&, const std::vector<SurfaceSide>&);
+
 }  // namespace deltalux

@@ -29,6 +29,12 @@ ElementId Elements::addChildren(ElementId parent, ElementKind kind, std::size_t 
   return ElementId(first);
 }
 
+std::vector<ElementId> Elements::sceneRoots() const {
+  std::vector<ElementId> roots = grown;
+  if (sceneRoot.valid()) roots.insert(roots.begin(), sceneRoot);
+  return roots;
+}
+
 std::size_t Elements::memoryBytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(topology) + bytes(geometry) + bytes(nodes) + bytes(domain) + bytes(moments) + bytes(light) +

@@ -107,8 +107,10 @@ class Elements {
   std::vector<PlaneFrame> frames;
 
   ElementId sceneRoot;             // receivers and reflecting senders; invalid in an empty scene
+  std::vector<ElementId> grown;    // more such roots, of sides that edits brought into the light
   ElementId lightRoot;             // area emitters and points; invalid when there are none
   std::vector<ElementId> distant;  // suns and dome roots
+  std::vector<ElementId> asleep;   // input-level patches that edits have left in the dark: blockers for now; ascending
   Box sceneBox;                    // of all surfaces; the far boxes of distant elements are measured from it
 
   std::size_t size() const { return topology.size(); }
@@ -133,6 +135,8 @@ class Elements {
     const PatchDomain& d = domain[e.index()];
     return {outlines.data() + d.outline, d.outlineSize};
   }
+  /// sceneRoot and what has grown since.
+  std::vector<ElementId> sceneRoots() const;
   std::size_t memoryBytes() const;
 };
 

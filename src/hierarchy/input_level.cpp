@@ -32,15 +32,30 @@ void forSubtree(const Elements& elements, ElementId e, const Visit& visit) {
   for (std::size_t i = 0; i < elements.at(e).childCount; ++i) forSubtree(elements, elements.child(e, i), visit);
 }
 
+void darken(Elements& elements, ElementId e) {
+  ElementLight& l = elements.radiometry[e.index()];
+  l.B = l.rho = l.tau = l.direct = l.indirect = l.particle = Rgb(0.0f);
+}
+
 /// Draws an element together into a point.
 void vanish(Elements& elements, ElementId e, const Vec3f& at) {
   ElementGeometry& g = elements.geometry[e.index()];
   g.area = g.radius = 0;
   g.lower = g.upper = g.center = at;
   for (Vec3f& p : elements.nodes[e.index()].position) p = g.center;
-  ElementLight& l = elements.radiometry[e.index()];
-  l.B = l.rho = l.tau = l.direct = l.indirect = l.particle = Rgb(0.0f);
+  darken(elements, e);
   elements.topology[e.index()].blocker = !elements.at(e).emitter;
+}
+
+/// The clusters above elements that have changed.
+void shapeAbove(Elements& elements, std::span<const ElementId> changed) {
+  std::vector<ElementId> above;
+  for (const ElementId c : changed)
+    for (ElementId e = elements.at(c).parent; e.valid(); e = elements.at(e).parent) above.push_back(e);
+  // Children stand behind their clusters.
+  std::sort(above.begin(), above.end(), [](ElementId a, ElementId b) { return b < a; });
+  above.erase(std::unique(above.begin(), above.end()), above.end());
+  for (const ElementId e : above) shapeCluster(elements, e);
 }
 
 }  // namespace
@@ -68,12 +83,25 @@ void addPlane(Elements& elements, const Scene& scene, ElementId e) {
 
 void setReflectance(Elements& elements, const Scene& scene, ElementId input) {
   const Material& material = scene.materialOf(elements.domain[input.index()].primitive);
-  const bool blocker = passesStraight(material) || isGone(scene, elements.domain[input.index()].primitive);
+  const bool asleep = std::binary_search(elements.asleep.begin(), elements.asleep.end(), input);
+  const bool blocker = asleep || passesStraight(material) || isGone(scene, elements.domain[input.index()].primitive);
   forSubtree(elements, input, [&](ElementId e) {
     elements.topology[e.index()].blocker = blocker;
+    if (asleep) return darken(elements, e);
     elements.radiometry[e.index()].rho = diffuseReflectance(material, elements.at(e).front);
     elements.radiometry[e.index()].tau = diffuseTransmittance(material);
   });
+}
+
+void setAsleep(Elements& elements, const Scene& scene, std::span<const ElementId> inputs, bool asleep) {
+  for (const ElementId e : inputs) {
+    const auto at = std::lower_bound(elements.asleep.begin(), elements.asleep.end(), e);
+    const bool is = at != elements.asleep.end() && *at == e;
+    if (asleep && !is) elements.asleep.insert(at, e);
+    if (!asleep && is) elements.asleep.erase(at);
+    setReflectance(elements, scene, e);
+  }
+  shapeAbove(elements, inputs);
 }
 
 void setEmission(Elements& elements, const Scene& scene, ElementId emitter) {
@@ -182,7 +210,6 @@ std::vector<ElementId> elementsOf(const Elements& elements, std::span<const Ligh
 }
 
 void reshape(Elements& elements, const Scene& scene, std::span<const ElementId> inputs) {
-  std::vector<ElementId> above;
   for (const ElementId input : inputs) {
     if (elements.isPoint(input)) {
       shapePointLight(elements, scene, input);
@@ -200,12 +227,8 @@ void reshape(Elements& elements, const Scene& scene, std::span<const ElementId> 
       else
         setReflectance(elements, scene, input);
     }
-    for (ElementId e = elements.at(input).parent; e.valid(); e = elements.at(e).parent) above.push_back(e);
   }
-  // Children stand behind their clusters.
-  std::sort(above.begin(), above.end(), [](ElementId a, ElementId b) { return b < a; });
-  above.erase(std::unique(above.begin(), above.end()), above.end());
-  for (const ElementId e : above) shapeCluster(elements, e);
+  shapeAbove(elements, inputs);
 }
 
 }  // namespace deltalux

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace deltalux {
@@ -22,8 +23,15 @@ double areaOf(const Scene& scene, const SurfaceSide& s) {
 }  // namespace
 
 void addReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles, const Scene& scene) {
+  std::vector<std::uint32_t> all(particles.paths());
+  std::iota(all.begin(), all.end(), 0u);
+  addReachedSides(sides, particles, all, scene);
+}
+
+void addReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles, std::span<const std::uint32_t> paths,
+                     const Scene& scene) {
   std::map<std::pair<PrimitiveId, std::uint32_t>, RgbSum> flux;  // by primitive, triangle and side
-  for (std::size_t path = 0; path < particles.paths(); ++path) {
+  for (const std::uint32_t path : paths) {
     const double power =
         double(particles.links[particles.link[path]].scale) * particles.nominal[particles.sender[path]];
     for (std::uint32_t i = particles.firstImpact(path); i < particles.endImpact(path); ++i)

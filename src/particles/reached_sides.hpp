@@ -7,5 +7,7 @@ namespace deltalux {
 /// Adds the sides that only particles reach (behind a lens, inside a glass case) to those that other light does, so
 /// that they have elements; keeps the order of surfaceSides().
 void addReachedSides(std::vector<SurfaceSide>&, const Particles&, const Scene&);
+/// The same of some paths alone.
+void addReachedSides(std::vector<SurfaceSide>&, const Particles&, std::span<const std::uint32_t> paths, const Scene&);
 
 }  // namespace deltalux

@@ -102,4 +102,15 @@ LinkMarks LineSpace::visit() const {
   return marks;
 }
 
+void add(const LinkMarks& more, LinkMarks& marks) {
+  marks.changes.resize(more.changes.size(), LinkChange::None);
+  for (std::size_t i = 0; i < marks.changes.size(); ++i) marks.changes[i] = std::max(marks.changes[i], more.changes[i]);
+  const auto append = [](const std::vector<LinkId>& from, std::vector<LinkId>& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(more.touched, marks.touched), append(more.anew, marks.anew);
+  append(more.moved, marks.moved), append(more.lit, marks.lit);
+  marks.visited += more.visited;
+}
+
 }  // namespace deltalux

@@ -20,6 +20,9 @@ struct LinkMarks {
   std::uint64_t visited = 0;
 };
 
+/// Adds what another traversal has found to `marks`.
+void add(const LinkMarks&, LinkMarks& marks);
+
 class LineSpace {
  public:
   /// `change` says which elements move, `before` and `after` the bounds of those where they are and will be.

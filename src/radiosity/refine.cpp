@@ -266,7 +266,23 @@ void makeRootLinks(Links& links, const Elements& elements) {
   for (const ElementId e : elements.distant) add(e);
 }
 
+void addRootLinks(Links& links, const Elements& elements, ElementId grown) {
+  if (links.roots.empty()) return makeRootLinks(links, elements);
+  for (const ElementId root : elements.sceneRoots()) {
+    links.addRoot(grown, root, false);
+    if (root != grown) links.addRoot(root, grown, false);
+  }
+  if (elements.lightRoot.valid()) links.addRoot(grown, elements.lightRoot, true);
+  for (const ElementId e : elements.distant) links.addRoot(grown, e, true);
+}
+
 namespace {
+
+/// The links below `id` that carry light.
+void carrying(const Links& links, LinkId id, std::vector<LinkId>& out) {
+  if (links[id].carries()) out.push_back(id);
+  for (std::size_t c = 0; c < links[id].childCount; ++c) carrying(links, links.child(id, c), out);
+}
 
 /// Marks the links above the marked ones.
 void markPaths(const Links& links, std::vector<Mark>& marks, LinkId id) {
@@ -321,10 +337,11 @@ class Descent {
   std::function<bool()> stop;
 
   RefineReport run() {
-    Blockers arena(1, elements_.sceneRoot);
+    Blockers arena = elements_.sceneRoots();
+    const ListRef everything{0, static_cast<std::uint32_t>(arena.size())};
     std::vector<Task> tasks;
     for (const LinkId root : links_.roots)
-      if (marks_[root.index()] != Mark::None) tasks.push_back({root, {0, 1}, marks_[root.index()]});
+      if (marks_[root.index()] != Mark::None) tasks.push_back({root, everything, marks_[root.index()]});
     while (!tasks.empty()) {
       std::vector<Verdict> verdicts(tasks.size());
       std::vector<Blockers> blocks((tasks.size() + kBlock - 1) / kBlock);
@@ -444,8 +461,10 @@ RefineReport rejudge(Links& links, Elements& elements, const Scene& scene, const
   for (const LinkId id : marked.moved) marks[id.index()] = Mark::Ends;
   for (const auto* list : {&marked.anew, &marked.moved})
     for (const LinkId id : *list) markPaths(links, marks, id);
+  const std::size_t known = marked.changes.size();
+  for (const LinkId root : links.roots)
+    if (root.index() >= known) marks[root.index()] = Mark::Path;
   Descent descent(links, elements, scene, tracer, settings, std::move(marks), &change);
-  const std::size_t known = links.size();
   descent.renewed = [&](LinkId id) {
     if (id.index() < known) marked.changes[id.index()] = LinkChange::Changed;
   };
@@ -457,6 +476,11 @@ RefineReport rejudge(Links& links, Elements& elements, const Scene& scene, const
   const RefineReport report = descent.run();
   for (const LinkId id : marked.lit)
     if (links[id].state == LinkState::Active) descent.changed(id);
+  // What has grown is new to all that was there; its own elements are new themselves.
+  for (const LinkId root : links.roots)
+    if (root.index() >= known && links[root].sender == elements.grown.back() &&
+        links[root].receiver != links[root].sender)
+      carrying(links, root, changed);
   return report;
 }
 

@@ -17,9 +17,10 @@ struct Solution {
   std::shared_ptr<const RayTracer> tracer;  // over `scene`
   Elements elements;
   Links links;
-  Particles particles;      // a function of scene, seed and target count
-  LeafTransfers transfers;  // empty before the last round
-  Caustics caustics;        // how the particles' light is shown; never feeds back
+  Particles particles;            // a function of scene, seed and target count
+  LeafTransfers transfers;        // empty before the last round
+  std::vector<Rgb> sampledScale;  // by light: its scale when links and rows last followed it
+  Caustics caustics;              // how the particles' light is shown; never feeds back
   SolveReport report;
 };
 

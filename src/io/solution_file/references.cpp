@@ -5,6 +5,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "scene/edit/plan.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -49,7 +51,8 @@ void checkDomain(const Elements& e, const Scene& scene, std::size_t i) {
   const ElementTopology& t = e.topology[i];
   const PatchDomain& d = e.domain[i];
   require(d.primitive.index() < scene.primitives.size(), "patch: primitive");
-  const auto* mesh = std::get_if<Mesh>(&scene[d.primitive].shape);
+  // What was removed has lost its shape, but not its elements.
+  const auto* mesh = std::get_if<Mesh>(&edits::restShape(scene, d.primitive));
   require(d.triangle < (mesh ? mesh->triangles.size() : 1), "patch: triangle");
   require(d.outline <= e.outlines.size() && d.outlineSize <= e.outlines.size() - d.outline, "patch: outline");
   require(!t.flat || (d.frame < e.frames.size() && d.outlineSize >= 3), "patch: plane");
@@ -70,6 +73,8 @@ void checkElements(const Elements& e, const Scene& scene) {
     require(!sends || e.light[i].valid(), "sender: light");
   }
   for (const ElementId root : {e.sceneRoot, e.lightRoot}) require(!root.valid() || root.index() < n, "root element");
+  for (const ElementId root : e.grown) require(root.index() < n && e.isCluster(root), "root element");
+  for (const ElementId a : e.asleep) require(a.index() < n && e.isInputLevel(a), "sleeping element");
   for (const ElementId d : e.distant) require(d.index() < n, "distant sender");
 }
 
@@ -127,6 +132,7 @@ void checkReferences(const Solution& s) {
   checkLinkTree(s.links);
   validate(s.particles, s.scene);
   s.transfers.validate(s.elements, s.links);
+  require(s.transfers.empty() || s.sampledScale.size() == s.scene.lights.size(), "scales: one a light");
   checkCaustics(s.caustics, s.scene);
 }
 

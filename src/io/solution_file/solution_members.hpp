@@ -22,9 +22,9 @@ void members(auto& archive, Is<SolveReport> auto& r) {
 
 void members(auto& archive, Is<Elements> auto& e) {
   auto& [topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines, frames,
-         sceneRoot, lightRoot, distant, sceneBox] = e;
+         sceneRoot, grown, lightRoot, distant, asleep, sceneBox] = e;
   transferAll(archive, topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines,
-              frames, sceneRoot, lightRoot, distant, sceneBox);
+              frames, sceneRoot, grown, lightRoot, distant, asleep, sceneBox);
 }
 void members(auto& archive, Is<Links> auto& l) {
   auto& [all, roots, arriving, free] = l;  // the latter two follow from the first

@@ -1,0 +1,64 @@
+#include "engine/growth.hpp"
+
+#include <algorithm>
+
+#include "hierarchy/build.hpp"
+#include "hierarchy/input_level.hpp"
+#include "particles/reached_sides.hpp"
+#include "radiosity/covered_sides.hpp"
+#include "radiosity/push_pull.hpp"
+
+namespace deltalux {
+
+namespace {
+
+/// Where light may have got to that did not before: where things were, and around lights that moved.
+std::vector<Box> newlyLit(const SceneUpdate& edits, const Scene& scene) {
+  std::vector<Box> boxes;
+  for (const SceneChange::Moved& m : edits.moved) boxes.push_back(m.before);
+  for (const LightId light : edits.movedLights)
+    std::visit(
+        [&](const auto& emitter) {
+          if constexpr (requires { emitter.position; }) boxes.push_back({emitter.position, emitter.position});
+        },
+        scene[light].emitter);
+  return boxes;
+}
+
+void addLanding(std::vector<SurfaceSide>& sides, const Particles& particles, const ParticleUpdate& update,
+                const Scene& scene) {
+  if (update.all) return addReachedSides(sides, particles, scene);
+  std::vector<std::uint32_t> paths;
+  for (const RetracedPath& r : update.paths) paths.push_back(r.path);
+  addReachedSides(sides, particles, paths, scene);
+}
+
+}  // namespace
+
+Growth growInLight(Solution& s, const SceneUpdate& edits, const ParticleUpdate& particles) {
+  CoveredSides sides;
+  if (!edits.moved.empty() || !edits.movedLights.empty()) {
+    std::vector<PrimitiveId> moved;
+    for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
+    sides = coveredSides(s.scene, *s.tracer, s.elements, moved, newlyLit(edits, s.scene));
+  }
+  addLanding(sides.uncovered, s.particles, particles, s.scene);
+  Growth growth;
+  std::vector<SurfaceSide> fresh;
+  const std::vector<ElementId> known = elementsOf(s.elements, sides.uncovered);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (!known[i].valid())
+      fresh.push_back(sides.uncovered[i]);
+    else if (std::binary_search(s.elements.asleep.begin(), s.elements.asleep.end(), known[i]))
+      growth.woken.push_back(known[i]);
+  }
+  const std::vector<ElementId> dark = elementsOf(s.elements, sides.covered);
+  growth.asleep = dark.size();
+  if (growth.asleep > 0) setAsleep(s.elements, s.scene, dark, true);
+  if (!growth.woken.empty()) setAsleep(s.elements, s.scene, growth.woken, false);
+  if (!fresh.empty()) growth.root = growElements(s.elements, s.scene, fresh);
+  if (!growth.empty()) pull(s.elements);
+  return growth;
+}
+
+}  // namespace deltalux

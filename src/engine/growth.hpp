@@ -1,0 +1,22 @@
+#pragma once
+// Elements follow the light: sides that had none, because no light reached them when the scene was solved or because
+// they were not there, get theirs when edits bring them into the light. They hang below a root of their own, with root
+// links to and from everything. Elements of sides that edits left in the dark sleep until light comes again.
+#include "engine/scene_update.hpp"
+#include "particles/particle_tracing.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux {
+
+struct Growth {
+  ElementId root;                // of what has grown, or none; its links are still to be made
+  std::vector<ElementId> woken;  // and they, to be judged anew
+  std::size_t asleep = 0;
+
+  bool empty() const { return !root.valid() && woken.empty() && asleep == 0; }
+};
+
+/// Scene, tracer and particles are those after the edits.
+Growth growInLight(Solution&, const SceneUpdate&, const ParticleUpdate&);
+
+}  // namespace deltalux

@@ -1,0 +1,241 @@
+#include "radiosity/side_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace deltalux {
+
+namespace {
+
+constexpr std::uint64_t kPathBudget = 1u << 17;
+constexpr std::size_t kMost = 64;                           // paths of one side
+constexpr std::size_t kFewest = 24, kFewestOfTriangle = 8;  // a mesh's triangles speak for each other
+constexpr int kBounces = 3;
+constexpr std::size_t kPicked = 3;     // lights a vertex looks at
+constexpr int kPanes = 8;              // panes that a ray passes before it is given up
+constexpr float kSwitchedOff = 1e-3f;  // of what a light is worth that is off
+
+Rgb scaleOf(const Light& light) { return isBlack(light.scale) ? Rgb(kSwitchedOff) : light.scale; }
+
+Vec3f cosineDirection(const Vec3& normal, Rng& rng) {
+  const double r = std::sqrt(rng.uniform()), phi = 2 * kPi * rng.uniform();
+  return Vec3f(Frame(normal).toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0, 1 - r * r))}));
+}
+
+}  // namespace
+
+SideEstimator::SideEstimator(const Scene& scene, const RayTracer& tracer)
+    : scene_(scene), tracer_(tracer), sides_(surfaceSides(scene)), lit_(sides_.size()), met_(sides_.size()) {
+  first_.resize(scene.primitives.size(), 0);
+  twoSided_.resize(scene.primitives.size(), false);
+  for (std::size_t i = sides_.size(); i-- > 0;) first_[sides_[i].primitive.index()] = static_cast<std::uint32_t>(i);
+  for (const SurfaceSide& s : sides_)
+    if (!s.front) twoSided_[s.primitive.index()] = true;  // has back sides too
+  diagonal_ = bounds(scene).diagonal();
+  rays_ = std::clamp<std::size_t>(kPathBudget / std::max<std::size_t>(sides_.size(), 1), kFewestOfTriangle, kMost);
+  estimates_.resize(sides_.size());
+}
+
+std::size_t SideEstimator::indexOf(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
+  const std::size_t base = first_[primitive.index()];
+  return twoSided_[primitive.index()] ? base + 2 * triangle + (front ? 0u : 1u) : base + triangle;
+}
+
+bool SideEstimator::reached(std::size_t i) const {
+  if (isLit(i) || isGlass(i)) return true;
+  // What shines through a surface lights both its sides.
+  const std::size_t other = indexOf(sides_[i].primitive, sides_[i].triangle, !sides_[i].front);
+  return !isBlack(diffuseTransmittance(scene_.materialOf(sides_[i].primitive))) && isLit(other);
+}
+
+SurfaceSide SideEstimator::estimated(std::size_t i) const {
+  SurfaceSide side = sides_[i];
+  side.irradiance = estimates_[i].E;
+  side.typicalIrradiance = estimates_[i].typical;
+  side.meanFreePath = estimates_[i].meanFreePath;
+  return side;
+}
+
+std::uint64_t SideEstimator::rays() const {
+  return std::accumulate(estimates_.begin(), estimates_.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const Estimate& e) { return sum + e.rays; });
+}
+
+std::vector<Hit> SideEstimator::firstMet(std::size_t i, std::size_t rays) const {
+  std::vector<Hit> found;
+  const SurfaceSide& side = sides_[i];
+  Rng rng(combineKeys(combineKeys(side.primitive.value, side.triangle), side.front), 1);
+  for (std::size_t k = 0; k < rays; ++k) {
+    const double u = (double(k) + rng.uniform()) / double(rays), v = rng.uniform();
+    const Origin o = pointOnSide(side, {u, v});
+    float t = 0;
+    Rgb through(1.0f);
+    found.push_back(look(o, cosineDirection(o.normal, rng), through, t));
+  }
+  return found;
+}
+
+SideEstimator::Origin SideEstimator::pointOnSide(const SurfaceSide& side, Vec2 u) const {
+  const Shape& shape = scene_[side.primitive].shape;
+  Origin o;
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    const auto& t = mesh->triangles[side.triangle];
+    if (u.x + u.y > 1) u = Vec2(1.0) - u;
+    const Vec3 p = mesh->positions[t[0]], a = mesh->positions[t[1]] - p, b = mesh->positions[t[2]] - p;
+    const Vec3 n = glm::cross(a, b);
+    o = {p + u.x * a + u.y * b, glm::length(n) > 0 ? glm::normalize(n) : Vec3(0, 0, 1)};
+  } else {
+    const SurfacePoint s = samplePoint(shape, u);
+    o = {s.position, s.normal};
+  }
+  if (!side.front) o.normal = -o.normal;
+  return o;
+}
+
+/// What sides reflect of what they receive, every way together: this is an estimate, not transport.
+Rgb SideEstimator::wholeReflectance(const SurfaceSide& side) const {
+  const Material& m = scene_.materialOf(side.primitive);
+  Rgb r = diffuseReflectance(m, side.front);
+  if (const auto* opaque = std::get_if<Opaque>(&m.surface)) r += opaque->specular.reflectance;
+  if (const auto* mirror = std::get_if<Mirror>(&m.surface); mirror && side.front) r += mirror->reflectance;
+  return r;
+}
+
+void SideEstimator::estimate(std::size_t i) {
+  const SurfaceSide& side = sides_[i];
+  Estimate& e = estimates_[i];
+  const bool triangle = std::holds_alternative<Mesh>(scene_[side.primitive].shape);
+  const std::size_t rays = triangle ? rays_ : std::max(rays_, kFewest);
+  std::vector<std::size_t> seen;
+  Rng rng(combineKeys(combineKeys(side.primitive.value, side.triangle), side.front));
+  double path = 0;
+  std::size_t found = 0;
+  RgbSum total(0.0);
+  double own = 0;
+  double root = 0;  // mean root of direct light: a bright patch does not speak for the whole surface
+  for (std::size_t k = 0; k < rays; ++k) {
+    RgbSum sum(0.0);
+    const double u = (double(k) + rng.uniform()) / double(rays), v = rng.uniform();
+    Origin o = pointOnSide(side, {u, v});
+    Rgb throughput(1.0f);
+    for (int bounce = 0; bounce <= kBounces; ++bounce) {
+      const Rgb direct = directAt(o, rng);
+      if (bounce == 0) {
+        root += std::sqrt(gray(direct)) / double(rays);
+        own += gray(direct) / double(rays);
+      }
+      sum += RgbSum(throughput * direct);
+      const Vec3f w = cosineDirection(o.normal, rng);
+      float t = 0;
+      Rgb through(1.0f);
+      const Hit hit = look(o, w, through, t);
+      e.rays += 1 + std::min(scene_.lights.size(), kPicked);
+      if (!hit) {
+        for (const Light& light : scene_.lights)
+          if (const auto* dome = std::get_if<DomeLight>(&light.emitter))
+            sum += kPi * RgbSum(throughput * through * scaleOf(light) * skyRadiance(*dome, Vec3(w)));
+        break;
+      }
+      if (bounce == 0) path += t, ++found;
+      const std::size_t j = indexOf(hit);
+      seen.push_back(j);
+      if (!isBlack(direct * through)) lit_[j].store(1, std::memory_order_relaxed);
+      throughput *= through * wholeReflectance(sides_[j]);
+      if (isBlack(throughput)) break;
+      o.position = Vec3(hit.position);
+      o.normal = Vec3(hit.front ? hit.normal : -hit.normal);
+    }
+    total += sum / double(rays);
+  }
+  e.E = Rgb(total);
+  if (!isBlack(e.E))
+    for (const std::size_t j : seen) met_[j].store(1, std::memory_order_relaxed);
+  e.typical = static_cast<float>(std::max(0.0, gray(total) - own) + root * root);
+  e.meanFreePath = static_cast<float>(found > 0 ? path / double(found) : diagonal_);
+}
+
+/// First surface that is not a pane.
+Hit SideEstimator::look(const Origin& o, const Vec3f& w, Rgb& through, float& t) const {
+  Ray ray;
+  ray.origin = offsetOrigin(Vec3f(o.position), Vec3f(o.normal), w);
+  ray.direction = w;
+  for (int pane = 0; pane < kPanes; ++pane) {
+    const Hit hit = tracer_.closestHit(ray);
+    if (!hit) return hit;
+    t += hit.t;
+    const auto* glass = std::get_if<ThinGlass>(&scene_.materialOf(hit.primitive).surface);
+    if (!glass) return hit;
+    through *= transmittance(*glass, std::abs(glm::dot(hit.normal, w)));
+    ray.origin = offsetOrigin(hit.position, hit.normal, w);
+  }
+  return {};
+}
+
+Rgb SideEstimator::directAt(const Origin& o, Rng& rng) const {
+  // A few lights picked at random stand for all of them.
+  const std::size_t lights = scene_.lights.size();
+  Rgb sum(0.0f);
+  for (std::size_t k = 0; k < std::min(lights, kPicked); ++k) {
+    const std::size_t index =
+        lights <= kPicked ? k : static_cast<std::size_t>(rng.uniform() * static_cast<double>(lights));
+    const float weight = lights <= kPicked ? 1.0f : static_cast<float>(lights) / float(kPicked);
+    sum += weight * fromLight(o, scene_.lights[index], rng);
+  }
+  return sum;
+}
+
+Rgb SideEstimator::fromLight(const Origin& o, const Light& light, Rng& rng) const {
+  const Vec3f x(o.position), n(o.normal);
+  return std::visit(
+      [&, scale = scaleOf(light)](const auto& emitter) -> Rgb {
+        using T = std::decay_t<decltype(emitter)>;
+        if constexpr (std::is_same_v<T, SunLight>) {
+          const float cosine = glm::dot(n, Vec3f(emitter.direction));
+          if (cosine <= 0) return Rgb(0.0f);
+          Ray ray;
+          ray.direction = Vec3f(emitter.direction);
+          ray.origin = offsetOrigin(x, n, ray.direction);
+          return float(solidAngle(emitter)) * cosine * emitter.radiance * scale * tracer_.transmittance(ray);
+        } else if constexpr (std::is_same_v<T, AreaLight>) {
+          return fromArea(x, n, emitter.primitive, scale, rng);
+        } else if constexpr (requires { emitter.position; }) {
+          const Vec3f d = Vec3f(emitter.position) - x;
+          const float squared = glm::dot(d, d);
+          const Vec3f w = d / std::sqrt(squared);
+          const float cosine = glm::dot(n, w);
+          if (!(cosine > 0)) return Rgb(0.0f);
+          return cosine / squared * radiantIntensity(emitter, -Vec3(w)) * scale *
+                 tracer_.transmittance(segment(x, n, Vec3f(emitter.position), -w));
+        } else {
+          return Rgb(0.0f);
+        }
+      },
+      light.emitter);
+}
+
+Rgb SideEstimator::fromArea(const Vec3f& x, const Vec3f& n, PrimitiveId primitive, const Rgb& scale, Rng& rng) const {
+  const Material& material = scene_.materialOf(primitive);
+  const Shape& shape = scene_[primitive].shape;
+  const double u = rng.uniform();
+  const SurfacePoint y = samplePoint(shape, {u, rng.uniform()});
+  const Vec3f d = Vec3f(y.position) - x;
+  const float squared = std::max(glm::dot(d, d), 1e-12f);
+  const Vec3f w = d / std::sqrt(squared);
+  const float cosine = glm::dot(n, w);
+  float cosEmitter = -glm::dot(Vec3f(y.normal), w);
+  if (material.emission->bothSides) cosEmitter = std::abs(cosEmitter);
+  if (!(cosine > 0 && cosEmitter > 0)) return Rgb(0.0f);
+  if (const auto& spot = material.emission->spot) {
+    const double focal = glm::length(spot->direction);
+    if (glm::dot(-Vec3(w), spot->direction) < focal * std::cos(0.5 * spot->fullAngle)) return Rgb(0.0f);
+    const float ratio = std::sqrt(squared) / (std::sqrt(squared) + static_cast<float>(focal));
+    cosEmitter *= ratio * ratio;
+  }
+  const float A = static_cast<float>(area(shape));
+  const float kernel = std::min(cosine * cosEmitter * A / squared, float(kPi));
+  return kernel * material.emission->radiance * scale *
+         tracer_.transmittance(segment(x, n, Vec3f(y.position), Vec3f(y.normal)));
+}
+
+}  // namespace deltalux
