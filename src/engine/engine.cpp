@@ -405,11 +405,13 @@ struct Engine::State {
     step.linksChanged = changed.size();
     step.times.refine = refining.seconds();
     const Clock gathering;
+    const ConcernedLeaves leaves = s.transfers.concerned(s.elements, s.links, marks, changed, motion.all);
     const LeafUpdateReport rows =
-        s.transfers.update(s.elements, s.links, s.scene, *s.tracer, leafSettings(), marks, changed, motion.all);
+        s.transfers.update(s.elements, s.links, s.scene, *s.tracer, leafSettings(), marks, changed, motion.all, leaves);
     DELTALUX_VALIDATED(s.transfers.validate(s.elements, s.links));
     s.report.counts.raysVisibility += refined.rays + rows.rays;
-    step.leavesExamined = rows.examined, step.leavesRenewed = std::max(rows.direct, rows.indirect);
+    step.leavesExamined = std::max(leaves.byLights.size(), leaves.byLeaves.size());
+    step.leavesRenewed = std::max(rows.direct, rows.indirect);
     step.times.gather = gathering.seconds();
   }
 

@@ -164,7 +164,9 @@ DirectSampler::Shot DirectSampler::shoot(ElementId leaf, ElementId sender, std::
 
 bool DirectSampler::meets(ElementId leaf, const RowTerm& t, const SpaceChange& space) const {
   const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(t.sender);
-  if (!elements_.isDistant(t.sender) && !space.meets(r.center, r.radius, s.center, s.radius)) return false;
+  if (elements_.isDistant(t.sender) ? !space.meetsBeam(r.center, r.radius, s.center, s.radius)
+                                    : !space.meets(r.center, r.radius, s.center, s.radius))
+    return false;
   const std::uint64_t key = rayKey(leaf, t.sender);
   const bool byAngle = sampledByAngle(t.sender);
   int used = 0;

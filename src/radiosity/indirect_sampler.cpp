@@ -209,12 +209,14 @@ float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear
   return static_cast<float>(K);
 }
 
+Rgb IndirectSampler::transferOf(ElementId leaf, const Dealt& d, std::uint64_t& traced) const {
+  if (known(d.term)) return Rgb(d.term.K);
+  return transfer(
+      leaf, d, [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); }, traced);
+}
+
 void IndirectSampler::append(ElementId leaf, const Dealt& d, TransferRow& row, std::uint64_t& traced) const {
-  const bool clear = known(d.term);
-  const Rgb T =
-      clear ? Rgb(d.term.K)
-            : transfer(
-                  leaf, d, [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); }, traced);
+  const Rgb T = transferOf(leaf, d, traced);
   const bool some = !isBlack(T);
   row.terms.push_back(
       {d.term.link, d.term.sender, d.gain, static_cast<std::uint8_t>(d.index), some, d.term.open >= 1.0f});
@@ -250,31 +252,64 @@ bool IndirectSampler::meets(ElementId leaf, const RowTerm& t, const SpaceChange&
 
 bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed,
                              const SpaceChange& space, TransferRow& row, std::uint64_t& traced) const {
-  std::vector<char> anew(row.terms.size(), 0);
-  bool any = !changed.empty();
-  for (std::size_t i = 0; i < row.terms.size(); ++i) {
+  std::vector<std::uint32_t> anew;  // terms whose rays meet what moved
+  bool rebuild = !changed.empty();
+  for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
     const LinkChange change = changeOf(links, row.terms[i].link);
-    anew[i] = change == LinkChange::Changed || (change == LinkChange::Touched && meets(leaf, row.terms[i], space));
-    any |= anew[i] != 0;
+    if (change == LinkChange::None) continue;
+    rebuild |= change == LinkChange::Changed;
+    if (change == LinkChange::Touched && meets(leaf, row.terms[i], space)) anew.push_back(i);
   }
-  if (!any) return false;
-  const auto kernelOf = [&](ElementId s, bool clear) { return kernelAtLeaf(leaf, s, clear); };
+  if (!rebuild && anew.empty()) return false;
+  if (!rebuild) return retrace(leaf, anew, row, traced);
+
   TransferRow next;
   next.weightPerRay = row.weightPerRay;
   next.terms.reserve(row.terms.size()), next.transfers.reserve(row.transfers.size());
   auto at = row.transfers.begin();
-  for (std::size_t i = 0; i < row.terms.size(); ++i) {
+  auto again = anew.begin();
+  for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
     const RowTerm& t = row.terms[i];
     const auto begin = at;
     at += t.count;
-    if (!anew[i]) {
-      next.terms.push_back(t);
-      next.transfers.insert(next.transfers.end(), begin, at);
-    } else if (changeOf(links, t.link) == LinkChange::Touched) {
-      const float K = exact(t.sender) ? kernelAtLeaf(leaf, t.sender, t.clear) : 0.0f;
-      append(leaf, {{t.link, t.sender, K, t.clear ? 1.0f : 0.0f, 0.0f}, t.gain, t.index}, next, traced);
+    const bool retraced = again != anew.end() && *again == i;
+    again += retraced;
+    if (changeOf(links, t.link) == LinkChange::Changed) continue;
+    if (retraced) {
+      append(leaf, dealt(leaf, t), next, traced);
+      continue;
     }
+    next.terms.push_back(t);
+    next.transfers.insert(next.transfers.end(), begin, at);
   }
+  dealChanged(leaf, changed, next, traced);
+  row = std::move(next);
+  return true;
+}
+
+IndirectSampler::Dealt IndirectSampler::dealt(ElementId leaf, const RowTerm& t) const {
+  const float K = exact(t.sender) ? kernelAtLeaf(leaf, t.sender, t.clear) : 0.0f;
+  return {{t.link, t.sender, K, t.clear ? 1.0f : 0.0f, 0.0f}, t.gain, t.index};
+}
+
+bool IndirectSampler::retrace(ElementId leaf, std::span<const std::uint32_t> terms, TransferRow& row,
+                              std::uint64_t& traced) const {
+  std::size_t at = 0, i = 0;
+  for (const std::uint32_t k : terms) {
+    for (; i < k; ++i) at += row.terms[i].count;
+    RowTerm& t = row.terms[k];
+    const Rgb T = transferOf(leaf, dealt(leaf, t), traced);
+    if (t.count > 0)
+      row.transfers[at].T = T;  // also where it is black by now: the next move may lift it
+    else if (!isBlack(T))
+      row.transfers.insert(row.transfers.begin() + static_cast<std::ptrdiff_t>(at), {t.sender, T}), t.count = 1;
+  }
+  return true;
+}
+
+void IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> changed, TransferRow& row,
+                                  std::uint64_t& traced) const {
+  const auto kernelOf = [&](ElementId s, bool clear) { return kernelAtLeaf(leaf, s, clear); };
   std::vector<LinkId> active;
   for (const LinkId top : changed) collect(top, leaf, active);
   std::vector<Term> whole;
@@ -284,14 +319,13 @@ bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span
   float sum = 0;
   for (const Term& t : whole) sum += t.weight;
   const float step = std::max(row.weightPerRay, sum / kMostRays);
+  if (!(step > 0)) return;
   const auto terms = apart(leaf, std::move(whole), step, kernelOf);
   double unknown = 0;
   for (const Term& t : terms) unknown += known(t) ? 0.0f : t.weight;
   // What is left over is a ray by chance, by the key of the place.
-  const int rays = step > 0 ? static_cast<int>(unknown / step + toUnit(mix64(elements_.key[leaf.index()]))) : 0;
-  deal(leaf, center, terms, step, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, next, traced); });
-  row = std::move(next);
-  return true;
+  const int rays = static_cast<int>(unknown / step + toUnit(mix64(elements_.key[leaf.index()])));
+  deal(leaf, center, terms, step, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, row, traced); });
 }
 
 void IndirectSampler::collect(LinkId link, ElementId leaf, std::vector<LinkId>& out) const {

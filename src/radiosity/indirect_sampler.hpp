@@ -80,7 +80,14 @@ class IndirectSampler {
   /// T of a dealt term; black where it brings nothing.
   template <class PointAt>
   Rgb transfer(ElementId leaf, const Dealt&, const PointAt&, std::uint64_t& traced) const;
+  Rgb transferOf(ElementId leaf, const Dealt&, std::uint64_t& traced) const;
   void append(ElementId leaf, const Dealt&, TransferRow&, std::uint64_t& traced) const;
+  /// What a term of a row was dealt, by today's kernel.
+  Dealt dealt(ElementId leaf, const RowTerm&) const;
+  /// Traces these terms of a row again, in ascending order.
+  bool retrace(ElementId leaf, std::span<const std::uint32_t> terms, TransferRow&, std::uint64_t& traced) const;
+  /// Appends the terms over changed links.
+  void dealChanged(ElementId leaf, std::span<const LinkId> changed, TransferRow&, std::uint64_t& traced) const;
   /// Active links below `link` that arrive at the leaf or above it.
   void collect(LinkId link, ElementId leaf, std::vector<LinkId>& out) const;
   bool meets(ElementId leaf, const RowTerm&, const SpaceChange&) const;

@@ -31,4 +31,19 @@ struct TransferRow {
   float weightPerRay = 0;  // how rays are shared out: by what a term may bring [W/m2]
 };
 
+struct LeafTransferSettings {
+  double error = 0.05;   // target relative error of irradiance
+  double variation = 2;  // of direct light over a leaf that is let stand, relative to `error`
+  double scale = 0.15;   // of the mean free path: side of the area that variation is weighed against, as in the oracle
+  double finest = 1.0;   // least area of a leaf that is still split: finest * error * that area
+  int shadowRays = 64;   // of a leaf
+  int gatherRays = 128;  // of a leaf
+};
+
+/// Whether the element is a leaf patch that has a row.
+inline bool receivesLight(const Elements& elements, ElementId e) {
+  const ElementTopology& t = elements.at(e);
+  return t.kind == ElementKind::Patch && t.childCount == 0 && !t.emitter && !t.blocker;
+}
+
 }  // namespace deltalux

@@ -6,24 +6,16 @@
 //
 // Where direct light varies over a leaf by more than the error allows, the leaf is split first: its own samples tell,
 // so shadow edges and the scallops of lamps are found where they are, not where links might have them.
-// Cost: about 64 + 128 rays a leaf; 16 bytes a transfer.
+// Cost: about 64 + 128 rays a leaf; 16 bytes a transfer. Rows of a moved scene: row_update.cpp.
 #include <span>
 
 #include "hierarchy/link.hpp"
+#include "radiosity/direct_rows.hpp"
 #include "radiosity/leaf_row.hpp"
 #include "radiosity/line_space.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
-
-struct LeafTransferSettings {
-  double error = 0.05;   // target relative error of irradiance
-  double variation = 2;  // of direct light over a leaf that is let stand, relative to `error`
-  double scale = 0.15;   // of the mean free path: side of the area that variation is weighed against, as in the oracle
-  double finest = 1.0;   // least area of a leaf that is still split: finest * error * that area
-  int shadowRays = 64;   // of a leaf
-  int gatherRays = 128;  // of a leaf
-};
 
 struct LeafTransferReport {
   std::uint64_t rays = 0, split = 0;
@@ -31,7 +23,12 @@ struct LeafTransferReport {
 
 struct LeafUpdateReport {
   std::uint64_t rays = 0, split = 0;
-  std::uint64_t examined = 0, direct = 0, indirect = 0;  // leaves; whose rows were made anew, in part or whole
+  std::uint64_t direct = 0, indirect = 0;  // rows that were made anew, in part or whole
+};
+
+/// Leaves whose rows may have to be made anew.
+struct ConcernedLeaves {
+  std::vector<ElementId> byLights, byLeaves;  // whose direct row, whose indirect row, in the order of ids
 };
 
 /// What one leaf receives from lights, and from leaves.
@@ -47,10 +44,16 @@ class LeafTransfers {
   LeafTransferReport build(Elements& elements, const Links&, const Scene&, const RayTracer&,
                            const LeafTransferSettings&);
 
-  /// Makes those rows anew, or parts of them, that a move of geometry can have changed: rows of leaves that moved or
-  /// are new, terms over links that have changed, terms whose rays meet what moved. `changed`: topmost changed links.
+  /// Which rows a move of geometry can have changed: of leaves that moved or are new, and of those below receivers of
+  /// touched and changed links. Rows of patches that are leaves no more are dropped. `changed`: topmost changed links.
+  ConcernedLeaves concerned(const Elements&, const Links&, const LinkMarks&, std::span<const LinkId> changed,
+                            const SpaceChange&);
+  /// Makes the rows of these leaves anew, or the terms of them over links that have changed or whose rays meet what
+  /// moved. Other rows stand as they are; their turn may come in a later call, also after further moves, when `marks`,
+  /// `changed` and `space` are those of all moves since.
   LeafUpdateReport update(Elements&, const Links&, const Scene&, const RayTracer&, const LeafTransferSettings&,
-                          const LinkMarks&, std::span<const LinkId> changed, const SpaceChange&);
+                          const LinkMarks&, std::span<const LinkId> changed, const SpaceChange&,
+                          const ConcernedLeaves&);
 
   bool empty() const { return rows_.empty(); }
   std::size_t memoryBytes() const;
@@ -67,10 +70,9 @@ class LeafTransfers {
  private:
   friend struct StoredTransfers;  // solution files
 
-  /// Samples direct rows of `fresh`, splitting leaves where light varies; calls keep(leaf, row) with each that stays.
-  template <class Keep>
-  void sampleDirect(std::vector<ElementId> fresh, Elements&, const Links&, const Scene&, const RayTracer&,
-                    const LeafTransferSettings&, LeafTransferReport&, const Keep&);
+  void dropNoLeaves(const Elements&);
+  /// By element: index of its row, or none.
+  std::vector<std::uint32_t> rowsByElement(const Elements&) const;
 
   std::vector<LeafRow> rows_;  // one a leaf
 };

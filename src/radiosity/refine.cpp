@@ -50,8 +50,10 @@ class Judge {
       : elements_(elements), scene_(scene), tracer_(tracer), oracle_(elements, settings) {}
 
   /// `candidates` are the parent's blockers; the link's own are appended to `arena`. Visibility is sampled by `least`
-  /// rays at least, when it is.
-  Verdict judge(Link link, int least, const ElementId* candidates, std::size_t count, Blockers& arena) const {
+  /// rays at least, when it is. `seen`: the ends saw each other before; then rays come first, and proof when none
+  /// passes.
+  Verdict judge(Link link, int least, const ElementId* candidates, std::size_t count, Blockers& arena,
+                bool seen = false) const {
     Verdict v;
     const bool leaf = link.state != LinkState::Interior;
     const Kernel k = kernel(elements_, scene_, link.receiver, link.sender);
@@ -76,17 +78,14 @@ class Judge {
     }
     if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) {
       shrink(link, candidates, count, v, arena);
-      const ElementId* own = arena.data() + v.blockers.begin;
       if (v.blockers.count == 0 && solidEnds(link)) {
         seeClear(link);
-      } else if (link.visibility == Visibility::Unknown &&
-                 provablyBlocked(elements_, scene_, link.receiver, link.sender, own, v.blockers.count)) {
-        link.visibility = Visibility::Blocked;
-        link.V = Rgb(0.0f);
-        link.visibilitySpread = 0;
+      } else if (link.visibility == Visibility::Unknown && !seen) {
+        proveBlocked(link, v, arena);
       }
     }
     if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) look(link, least, v);
+    if (seen && link.visibility == Visibility::Sampled && isBlack(link.V)) proveBlocked(link, v, arena);
     v.split = choose(link);
     v.link = link;
     return v;
@@ -107,15 +106,9 @@ class Judge {
     link.V = e.V, link.sampleMask = e.mask, link.visibilitySpread = e.spread;
     if (!same || link.state == LinkState::Interior) shrink(link, candidates, count, v, arena);
     if (!same) {
-      const ElementId* own = arena.data() + v.blockers.begin;
-      if (isBlack(e.V) && provablyBlocked(elements_, scene_, link.receiver, link.sender, own, v.blockers.count)) {
-        link.visibility = Visibility::Blocked;
-        link.visibilitySpread = 0;
-      } else if (v.blockers.count == 0 && solidEnds(link)) {
-        seeClear(link);
-      } else {
-        look(link, link.samples, v);
-      }
+      if (isBlack(e.V)) proveBlocked(link, v, arena);
+      if (v.blockers.count == 0 && solidEnds(link)) seeClear(link);
+      if (link.visibility == Visibility::Sampled) look(link, link.samples, v);
       link.state = LinkState::Active;
       v.split = choose(link);
     }
@@ -139,6 +132,14 @@ class Judge {
 
   bool solidEnds(const Link& link) const {
     return !elements_.isCluster(link.receiver) && !elements_.isCluster(link.sender);
+  }
+
+  void proveBlocked(Link& link, const Verdict& v, const Blockers& arena) const {
+    const ElementId* own = arena.data() + v.blockers.begin;
+    if (!provablyBlocked(elements_, scene_, link.receiver, link.sender, own, v.blockers.count)) return;
+    link.visibility = Visibility::Blocked;
+    link.V = Rgb(0.0f);
+    link.visibilitySpread = 0;
   }
 
   static void seeClear(Link& link) {
@@ -290,8 +291,9 @@ void markPaths(const Links& links, std::vector<Mark>& marks, LinkId id) {
     marks[up.index()] = Mark::Path;
 }
 
-constexpr float kSameKernel = 0.05f;   // relative difference that only weighs: rows know the kernel of their own terms
-constexpr float kSameOpenness = 2.0f;  // factor within which rays are still well shared out
+constexpr float kSameTransfer = 0.05f;  // relative difference of kernels that is no news: rows know their own
+constexpr float kSameKernel = 2.0f;     // factors within which rays are still well shared out
+constexpr float kSameOpenness = 4.0f;
 
 /// Chance that light passes, with what few samples leave open.
 float openness(const Link& l) {
@@ -302,21 +304,23 @@ float openness(const Link& l) {
 /// Whether a second look has found what the first did. Light changes all the while; a move is no reason to refine for
 /// it.
 bool sameTransfer(const Link& before, const Link& after) {
-  return std::abs(before.K - after.K) <= kSameKernel * before.K && before.V == after.V &&
+  return std::abs(before.K - after.K) <= kSameTransfer * before.K && before.V == after.V &&
          before.visibility == after.visibility &&
          (before.state == LinkState::Averted) == (after.state == LinkState::Averted);
 }
 
-/// Whether rows that sample `before` may stand, but for rays that meet what moved.
+/// Whether rows that sample `before` may stand, but for terms that meet what moved: those are taken anew one by one,
+/// and what now is less or more likely to be seen than their number says costs noise only.
 bool samePlan(const Link& before, const Link& after) {
   if (before.state != after.state) return false;
+  // What was proven clear was sampled by no ray, what was proven blocked not at all.
   if (before.visibility != after.visibility &&
-      (before.visibility != Visibility::Sampled || after.visibility == Visibility::Unknown))
-    return false;  // no ray was traced through what was proven
-  if (std::abs(before.K - after.K) > kSameKernel * before.K) return false;
-  if (before.fromLight) return true;  // every light in sight gets rays, and they are tested one by one
-  const float a = openness(before), b = openness(after);
-  return a <= kSameOpenness * b && b <= kSameOpenness * a;
+      (before.visibility != Visibility::Sampled || after.visibility == Visibility::Clear))
+    return false;
+  const auto alike = [](float a, float b, float factor) { return a <= factor * b && b <= factor * a; };
+  if (!alike(before.K, after.K, kSameKernel)) return false;
+  if (before.fromLight) return true;  // every light in sight gets rays
+  return after.visibility == Visibility::Blocked || alike(openness(before), openness(after), kSameOpenness);
 }
 
 /// One descent over marked links, level by level.
@@ -377,8 +381,9 @@ class Descent {
     Link link = links_[t.link];
     if (t.mark == Mark::Between) return judge.judgeBetween(link, *change_, candidates, t.candidates.count, arena);
     const int least = t.mark == Mark::Ends ? link.samples : 0;
+    const bool seen = t.mark == Mark::Ends && link.visibility == Visibility::Sampled && !isBlack(link.V);
     if (t.mark == Mark::Ends) link.state = LinkState::Active, link.visibility = Visibility::Unknown, link.samples = 0;
-    return judge.judge(link, least, candidates, t.candidates.count, arena);
+    return judge.judge(link, least, candidates, t.candidates.count, arena, seen);
   }
 
   void commit(const Task& task, Verdict& v, bool stopping, std::vector<Task>& next) {

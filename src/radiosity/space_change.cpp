@@ -63,4 +63,17 @@ bool SpaceChange::meets(const Vec3f& a, float radiusA, const Vec3f& b, float rad
   return glm::dot(off, off) <= reach * reach;
 }
 
+bool SpaceChange::meetsBeam(const Vec3f& center, float radius, const Vec3f& direction, float angle) const {
+  if (parts_.empty()) return false;
+  const Vec3f middle = 0.5f * (all_.lower + all_.upper), d = middle - center;
+  const float reach = 0.5f * glm::length(all_.upper - all_.lower) + radius;
+  const float along = glm::dot(d, direction), squared = glm::dot(d, d);
+  if (squared <= reach * reach || angle > 1.0f) return true;
+  // Seen from the ball's centre: the angle to the middle, against that of the beam and that under which both balls
+  // show.
+  const float length = std::sqrt(squared);
+  const float between = std::acos(std::clamp(along / length, -1.0f, 1.0f));
+  return between <= angle + std::asin(std::min(1.0f, reach / length));
+}
+
 }  // namespace deltalux

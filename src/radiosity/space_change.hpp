@@ -27,6 +27,8 @@ class SpaceChange {
   bool meets(const Vec3f& lower, const Vec3f& upper) const;
   /// Of the convex hull of two balls.
   bool meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const;
+  /// Of what leaves a ball in directions within an angle of `direction` (unit; the angle in radians).
+  bool meetsBeam(const Vec3f& center, float radius, const Vec3f& direction, float angle) const;
 
  private:
   struct Part {

@@ -1,0 +1,23 @@
+#pragma once
+// Direct rows of leaves, and the leaves that they need: where direct light varies over a leaf by more than the error
+// allows, the leaf is split and its parts sampled in turn.
+#include <functional>
+
+#include "radiosity/direct_sampler.hpp"
+
+namespace deltalux {
+
+struct DirectRowsReport {
+  std::uint64_t rays = 0, split = 0;
+};
+
+/// Samples the direct rows of `leaves`, splitting those of `elements` where light varies; calls keep(leaf, row) with
+/// each that stays, and sets its exposure.
+DirectRowsReport sampleDirectRows(std::vector<ElementId> leaves, Elements& elements, const Links&, const Scene&,
+                                  const RayTracer&, const LeafTransferSettings&,
+                                  const std::function<void(ElementId, TransferRow)>& keep);
+
+/// Whether a change of the leaf's direct light, each light's counted positive, may be worth a split.
+bool mayVary(const Elements&, ElementId leaf, double change, const LeafTransferSettings&);
+
+}  // namespace deltalux
