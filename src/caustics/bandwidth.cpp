@@ -7,7 +7,7 @@ namespace deltalux {
 namespace {
 
 constexpr double kNarrowest = 0.5;       // standard deviation in cells
-constexpr double kWidest = 16;           // in cells
+constexpr double kWidest = 8;            // in cells
 constexpr double kConfidence = 3;        // standard deviations of a difference that noise explains
 constexpr double kLeastParticles = 4.0;  // that a kernel expects when it is asked
 constexpr double kEnough = 16;           // particles that tell how noisy they are

@@ -10,17 +10,33 @@ namespace {
 
 Charts single(Chart chart) { return {{std::move(chart)}, {}}; }
 
-Charts chartsOfShape(const Polygon& p) {
+/// The rectangle around a polygon with sides along `alongS`, which lies in its plane.
+Chart rectangleAround(const Polygon& p, const Vec3& alongS) {
   PlaneChart plane;
-  plane.alongS = glm::normalize(p.edgeU);
-  plane.alongT = glm::cross(p.normal, plane.alongS);
+  plane.alongS = alongS;
+  plane.alongT = glm::cross(p.normal, alongS);
   Vec2 low(kInfinity), high(-kInfinity);
   for (const Vec3& v : p.vertices) {
     const Vec2 at(glm::dot(v - p.origin, plane.alongS), glm::dot(v - p.origin, plane.alongT));
     low = glm::min(low, at), high = glm::max(high, at);
   }
   plane.origin = p.origin + low.x * plane.alongS + low.y * plane.alongT;
-  return single({plane, high - low});
+  return {plane, high - low};
+}
+
+/// The smallest rectangle around a polygon: it has an edge along one of its convex hull's.
+Charts chartsOfShape(const Polygon& p) {
+  constexpr double kClearly = 0.999;  // smaller than the one found before
+  Chart smallest = rectangleAround(p, glm::normalize(p.edgeU));
+  const std::size_t step = 1 + p.vertices.size() / 64;  // many-sided ones are round
+  for (std::size_t i = 0; i < p.vertices.size(); i += step) {
+    const Vec3 edge = p.vertices[(i + 1) % p.vertices.size()] - p.vertices[i];
+    const Vec3 flat = edge - glm::dot(edge, p.normal) * p.normal;
+    if (!(glm::length(flat) > 0)) continue;
+    const Chart chart = rectangleAround(p, glm::normalize(flat));
+    if (chart.size.x * chart.size.y < kClearly * smallest.size.x * smallest.size.y) smallest = chart;
+  }
+  return single(smallest);
 }
 
 Charts chartsOfShape(const Ring& r) {

@@ -3,7 +3,7 @@
 // subdivision; reconstruction wants lengths that are true, or kernels become ellipses and poles become long wedges. So
 // textures have coordinates (s,t) of their own, in scene units of length:
 //
-//   Polygon, ring  the plane itself; what lies beyond the outline is masked.
+//   Polygon, ring  the plane itself, the smallest rectangle around them; what lies beyond the outline is masked.
 //   Cylinder, cone s around (at the widest circle), t along the side: closed in s, area element r(t) / r_max.
 //   Sphere         the same with t from pole to pole.
 //   Mesh           plane charts: patches of connected triangles within 45 degrees of their first one's plane, projected

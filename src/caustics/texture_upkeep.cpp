@@ -1,7 +1,6 @@
 #include "caustics/texture_upkeep.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
@@ -17,14 +16,18 @@ constexpr double kNoise = 0.25;           // of the noise of a tile's flux: smal
 constexpr double kFewest = 10;            // particles of one flux: fewer get no texture
 constexpr double kStrays = 2;             // particles that are no change where there are few
 constexpr double kOtherNoise = 1.25;      // times more or less noise matters: another reconstruction
+constexpr float kTexels = 256;            // across a side, at most: impacts that far apart are different ones
 constexpr std::size_t kParts = 8;         // of all impacts, summed apart
 
 std::size_t sideOf(const Particles& p, std::uint32_t impact) {
   return 2 * p.primitive[impact].index() + (p.triangleAndSide[impact] & 1);
 }
 
-bool sameImpact(const Particles& p, std::uint32_t a, std::uint32_t b) {
-  return p.primitive[a] == p.primitive[b] && p.triangleAndSide[a] == p.triangleAndSide[b] && p.uv[a] == p.uv[b];
+/// 1 for impacts at one place, 0 for those that textures tell apart.
+float sameness(const Particles& p, std::uint32_t a, std::uint32_t b) {
+  if (p.primitive[a] != p.primitive[b] || p.triangleAndSide[a] != p.triangleAndSide[b]) return 0.0f;
+  const glm::vec2 d = glm::abs(p.uv[a] - p.uv[b]);
+  return std::max(0.0f, 1 - kTexels * std::max(d.x, d.y));
 }
 
 /// body(part, begin, end) over kParts ranges of [0, count), in parallel.
@@ -82,20 +85,18 @@ TextureUpkeep::Report TextureUpkeep::follow(const ParticleUpdate& update, const 
   return report;
 }
 
-/// Impacts that came out the same keep what is known of them; the others' light was taken away, or is new.
+/// Impacts that came out where they were keep what is known of them; the others' light was taken away, or is new. What
+/// moved by a part of a texel is so in part.
 void TextureUpkeep::takeIn(const ParticleUpdate& update) {
   const Particles& p = parts_.particles;
   tileOf_.resize(p.impactSlots(), kNone), then_.resize(p.impactSlots(), 0.0f), now_.resize(p.impactSlots(), 0.0f);
   for (const RetracedPath& r : update.paths) {
     const std::uint32_t first = p.firstImpact(r.path), before = r.range.impact;
     for (std::uint32_t i = first; i < p.endImpact(r.path); ++i) {
+      tileOf_[i] = tiles_.tileOf(p, i);
       const std::uint32_t old = before + (i - first);
-      if (i - first < r.range.impacts && sameImpact(p, i, old)) {
-        tileOf_[i] = std::exchange(tileOf_[old], kNone);
-        then_[i] = std::exchange(then_[old], 0.0f);
-      } else {
-        tileOf_[i] = tiles_.tileOf(p, i);
-      }
+      const float same = i - first < r.range.impacts ? sameness(p, i, old) : 0.0f;
+      then_[i] = same * then_[old], then_[old] -= then_[i];
     }
     std::fill_n(now_.begin() + before, r.range.impacts, 0.0f);
   }

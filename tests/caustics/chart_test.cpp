@@ -66,6 +66,14 @@ TEST_P(ChartOfShape, DistancesNearbyAreTrue) {
 INSTANTIATE_TEST_SUITE_P(Kinds, ChartOfShape, testing::ValuesIn(test::causticShapes()),
                          [](const auto& kind) { return kind.param.name; });
 
+TEST(PolygonCharts, AreTheSmallestRectangle) {
+  // A gable wall whose first edge is its roof.
+  const Shape gable = *makePolygon({{2, 0, 3}, {4, 0, 2}, {4, 0, 0}, {0, 0, 0}, {0, 0, 2}});
+  const Vec2 size = chartsOf(gable).all[0].size;
+  EXPECT_NEAR(size.x * size.y, 12.0, 1e-9);
+  EXPECT_NEAR(std::min(size.x, size.y), 3.0, 1e-9);
+}
+
 TEST(MeshCharts, CoverEveryTriangleOnceAndKeepPatchesTogether) {
   const Mesh ball = test::ballMesh(24, 12);
   const Charts charts = chartsOf(Shape(ball));
