@@ -1,6 +1,5 @@
 // caustics_bench particles NAME SCENE OBJECT ERROR [LEAST MOST]
 // caustics_bench solve NAME SCENE ERROR
-// caustics_bench restriction SCENE OBJECT ERROR FOLDER
 //
 // Caustic textures, as CSV rows: scene, error, particles, measure, value, unit.
 //   particles    the textures of one object's surface against the truth, as the number of particles grows by factors of
@@ -8,14 +7,12 @@
 //                texels, less its own noise. Differences are root mean square, of gray irradiance, over its mean. The
 //                paper's way with its fixed values beside ours.
 //   solve        textures of a whole solution: how many, texels, time, share of the solve.
-//   restriction  pictures of one object's textures with and without restriction, of equal size, regions outlined.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <deltalux/engine.hpp>
-#include <deltalux/image_io.hpp>
 #include <deltalux/io.hpp>
 #include <stdexcept>
 
@@ -27,7 +24,6 @@ namespace deltalux::bench {
 namespace {
 
 constexpr int kTruthTexels = 128;
-constexpr int kPictureSize = 512;
 
 double cpuSeconds() {
   rusage usage{};
@@ -144,45 +140,6 @@ void measureSolve(const std::string& name, const std::string& file, double error
   row(name, error, n, "share of the solve", 100 * report.times.textures / report.times.total, "%");
 }
 
-/// The surface's square of parameters, with the outlines of all textures but the last.
-Image drawn(const SurfaceCaustics& s, const Shape& shape, bool outlined) {
-  Image image;
-  image.width = image.height = kPictureSize;
-  double brightest = 0;
-  for (int y = kPictureSize - 1; y >= 0; --y)
-    for (int x = 0; x < kPictureSize; ++x) {
-      image.pixels.push_back(s.irradianceAt(pointAt(shape, gridPoint(x, y, kPictureSize))) / static_cast<float>(kPi));
-      brightest = std::max(brightest, double(gray(image.pixels.back())));
-    }
-  if (!outlined) return image;
-  const Chart& chart = s.charts.all[0];
-  const auto indexAt = [&](int x, int y) -> std::size_t {
-    const Vec2 st = chart.place(pointAt(shape, gridPoint(x, y, kPictureSize)));
-    for (std::size_t i = 0; i < s.textures.size(); ++i)
-      if (s.textures[i].region.contains(st)) return i;
-    return s.textures.size();
-  };
-  for (int y = 0; y + 1 < kPictureSize; ++y)
-    for (int x = 0; x + 1 < kPictureSize; ++x)
-      if (indexAt(x, y) != indexAt(x + 1, y) || indexAt(x, y) != indexAt(x, y + 1))
-        image.at(x, kPictureSize - 1 - y) = Rgb(static_cast<float>(brightest));
-  return image;
-}
-
-void drawRestriction(const std::string& file, const std::string& object, double error, const std::string& folder) {
-  const Landed landed = landedOn(solved(file, error, 0, 1).solution().get(), object);
-  const auto restricted = makeCausticTextures(landed.shape, landed.impacts, {error, 0});
-  if (!restricted) throw std::runtime_error("the mesh shows it all");
-  const SurfaceCaustics whole =
-      makeUnrestrictedTextures(landed.shape, landed.impacts, {error, 0}, static_cast<int>(texelsOf(*restricted)));
-  const Image without = drawn(whole, landed.shape, false), with = drawn(*restricted, landed.shape, true);
-  ToneMapping mapping;
-  mapping.ev = automaticEv(without);
-  saveImage(folder + "/restriction-without.png", without, mapping);
-  saveImage(folder + "/restriction-with.png", with, mapping);
-  fmt::print("texels without {}, with {}\n", texelsOf(whole), texelsOf(*restricted));
-}
-
 int run(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   const auto number = [&](std::size_t i) { return std::stod(arguments.at(i)); };
@@ -192,8 +149,6 @@ int run(int argc, char** argv) {
                   arguments.size() > 6 ? static_cast<std::uint64_t>(number(6)) : 400000);
   else if (arguments.size() == 4 && arguments[0] == "solve")
     measureSolve(arguments[1], arguments[2], number(3));
-  else if (arguments.size() == 5 && arguments[0] == "restriction")
-    drawRestriction(arguments[1], arguments[2], number(3), arguments[4]);
   else
     throw std::runtime_error("see the head of caustics_bench.cpp for its arguments");
   return 0;
