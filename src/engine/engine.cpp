@@ -38,6 +38,7 @@ constexpr double kErrorFactor = 0.35;  // from round to round
 constexpr double kHasty = 8.0;         // first round when time is limited, against the first otherwise
 constexpr double kSettled = 1e-3;      // unsettled power, relative to emitted
 constexpr double kSettledRows = 1e-4;  // over rows, where an iteration costs next to nothing
+constexpr double kMostGaps = 1.5;      // size of particles with gaps, to that without
 constexpr int kMaxIterations = 64;
 constexpr float kBrighter = 8.0f;  // times as bright as when it was solved for, a light is solved for anew
 constexpr int kMaxRowIterations = 1024;
@@ -234,6 +235,7 @@ struct Engine::State {
     settleRows(progress);
     step.times.gather += gathering.seconds();
     followWithTextures(followed, step);
+    closeGaps();
     count();
     step.times.total = time.seconds();
     return step;
@@ -280,6 +282,16 @@ struct Engine::State {
     if (!growth.empty()) transfer.reset();  // particles may have landed there all the while
     step.times.hierarchy = time.seconds();
     return growth;
+  }
+
+  /// Paths that were traced anew leave gaps.
+  void closeGaps() {
+    Particles& p = solution->particles;
+    std::size_t used = 0;
+    for (const PathRange& r : p.range) used += r.vertices;
+    if (static_cast<double>(p.vertices.size()) <= kMostGaps * static_cast<double>(used)) return;
+    p.compact();
+    transfer.reset(), upkeep.reset();
   }
 
   /// Makes the textures anew whose light has changed.

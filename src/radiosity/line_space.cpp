@@ -59,7 +59,9 @@ LineSpace::Finding LineSpace::examine(LinkId id) const {
     case LinkState::Averted:
       break;
     case LinkState::Interior:
-      f.moved = f.moved && (change_.moved(l.receiver) || change_.moved(l.sender));
+      // (Its samples may lie on what has moved, whose shape is another by now.)
+      f.moved =
+          f.moved && (change_.moved(l.receiver) || change_.moved(l.sender) || l.visibility == Visibility::Sampled);
       // One that was refined for its shadow may no longer need to be.
       f.anew = resampled();
       break;

@@ -150,7 +150,9 @@ class Judge {
 
   bool sends(ElementId sender) const {
     const ElementTopology& s = elements_.at(sender);
-    if (s.kind != ElementKind::Patch || s.emitter) return true;
+    if (s.kind != ElementKind::Patch) return true;
+    if (!(elements_.shape(sender).area > 0)) return false;  // removed
+    if (s.emitter) return true;
     const ElementLight& l = elements_.radiometry[sender.index()];
     return !isBlack(l.rho) || !isBlack(l.tau);
   }

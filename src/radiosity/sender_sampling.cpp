@@ -45,7 +45,8 @@ PatchPoint samplePoint(const Elements& elements, const Scene& scene, ElementId e
     if (!next.valid()) break;
     e = next;
   }
-  if (elements.isPatch(e)) return samplePatch(elements, scene, e, a, b);
+  // What was removed keeps its elements, but has no surface.
+  if (elements.isPatch(e) && elements.shape(e).area > 0) return samplePatch(elements, scene, e, a, b);
   return {elements.shape(e).center, Vec3f(0.0f)};
 }
 
@@ -64,6 +65,7 @@ SenderSample sampleLeafOf(const Elements& elements, const Scene& scene, const Pa
     if (!next.valid()) break;
     s.leaf = next;
   }
+  if (!(elements.shape(s.leaf).area > 0)) return s;  // removed
   const PatchPoint y = samplePatch(elements, scene, s.leaf, a, b);
   const Vec3f d = y.position - x.position;
   const double squared = glm::dot(d, d);

@@ -1,0 +1,58 @@
+// Long sessions: 160 edits of a room, out and back, and 200 of the lodge.
+#include <deltalux/io.hpp>
+
+#include "support/furnished_room.hpp"
+#include "support/shared.hpp"
+#include "support/update_checks.hpp"
+
+namespace deltalux {
+namespace {
+
+TEST(RandomEditsSlow, OutAndBackAgainAndAgainMemoryLevelsOff) {
+  SolveSettings settings;
+  settings.error = 0.05, settings.particles = 20000;
+  Engine engine(test::furnishedRoom(), settings);
+  engine.solve();
+  const std::size_t start = test::heldBytes(engine);
+  test::RandomEdits edits(engine, test::editableOfFurnishedRoom(), 7);
+  std::vector<std::size_t> held;
+  for (int cycle = 0; cycle < 4; ++cycle) {
+    for (int i = 0; i < 20; ++i) {
+      edits.step();
+      test::expectValid(engine, edits.last());
+    }
+    edits.undoAll();
+    test::expectAsSolved(engine, settings, 0.01, 0.08);
+    held.push_back(test::heldBytes(engine));
+  }
+  // Leaves that were split for a shadow stay split, until there are none to split any more.
+  EXPECT_LT(static_cast<double>(held[3]), 1.1 * static_cast<double>(held[2]));
+  EXPECT_LT(held[3], 3 * start);
+}
+
+TEST(RandomEditsSlow, TwoHundredOnTheLodge) {
+  SolveSettings settings;
+  settings.error = 0.1;
+  Engine engine(loadScene({test::sourceFolder() / "scenes/lodge/morning.rad"}).scene, settings);
+  engine.solve();
+  const std::size_t start = test::heldBytes(engine);
+  test::RandomEdits edits(
+      engine,
+      {{"container", "dresser_bowl", "ring", "chest_vase", "crystal_ball", "stool", "piano_stool", "metronome",
+        "reading_chair", "coffee_table", "dresser_mirror", "picture_east", "side_table"},
+       {"sofa_lamp", "reading_lamp", "chandelier", "bedside_lamp", "basin_lamp", "sky"},
+       {"dresser_spot", "chest_spot"},
+       {"bedroom_paint", "east_wall_paint", "living_paint", "oak", "walnut", "pine", "floor_light"},
+       {"oak"},
+       0.3},
+      11);
+  for (int i = 0; i < 200; ++i) {
+    edits.step();
+    test::expectValid(engine, edits.last());
+  }
+  EXPECT_LT(test::heldBytes(engine), 2 * start);
+  test::expectAsSolved(engine, settings, 0.01, 0.1);
+}
+
+}  // namespace
+}  // namespace deltalux
