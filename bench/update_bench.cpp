@@ -1,6 +1,7 @@
 // update_bench replay NAME SCENE EDITS.json OPTIONS...
 // update_bench far NAME SCENE OPTIONS...
 // update_bench copies NAME SCENE EDITS.json K OPTIONS...
+// update_bench table1 NAME SCENE EDITS.json OPTIONS...
 //
 // Updates against solving, in one run, as CSV rows: one an edit (columns: kColumns). Times are wall seconds, and
 // processor seconds of all threads.
@@ -9,6 +10,8 @@
 //           edited scene, whose time is then the one that updates are related to; with `unchecked` none is.
 //   far     the scene with a small box ten of its diagonals away, which moves by its own size.
 //   copies  k copies of the scene side by side, the edits applied to the first: never checked.
+//   table1  the columns of Table 1 of [GD01] and what its Figures 7 and 9 tell of each position, with the published
+//           values beside ours where the scene is of the same kind (kTableColumns).
 // Options: diffuse-only, error=E, metres=M (of a scene unit), each, unchecked.
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -33,6 +36,8 @@ constexpr const char* kColumns =
     "links_total,links_changed,leaves_examined,leaves_renewed,leaves_total,particles_retraced,particles_total,"
     "textures_rebuilt,links_s,rows_s,particles_s,textures_s,peak_mib,median_percent,p95_percent,max_percent,"
     "particles_identical";
+
+constexpr const char* kTableColumns = "scene,measure,paper,ours,unit";
 
 enum class Checked { Last, Each, None };
 
@@ -192,6 +197,71 @@ void copies(const std::string& name, const std::string& scene, const std::string
        solve(sideBySide(loadScene({scene}, o.import).scene, k), o.settings), edits, Checked::None);
 }
 
+/// What [GD01 7] says of its scenes; nothing of ours that it has no like of.
+struct Published {
+  std::string name;
+  double polygons, solve, particles, octreeKb, update, leastRetraced, mostRetraced, leastPercent, mostPercent;
+  double textures, textureSide;
+};
+constexpr double kNotSaid = -1;
+const std::vector<Published> kPublished = {
+    {"cabin", 180000, 2144, 1600000, 370, 14.5, 0, 97000, 0, 6, 25, 85},  // [GD01 7, Table 1]
+    {"street", 47000, 4740, 800000, 2300, 96, 5700, 41000, 0.8, 17, kNotSaid, kNotSaid},
+};
+
+class Table {
+ public:
+  explicit Table(const std::string& scene) : scene_(scene) {
+    for (const Published& p : kPublished)
+      if (p.name == scene) published_ = p;
+  }
+  void row(const std::string& measure, double Published::*paper, double ours, const char* unit) const {
+    const bool said = paper && published_ && (*published_).*paper != kNotSaid;
+    fmt::print("{},{},{},{:.6g},{}\n", scene_, measure, said ? fmt::format("{:.6g}", (*published_).*paper) : "", ours,
+               unit);
+    std::fflush(stdout);
+  }
+
+ private:
+  std::string scene_;
+  std::optional<Published> published_;
+};
+
+void table1(const std::string& name, const std::string& file, const std::string& editsFile, const Options& o) {
+  const std::vector<Edit> edits = editsOf(editsFile, o.import);
+  Solved solved = solve(loadScene({file}, o.import).scene, o.settings);
+  const Table table(name);
+  std::uint64_t polygons = 0;
+  for (const Primitive& p : solved.engine.solution().scene().primitives) polygons += tessellatedPolygonCount(p.shape);
+  const WorkCounts counts = solved.engine.solution().report().counts;
+  table.row("polygons if tessellated", &Published::polygons, static_cast<double>(polygons), "");
+  table.row("first solution", &Published::solve, solved.took.wall, "s");
+  table.row("particles", &Published::particles, static_cast<double>(counts.particles), "");
+  table.row("caustic textures", &Published::textures, static_cast<double>(counts.causticTextures), "");
+  table.row("mean side of caustic textures", &Published::textureSide, counts.causticTextureMeanSize, "texels");
+  table.row("memory of the octree", &Published::octreeKb, 0, "KB");
+  double sum = 0, least = 1e30, most = 0, leastShare = 1e30, mostShare = 0;
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    const Stopwatch watch;
+    solved.engine.apply(edits[i]);
+    const StepReport step = solved.engine.update();
+    const double seconds = watch.wall(), retraced = static_cast<double>(step.particlesRetraced);
+    const double share = 100 * retraced / std::max(1.0, static_cast<double>(step.particlesTotal));
+    table.row(fmt::format("position {}: update", i + 1), nullptr, seconds, "s");
+    table.row(fmt::format("position {}: particles retraced", i + 1), nullptr, retraced, "");
+    table.row(fmt::format("position {}: particles retraced of all", i + 1), nullptr, share, "%");
+    sum += seconds, least = std::min(least, retraced), most = std::max(most, retraced);
+    leastShare = std::min(leastShare, share), mostShare = std::max(mostShare, share);
+  }
+  const double mean = sum / static_cast<double>(edits.size());
+  table.row("mean update", &Published::update, mean, "s");
+  table.row("particles retraced at least", &Published::leastRetraced, least, "");
+  table.row("particles retraced at most", &Published::mostRetraced, most, "");
+  table.row("particles retraced of all at least", &Published::leastPercent, leastShare, "%");
+  table.row("particles retraced of all at most", &Published::mostPercent, mostShare, "%");
+  table.row("first solution over mean update", nullptr, solved.took.wall / mean, "");
+}
+
 bool run(const std::vector<std::string>& words) {
   const auto command = words.empty() ? std::string() : words[0];
   const auto rest = [&](std::size_t from) {
@@ -201,6 +271,10 @@ bool run(const std::vector<std::string>& words) {
     fmt::print("{}\n", kColumns);
   else if (command == "replay" && words.size() >= 4)
     replay(words[1], words[2], words[3], rest(4));
+  else if (command == "table1-columns" && words.size() == 1)
+    fmt::print("{}\n", kTableColumns);
+  else if (command == "table1" && words.size() >= 4)
+    table1(words[1], words[2], words[3], rest(4));
   else if (command == "far" && words.size() >= 3)
     far(words[1], words[2], rest(3));
   else if (command == "copies" && words.size() >= 5)
@@ -221,10 +295,11 @@ int main(int argc, char** argv) {
     return 1;
   }
   std::fputs(
-      "usage: update_bench columns\n"
+      "usage: update_bench columns | table1-columns\n"
       "       update_bench replay NAME SCENE EDITS.json OPTIONS...\n"
       "       update_bench far NAME SCENE OPTIONS...\n"
       "       update_bench copies NAME SCENE EDITS.json K OPTIONS...\n"
+      "       update_bench table1 NAME SCENE EDITS.json OPTIONS...\n"
       "options: diffuse-only, error=E, metres=M, each, unchecked\n",
       stderr);
   return 2;
