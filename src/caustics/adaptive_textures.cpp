@@ -35,6 +35,17 @@ void resolve(const ChartSurface& surface, ChartPart& part, double perTexel, int 
   }
 }
 
+/// Makes do with as few texels as what is left asks for.
+void coarsen(const ChartSurface& surface, ChartPart& part) {
+  const auto count = [&] { return double(part.texels.x) * part.texels.y; };
+  const auto wanted = [&] {
+    const Vec2 size = part.region.size();
+    return std::max(size.x * size.y / texelArea(part, kCoarsePerTexel), double(kFirstTexels));
+  };
+  while (count() >= 4 * wanted() && surface.halve(part)) {
+  }
+}
+
 class AdaptiveTextures {
  public:
   AdaptiveTextures(const Shape& shape, const CausticSettings& settings)
@@ -73,6 +84,7 @@ class AdaptiveTextures {
       const ChartSurface surface(shape_, result_.charts, c);
       resolve(surface, parts_[c], kCoarsePerTexel, kCoarseTexels);
       takeRegionsOut(surface, parts_[c]);
+      coarsen(surface, parts_[c]);
       put(surface, parts_[c]);
     }
     return std::move(result_);

@@ -17,6 +17,20 @@ void ChartSurface::recut(ChartPart& part, glm::ivec2 texels) const {
   part.areas = coveredAreas(shape_, charts_, chart_, part.region, texels.x, texels.y);
 }
 
+bool ChartSurface::halve(ChartPart& part) const {
+  const glm::ivec2 from = part.texels, to = (from + 1) / 2;
+  if (chart().closed() && (from.x % 2 != 0 || from.y % 2 != 0)) return false;
+  std::vector<float> areas(static_cast<std::size_t>(to.x) * to.y, 0.0f);
+  for (int y = 0; y < from.y; ++y)
+    for (int x = 0; x < from.x; ++x)
+      areas[static_cast<std::size_t>(y / 2) * to.x + x / 2] += part.areas[static_cast<std::size_t>(y) * from.x + x];
+  const Vec2 texel = part.region.size() / Vec2(from);
+  part.region.upper = part.region.lower + 2.0 * texel * Vec2(to);
+  part.texels = to;
+  part.areas = std::move(areas);
+  return true;
+}
+
 ChartPart ChartSurface::takeOut(ChartPart& from, const CellGrid& grid, const TexelBox& box, glm::ivec2 texels) const {
   const int width = from.texels.x;
   const auto inside = [&](std::size_t texel) {

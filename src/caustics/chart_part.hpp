@@ -24,6 +24,8 @@ class ChartSurface {
   ChartPart whole(glm::ivec2 texels, std::vector<ChartImpact>) const;
   /// The same region and particles in `texels`. Not for parts that something was taken out of.
   void recut(ChartPart&, glm::ivec2 texels) const;
+  /// Joins texels two by two each way; false on closed charts that do not come out even.
+  bool halve(ChartPart&) const;
   /// The part under a box of `grid`, which is `from`'s: with its particles removed from `from`, and its texels.
   ChartPart takeOut(ChartPart& from, const CellGrid& grid, const TexelBox&, glm::ivec2 texels) const;
 
