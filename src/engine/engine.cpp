@@ -62,6 +62,8 @@ struct Engine::State {
   TimeBudget budget{0};
   SceneUpdate pending;                       // edits since the last update
   std::optional<ParticleTracing> tracing;    // knows the scene that the particles are of
+  RgbSum unsettled{0.0};                     // power that the last iteration of rows changed
+  bool counted = true;                       // the report is of the solution as it is
   std::optional<ParticleTransfer> transfer;  // of the particles, on the mesh of the rows
   std::optional<TextureUpkeep> upkeep;       // of the textures, once there are edits
 
@@ -200,7 +202,7 @@ struct Engine::State {
     const GatherPlan plan(s.links, s.elements);
     plan.gatherDirect(s.elements);
     const ParticleTransfer onMesh(s.particles, s.elements, s.scene);
-    RgbSum unsettled(0.0), emitted(0.0);
+    RgbSum emitted(0.0);
     for (int i = 0; i < kMaxIterations; ++i) {
       plan.gatherIndirect(s.elements);
       onMesh.apply(s.elements, s.scene);
@@ -236,7 +238,7 @@ struct Engine::State {
     step.times.gather += gathering.seconds();
     followWithTextures(followed, step);
     closeGaps();
-    count();
+    counted = false;
     step.times.total = time.seconds();
     return step;
   }
@@ -279,7 +281,7 @@ struct Engine::State {
     const Clock time;
     const Growth growth = growInLight(*solution, edits, followed);
     DELTALUX_VALIDATED(validate(solution->elements));
-    if (!growth.empty()) transfer.reset();  // particles may have landed there all the while
+    if (growth.root.valid()) transfer.reset();  // particles may have landed there all the while
     step.times.hierarchy = time.seconds();
     return growth;
   }
@@ -457,7 +459,6 @@ struct Engine::State {
   /// Gathers over rows, from the light there is, until it no longer changes.
   bool settleRows(Progress* progress) {
     Solution& s = *solution;
-    RgbSum unsettled(0.0);
     s.transfers.gatherDirect(s.elements);
     pull(s.elements);
     const RgbSum emitted = directPower();
@@ -470,7 +471,6 @@ struct Engine::State {
       if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
       if (gray(unsettled) <= kSettledRows * gray(emitted)) break;
     }
-    s.report.energy = energyBalance(s, unsettled);
     return gray(unsettled) <= kSettledRows * gray(emitted);
   }
 
@@ -487,8 +487,10 @@ struct Engine::State {
     return !t.emitter && !t.blocker && t.kind == ElementKind::Patch && t.childCount == 0;
   }
 
+  /// Sums that take a walk over everything, for who looks at the report.
   void count() {
     Solution& s = *solution;
+    if (finished) s.report.energy = energyBalance(s, unsettled);
     WorkCounts& c = s.report.counts;
     c.elements = s.elements.size();
     c.leafElements = 0;
@@ -499,6 +501,7 @@ struct Engine::State {
     s.report.memory.elements = s.elements.memoryBytes();
     s.report.memory.links = s.links.memoryBytes() + s.transfers.memoryBytes();
     s.report.memory.peakRss = peakResidentBytes();
+    counted = true;
   }
 };
 
@@ -544,6 +547,9 @@ StepReport Engine::update(Progress* progress) {
   return state_->update(progress);
 }
 
-SolutionView Engine::solution() const { return SolutionView(state_->solution); }
+SolutionView Engine::solution() const {
+  if (!state_->counted) state_->count();
+  return SolutionView(state_->solution);
+}
 
 }  // namespace deltalux

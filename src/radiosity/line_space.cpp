@@ -59,11 +59,9 @@ LineSpace::Finding LineSpace::examine(LinkId id) const {
     case LinkState::Averted:
       break;
     case LinkState::Interior:
-      // (Its samples may lie on what has moved, whose shape is another by now.)
-      f.moved =
-          f.moved && (change_.moved(l.receiver) || change_.moved(l.sender) || l.visibility == Visibility::Sampled);
-      // One that was refined for its shadow may no longer need to be.
+      // One that was refined for its shadow may no longer need to be; clusters with what moved stay refined.
       f.anew = resampled();
+      f.moved = f.moved && (change_.moved(l.receiver) || change_.moved(l.sender));
       break;
     case LinkState::Active:
       f.touched = l.visibility != Visibility::Blocked;

@@ -40,7 +40,8 @@ struct Task {
 struct Verdict {
   Link link;  // as judged
   Split split = Split::None;
-  ListRef blockers;  // in the arena of the block, then of the level
+  ListRef blockers;      // in the arena of the block, then of the level
+  bool refined = false;  // as the link was before, it would be refined today
   std::uint16_t rays = 0;
 };
 
@@ -114,6 +115,12 @@ class Judge {
     }
     v.link = link;
     return v;
+  }
+
+  /// Whether the link, as it stands, would be split.
+  bool splits(Link link) const {
+    link.state = LinkState::Active;
+    return link.receiver == link.sender || choose(link) != Split::None;
   }
 
   /// Whether an active link, as it stands, would be worth another look.
@@ -380,7 +387,14 @@ class Descent {
   static constexpr std::size_t kBlock = 256;
 
   Verdict verdictOf(const Judge& judge, const Task& t, const ElementId* candidates, Blockers& arena) const {
-    Link link = links_[t.link];
+    const Link& link = links_[t.link];
+    Verdict v = judged(judge, link, t, candidates, arena);
+    v.refined =
+        t.mark != Mark::Path && link.state == LinkState::Interior && v.split == Split::None && judge.splits(link);
+    return v;
+  }
+
+  Verdict judged(const Judge& judge, Link link, const Task& t, const ElementId* candidates, Blockers& arena) const {
     if (t.mark == Mark::Between) return judge.judgeBetween(link, *change_, candidates, t.candidates.count, arena);
     const int least = t.mark == Mark::Ends ? link.samples : 0;
     const bool seen = t.mark == Mark::Ends && link.visibility == Visibility::Sampled && !isBlack(link.V);
@@ -396,7 +410,8 @@ class Descent {
       if (links_[id].state == LinkState::Interior) descend(task, v, next, false);
       return;
     }
-    if (links_[id].state == LinkState::Interior && (!anew || v.split != Split::None)) {
+    // A link collapses for what a move has changed, not for light that has settled since it was refined.
+    if (links_[id].state == LinkState::Interior && (!anew || v.split != Split::None || !v.refined)) {
       if (anew) links_.judged(id, v.link);
       descend(task, v, next, false);
       return;
