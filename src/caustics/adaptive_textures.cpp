@@ -117,7 +117,7 @@ class AdaptiveTextures {
     const CellGrid grid = surface.grid(whole);
     const CellLight light = collect(grid, whole.impacts);
     const std::vector<Rgb> E = reconstructAdaptive(grid, light, rule_);
-    const double difference = kMatters * rule_.error * (medianOfFlux(grid, E) + rule_.background);
+    const double difference = kMatters * rule_.error * (medianOfFlux(grid, grayOf(E)) + rule_.background);
     for (const TexelBox& box : markedBoxes(grid, cellsOffMedian(grid, E, difference), kMargin)) {
       if (particlesIn(box, grid, whole) < kLeastParticles) continue;
       ChartPart region = surface.takeOut(whole, grid, box, glm::ivec2(1));

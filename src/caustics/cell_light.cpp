@@ -40,17 +40,24 @@ double typicalIrradiance(std::span<const double> flux, std::span<const double> s
   return total > 0 && whole > 0 ? std::max(pairs / total, total / whole) : 0.0;
 }
 
-double medianOfFlux(const CellGrid& grid, const std::vector<Rgb>& E) {
+double medianOfFlux(const CellGrid& grid, const std::vector<float>& E) {
   std::vector<std::pair<double, double>> cells;  // E, flux
   double total = 0, below = 0;
   for (std::size_t i = 0; i < E.size(); ++i) {
-    cells.emplace_back(gray(E[i]), double(gray(E[i])) * grid.area(i));
+    cells.emplace_back(E[i], double(E[i]) * grid.area(i));
     total += cells.back().second;
   }
   std::sort(cells.begin(), cells.end());
   for (const auto& [e, flux] : cells)
     if ((below += flux) >= 0.5 * total) return e;
   return 0;
+}
+
+std::vector<float> grayOf(const std::vector<Rgb>& E) {
+  std::vector<float> result;
+  result.reserve(E.size());
+  for (const Rgb& e : E) result.push_back(gray(e));
+  return result;
 }
 
 double typicalIrradiance(const CellGrid& grid, const CellLight& light) {

@@ -46,11 +46,11 @@ float opennessOf(double squaredJump, double contrast) {
 }
 
 /// The middle one of a cell's gray value and its neighbours'.
-float medianAround(const CellGrid& grid, const std::vector<Rgb>& E, std::size_t cell) {
-  float values[64] = {gray(E[cell])};
+float medianAround(const CellGrid& grid, const std::vector<float>& E, std::size_t cell) {
+  float values[64] = {E[cell]};
   std::size_t count = 1;
   for (const CellGrid::Border& b : grid.bordersOf(cell))
-    if (count < std::size(values)) values[count++] = gray(E[b.cell]);
+    if (count < std::size(values)) values[count++] = E[b.cell];
   std::nth_element(values, values + count / 2, values + count);
   return std::max(values[count / 2], 0.0f);
 }
@@ -81,7 +81,7 @@ Walls blurredWalls(const CellGrid& grid, const CellLight& light) {
   return walls;
 }
 
-std::vector<float> sharpWalls(const CellGrid& grid, const std::vector<Rgb>& E, double darkness) {
+std::vector<float> sharpWalls(const CellGrid& grid, const std::vector<float>& E, double darkness) {
   std::vector<double> clean;
   for (std::size_t i = 0; i < grid.size(); ++i) clean.push_back(medianAround(grid, E, i) + darkness);
   std::vector<float> openness;

@@ -22,6 +22,6 @@ struct Walls {
 Walls blurredWalls(const CellGrid&, const CellLight&);
 
 /// `darkness`: differences below it do not matter [W/m2].
-std::vector<float> sharpWalls(const CellGrid&, const std::vector<Rgb>& E, double darkness);
+std::vector<float> sharpWalls(const CellGrid&, const std::vector<float>& E, double darkness);
 
 }  // namespace deltalux
