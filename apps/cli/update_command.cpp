@@ -23,6 +23,10 @@ class Session {
     std::visit([&](const auto& s) { apply(s); }, step);
     return engine_.update(&progress);
   }
+  StepReport show(const EditStep& step, double milliseconds) {
+    std::visit([&](const auto& s) { apply(s); }, step);
+    return engine_.frame(milliseconds);
+  }
 
  private:
   void apply(const Edit& edit) {
@@ -48,12 +52,15 @@ struct UpdateOptions {
   RunOptions run;
   std::string edits, output;
   bool check = false;
+  double frameMs = 0;  // 0: no motion
 };
 
 void describe(const StepReport& step, Run& run) {
-  run.say(fmt::format("{} {}: {:.0f} ms, {} links visited, {} changed, {} of {} particles retraced", step.op,
-                      step.object, 1e3 * step.times.total, step.linksVisited, step.linksChanged, step.particlesRetraced,
-                      step.particlesTotal));
+  std::string line = fmt::format("{} {}: {:.0f} ms, {} links visited, {} changed, {} of {} particles retraced", step.op,
+                                 step.object, 1e3 * step.times.total, step.linksVisited, step.linksChanged,
+                                 step.particlesRetraced, step.particlesTotal);
+  if (step.staleW) line += fmt::format(", {} deferred, {:.3g} W stale", step.deferred, *step.staleW);
+  run.say(line);
 }
 
 void runUpdate(const UpdateOptions& options) {
@@ -77,6 +84,17 @@ void runUpdate(const UpdateOptions& options) {
   run.finish();
 }
 
+/// Every edit a frame, and an update when motion stops.
+void drag(Engine& engine, Session& session, const std::vector<EditStep>& steps, double frameMs,
+          std::vector<StepReport>& rows, Progress& progress) {
+  for (const EditStep& step : steps)
+    if (const auto* edit = std::get_if<Edit>(&step))
+      if (const auto* moves = std::get_if<TransformObject>(edit)) engine.select(moves->object);
+  for (const EditStep& step : steps) rows.push_back(session.show(step, frameMs));
+  rows.push_back(engine.update(&progress));
+  rows.back().op = "settle";
+}
+
 void runReplay(const UpdateOptions& options) {
   Run run("replay", options.run);
   {
@@ -87,7 +105,10 @@ void runReplay(const UpdateOptions& options) {
     validateEdits(imported.scene, steps, options.edits);
     Engine engine(options.solve.solve(std::move(imported.scene), run, options.run, progress));
     Session session(engine);
-    for (const EditStep& step : steps) run.report.steps.push_back(session.take(step, progress));
+    if (options.frameMs > 0)
+      drag(engine, session, steps, options.frameMs, run.report.steps, progress);
+    else
+      for (const EditStep& step : steps) run.report.steps.push_back(session.take(step, progress));
     if (options.check) {
       Engine fresh(engine.solution().scene(), engine.solution().settings());
       const SolveReport solved = fresh.solve(&progress);
@@ -122,6 +143,10 @@ void addReplayCommand(CLI::App& app) {
   options->scene.add(*command);
   options->solve.add(*command);
   command->add_option("--edits", options->edits, "What to do to the scene")->type_name("E.json")->required();
+  command
+      ->add_option("--frame-ms", options->frameMs,
+                   "As a drag: each edit takes about that long and leaves the rest for later; then all is settled")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--check", options->check, "At the end solve from scratch too, and say what differs");
   options->run.addLongWork(*command);
   options->run.addReport(*command);

@@ -33,6 +33,17 @@ class Engine {
   /// than when they were solved for, make it solve the scene afresh.
   StepReport update(Progress* progress = nullptr);
 
+  // Motion: an object that is dragged, shown many times a second.
+
+  /// Prepares for edits that move an object: the first of them would take that time otherwise. Unknown names do
+  /// nothing.
+  void select(const std::string& object);
+  /// As much of an update as fits into so much time, the light that most is deposited of first. What it could not do
+  /// waits: the report says how much, and how much light is not yet where it would be. Light is nowhere twice. Frames
+  /// to come go on with it, and update() ends it: the solution is then what one update() after all edits had made of
+  /// it.
+  StepReport frame(double milliseconds, Progress* progress = nullptr);
+
   SolutionView solution() const;
 
  private:

@@ -40,7 +40,9 @@ struct StepReport {
   PhaseTimes times;
   std::uint64_t linksVisited = 0, linksChanged = 0;
   std::uint64_t leavesExamined = 0, leavesRenewed = 0;  // whose rows were looked at; made anew, in part or whole
-  std::uint64_t particlesRetraced = 0, particlesTotal = 0, texturesRebuilt = 0, deferred = 0;
+  std::uint64_t particlesRetraced = 0, particlesTotal = 0, texturesRebuilt = 0;
+  std::uint64_t deferred = 0;    // in motion: particles, surfaces and lights that wait
+  std::optional<double> staleW;  // in motion: light that is not yet where it would be [W]; absent in JSON otherwise
 };
 
 /// An updated solution against one solved from scratch.

@@ -11,6 +11,8 @@
 #include "caustics/texture_upkeep.hpp"
 #include "engine/energy_balance.hpp"
 #include "engine/growth.hpp"
+#include "engine/motion.hpp"
+#include "engine/moving_groups.hpp"
 #include "engine/particle_count.hpp"
 #include "engine/scene_update.hpp"
 #include "engine/time_budget.hpp"
@@ -66,6 +68,8 @@ struct Engine::State {
   bool counted = true;                       // the report is of the solution as it is
   std::optional<ParticleTransfer> transfer;  // of the particles, on the mesh of the rows
   std::optional<TextureUpkeep> upkeep;       // of the textures, once there are edits
+  Backlog backlog;                           // what edits that were taken in have still to do
+  MovingGroups groups;                       // of the tracer
 
   SolveReport step(Progress* progress) {
     const Clock time;
@@ -215,32 +219,123 @@ struct Engine::State {
     return gray(unsettled) <= kSettled * gray(emitted);
   }
 
+  struct Motion {
+    SpaceChange all;                // bounds before and after
+    std::vector<ElementId> inputs;  // of what moves
+    LinkMarks marks;
+  };
+
   /// What a fresh solve would make of the edited scene, from the solution there is. [GD01 5]
   StepReport update(Progress* progress) {
     const Clock time;
     StepReport step;
-    step.op = pending.op, step.object = pending.subject;
-    const SceneUpdate edits = std::exchange(pending, {});
-    if (!haveElements(solution->elements, solution->scene, edits) || outshines(edits)) {
+    takeIn(step);
+    if (backlog.afresh) {
       solveAfresh(progress);
       step.times.total = time.seconds();
       return step;
     }
-    const std::vector<ElementId> reflecting = relight(edits);
+    const SceneUpdate edits = std::exchange(backlog.links, {});
     Motion motion = leave(edits, step);
-    const ParticleUpdate followed = followWithParticles(edits, step);
-    Growth growth = grow(edits, followed, step);
-    growth.woken.insert(growth.woken.end(), reflecting.begin(), reflecting.end());
-    arrive(motion, growth, step);
+    ParticleUpdate followed;
+    if (tracing) followed = followWithParticles(tracing->waiting().size(), step);
+    const bool split = subdivideWhereParticlesLanded(step);
+    arriveInLight(edits, motion, split, step);
+    // Frames may have found origins on what had moved where its elements did not stand yet.
+    if (std::exchange(backlog.frames, false) || split) transfer.reset();
     placeParticles(followed, step);
     const Clock gathering;
     settleRows(progress);
     step.times.gather += gathering.seconds();
-    followWithTextures(followed, step);
-    closeGaps();
+    followWithTextures(step);
+    if (gapsAreMany()) closeGaps();
     counted = false;
     step.times.total = time.seconds();
     return step;
+  }
+
+  /// What moves, and sides that come into the light by it.
+  void arriveInLight(const SceneUpdate& edits, Motion& motion, bool split, StepReport& step) {
+    Growth growth = grow(edits, backlog.landed, step);
+    const std::vector<ElementId> reflecting = std::exchange(backlog.reflecting, {});
+    growth.woken.insert(growth.woken.end(), reflecting.begin(), reflecting.end());
+    if (split || !motion.marks.changes.empty() || !growth.empty()) arrive(motion, growth, step);
+  }
+
+  /// As much of an update as fits. [GD01 4.3]
+  StepReport frame(double seconds) {
+    const Clock time;
+    const auto left = [&] { return seconds - time.seconds(); };
+    Solution& s = *solution;
+    StepReport step;
+    constexpr double kLikely = 0.02;  // of the time of a solve
+    if (!backlog.follow.known()) backlog.follow.learn(kLikely * s.report.times.total);
+    if (gapsAreMany()) {  // what the paths were, textures have to see first
+      if (tracing && transfer) followWithTextures(step);
+      closeGaps();
+    }
+    if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
+    const bool relit = !pending.dimmed.empty();
+    takeIn(step, true);
+    backlog.frames = true;
+    if (!backlog.afresh) {
+      if (tracing && !tracing->allWait() && !tracing->waiting().empty()) followInPart(left, step);
+      const bool links = backlog.linksWait() && backlog.follow.seconds() < left();
+      if (links) followWithLinks(step);
+      if (links || relit) s.transfers.gatherDirect(s.elements);
+      iterate(left, step);
+    }
+    countWaiting(step);
+    step.particlesTotal = s.report.counts.particles;
+    step.times.total = time.seconds();
+    return step;
+  }
+
+  void countWaiting(StepReport& step) const {
+    const Solution& s = *solution;
+    step.deferred = backlog.links.moved.size() + backlog.links.movedLights.size();
+    double stale = backlog.linksWait() ? lightOn(s, backlog.links) : 0.0;
+    if (tracing && tracing->allWait()) {
+      step.deferred += s.particles.paths();
+      for (std::size_t path = 0; path < s.particles.paths(); ++path) stale += deposited(s, *transfer, path);
+    } else if (tracing) {
+      step.deferred += tracing->waiting().size();
+      for (const ParticleTracing::Waiting& w : tracing->waiting()) stale += w.worth;
+    }
+    step.staleW = stale * s.scene.metresPerUnit * s.scene.metresPerUnit;
+  }
+
+  /// Edits reach the scene's emission, the tracer, and the lists of what has to follow.
+  void takeIn(StepReport& step, bool inMotion = false) {
+    const SceneUpdate edits = std::exchange(pending, {});
+    step.op = edits.op, step.object = edits.subject;
+    backlog.afresh |= !haveElements(solution->elements, solution->scene, edits) || outshines(edits);
+    if (backlog.afresh) return;
+    const std::vector<ElementId> reflecting = relight(edits);
+    backlog.reflecting.insert(backlog.reflecting.end(), reflecting.begin(), reflecting.end());
+    std::vector<PrimitiveId> moved;
+    for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
+    groups.rebuild(tracer(), moved);
+    backlog.add(edits);
+    if (!tracing) return;
+    const Clock time;
+    ParticleTracing::Worth worth;
+    if (inMotion) worth = [&](std::size_t path) { return deposited(*solution, *transfer, path); };
+    tracing->note(solution->particles, edits.whole, worth);
+    step.times.particles += time.seconds();
+  }
+
+  /// Nobody traces now, and who holds the solution holds the engine's tracer.
+  RayTracer& tracer() { return *std::const_pointer_cast<RayTracer>(solution->tracer); }
+
+  /// Links and rows, to where things are now, and particles onto the mesh that there is then.
+  void followWithLinks(StepReport& step) {
+    const Clock time;
+    const SceneUpdate edits = std::exchange(backlog.links, {});
+    Motion motion = leave(edits, step);
+    arriveInLight(edits, motion, false, step);
+    transfer.emplace(solution->particles, solution->elements, solution->scene);
+    backlog.follow.learn(time.seconds());
   }
 
   /// Whether a light is so much brighter than when links were refined and rows sampled that it needs its own.
@@ -251,18 +346,81 @@ struct Engine::State {
     });
   }
 
-  /// Retraces the particles that the edits can touch. [GD01 4]
-  ParticleUpdate followWithParticles(const SceneUpdate& edits, StepReport& step) {
+  /// Traces those that deposit the most anew, as many as there is time for, and carries their light along.
+  template <class Left>
+  void followInPart(const Left& left, StepReport& step) {
+    constexpr std::size_t kFewest = 256;  // so that every frame gets on
     Solution& s = *solution;
-    if (!tracing) return {};
+    const double time = left() - backlog.carry.seconds() - backlog.deposit.seconds();
+    const auto fit = static_cast<std::size_t>(std::max(0.0, time) / backlog.path.seconds());
+    const ParticleUpdate followed = followWithParticles(std::max(kFewest, fit), step);
+    const Clock carrying;
+    TextureFlux textures(s);
+    textures.takeOut(followed, *transfer);
+    transfer->follow(s.particles, followed, s.elements, s.scene);
+    carryTextures(textures, followed);
+    backlog.carry.learn(carrying.seconds());
+    step.times.particles += carrying.seconds();
+  }
+
+  /// Retraces particles that edits have touched: `count` of those that wait. [GD01 4]
+  ParticleUpdate followWithParticles(std::size_t count, StepReport& step) {
+    Solution& s = *solution;
     const Clock time;
-    ParticleUpdate followed = tracing->follow(s.particles, edits.whole);
+    ParticleUpdate followed =
+        tracing->allWait() ? tracing->retraceAll(s.particles) : tracing->retrace(s.particles, count);
     DELTALUX_VALIDATED(validate(s.particles, s.scene));
-    countParticles();
+    constexpr std::size_t kTelling = 2048;  // fewer paths cost what starting costs
+    if (followed.paths.size() >= kTelling)
+      backlog.path.learn(time.seconds(), static_cast<double>(followed.paths.size()));
+    backlog.add(followed);
+    if (!backlog.frames) countParticles();
     step.particlesRetraced = followed.all ? s.particles.arrived() : followed.particles;
     step.particlesTotal = s.particles.arrived();
     step.times.particles += time.seconds();
     return followed;
+  }
+
+  void carryTextures(TextureFlux& textures, const ParticleUpdate& followed) {
+    Solution& s = *solution;
+    if (backlog.textures.empty()) backlog.textures = s.caustics.surfaces;
+    textures.putIn(followed, *transfer);
+    textures.apply(s.caustics, backlog.textures);
+  }
+
+  /// Brings the particles' light to the elements, and hands on light as often as there is time for.
+  template <class Left>
+  void iterate(const Left& left, StepReport& step) {
+    Solution& s = *solution;
+    const Clock time;
+    transfer->apply(s.elements, s.scene);
+    pull(s.elements);
+    backlog.deposit.learn(time.seconds());
+    const double emitted = backlog.pass.seconds() < left() ? gray(directPower()) : 0.0;
+    while (backlog.pass.seconds() < left()) {
+      const Clock passing;
+      s.transfers.gatherIndirect(s.elements);
+      transfer->apply(s.elements, s.scene);
+      const double unsettled = gray(pull(s.elements));
+      backlog.pass.learn(passing.seconds());
+      ++s.report.counts.iterations;
+      if (unsettled <= kSettledRows * emitted) break;
+    }
+    step.times.gather += time.seconds();
+  }
+
+  /// Where light of particles is new. It is sent on from where it lies, so the mesh must know.
+  bool subdivideWhereParticlesLanded(StepReport& step) {
+    Solution& s = *solution;
+    const Clock time;
+    if (!tracing) return false;
+    if (backlog.landed.paths.empty() && !backlog.landed.all) return false;
+    std::vector<bool> shown(2 * s.scene.primitives.size(), false);
+    for (const SurfaceCaustics& c : s.caustics.surfaces) shown[2 * c.primitive.index() + (c.front ? 0 : 1)] = true;
+    const std::size_t split = subdivideForParticles(s.elements, s.scene, s.particles, shown,
+                                                    sidesThatKeepTheirMesh(s.scene, s.particles, backlog.landed));
+    step.times.particles += time.seconds();
+    return split > 0;
   }
 
   /// On the mesh as it is now.
@@ -287,19 +445,23 @@ struct Engine::State {
   }
 
   /// Paths that were traced anew leave gaps.
-  void closeGaps() {
-    Particles& p = solution->particles;
+  bool gapsAreMany() const {
+    const Particles& p = solution->particles;
     std::size_t used = 0;
     for (const PathRange& r : p.range) used += r.vertices;
-    if (static_cast<double>(p.vertices.size()) <= kMostGaps * static_cast<double>(used)) return;
-    p.compact();
+    return static_cast<double>(p.vertices.size()) > kMostGaps * static_cast<double>(used);
+  }
+  void closeGaps() {
+    solution->particles.compact();
     transfer.reset(), upkeep.reset();
   }
 
   /// Makes the textures anew whose light has changed.
-  void followWithTextures(const ParticleUpdate& followed, StepReport& step) {
+  void followWithTextures(StepReport& step) {
     Solution& s = *solution;
     const Clock time;
+    const ParticleUpdate followed = std::exchange(backlog.landed, {});
+    if (!backlog.textures.empty()) s.caustics.surfaces = std::exchange(backlog.textures, {});
     if (!upkeep || followed.all) {
       upkeep.reset();
       chooseTextures();
@@ -314,8 +476,27 @@ struct Engine::State {
   }
 
   Restore apply(const Edit& edit) {
-    if (pending.empty()) prepareToFollow();
+    if (pending.empty() && !backlog.frames) prepareToFollow();
     return applyInto(pending, solution->scene, edit);
+  }
+
+  /// Gives an object a place of its own in the tracer, and makes ready what updates need to know.
+  void select(const std::string& object) {
+    Solution& s = *solution;
+    const std::vector<ObjectId> found = findObjects(s.scene, object);
+    std::vector<PrimitiveId> primitives;
+    for (const ObjectId id : found)
+      for (const PrimitiveId p : primitivesOf(s.scene, id)) primitives.push_back(p);
+    std::sort(primitives.begin(), primitives.end());
+    primitives.erase(std::unique(primitives.begin(), primitives.end()), primitives.end());
+    groups.separate(tracer(), s.scene, primitives);
+    if (pending.empty() && !backlog.frames) prepareToFollow();
+    if (!finished) return;
+    if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
+    Box box;
+    for (const PrimitiveId p : primitives)
+      if (const Box b = bounds(s.scene[p].shape); !b.empty()) box.extend(b);
+    if (tracing) tracing->expectMotion(s.particles, box);
   }
 
   /// While the scene is still what the particles and textures are of.
@@ -332,7 +513,7 @@ struct Engine::State {
   void solveAfresh(Progress* progress) {
     Solution& s = *solution;
     s.tracer = makeEmbreeTracer(s.scene);
-    tracing.reset(), transfer.reset(), upkeep.reset();
+    tracing.reset(), transfer.reset(), upkeep.reset(), backlog = {}, groups = {};
     s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.caustics = {}, s.report = {};
     finished = false;
     clock = {};
@@ -361,12 +542,6 @@ struct Engine::State {
     return reflecting;
   }
 
-  struct Motion {
-    SpaceChange all;                // bounds before and after
-    std::vector<ElementId> inputs;  // of what moves
-    LinkMarks marks;
-  };
-
   /// What moves leaves its place: the links that it touches there, and the shapes of its elements.
   Motion leave(const SceneUpdate& edits, StepReport& step) {
     Solution& s = *solution;
@@ -387,8 +562,6 @@ struct Engine::State {
     if (primitives.empty() && motion.inputs.empty()) return motion;
     motion.marks = LineSpace(s.links, s.elements, s.scene, motion.all, before, after).visit();
     reshape(s.elements, s.scene, motion.inputs);
-    // Nobody traces now, and who holds the solution holds the engine's tracer.
-    if (!primitives.empty()) std::const_pointer_cast<RayTracer>(s.tracer)->rebuild(GroupId(std::size_t{0}));
     step.times.visibility = time.seconds();
     return motion;
   }
@@ -396,7 +569,6 @@ struct Engine::State {
   /// It comes to its new place, and what has grown in the light with it: links and rows follow.
   void arrive(Motion& motion, const Growth& growth, StepReport& step) {
     Solution& s = *solution;
-    if (motion.marks.changes.empty() && growth.empty()) return;
     const Clock time;
     LinkMarks& marks = motion.marks;
     if (marks.changes.empty() || !growth.woken.empty()) {
@@ -546,6 +718,13 @@ StepReport Engine::update(Progress* progress) {
   if (!state_->finished) solve(progress);
   return state_->update(progress);
 }
+
+StepReport Engine::frame(double milliseconds, Progress* progress) {
+  if (!state_->finished) solve(progress);
+  return state_->frame(1e-3 * milliseconds);
+}
+
+void Engine::select(const std::string& object) { state_->select(object); }
 
 SolutionView Engine::solution() const {
   if (!state_->counted) state_->count();

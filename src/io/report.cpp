@@ -52,17 +52,19 @@ Json json(const EnergyLedger& e) {
 }
 
 Json json(const StepReport& s) {
-  return {{"op", s.op},
-          {"object", s.object},
-          {"time_s", json(s.times)},
-          {"links_visited", s.linksVisited},
-          {"links_changed", s.linksChanged},
-          {"leaves_examined", s.leavesExamined},
-          {"leaves_renewed", s.leavesRenewed},
-          {"particles_retraced", s.particlesRetraced},
-          {"particles_total", s.particlesTotal},
-          {"textures_rebuilt", s.texturesRebuilt},
-          {"deferred", s.deferred}};
+  Json step{{"op", s.op},
+            {"object", s.object},
+            {"time_s", json(s.times)},
+            {"links_visited", s.linksVisited},
+            {"links_changed", s.linksChanged},
+            {"leaves_examined", s.leavesExamined},
+            {"leaves_renewed", s.leavesRenewed},
+            {"particles_retraced", s.particlesRetraced},
+            {"particles_total", s.particlesTotal},
+            {"textures_rebuilt", s.texturesRebuilt},
+            {"deferred", s.deferred}};
+  if (s.staleW) step["stale_w"] = *s.staleW;
+  return step;
 }
 
 Json json(const CheckReport& c) {

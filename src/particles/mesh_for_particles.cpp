@@ -31,7 +31,7 @@ struct Tally {
 }  // namespace
 
 std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const Particles& p,
-                                  const std::vector<bool>& coarse) {
+                                  const std::vector<bool>& coarse, const std::vector<bool>& keep) {
   std::vector<ElementId> leaf(p.impactSlots());
   std::vector<float> weights(p.impactSlots());
   {
@@ -39,6 +39,7 @@ std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const 
     parallelFor(p.paths(), 1024, [&](std::size_t path) {
       const float power = p.links[p.link[path]].scale * p.nominal[p.sender[path]];
       for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
+        if (!keep.empty() && keep[2 * p.primitive[i].index() + (p.triangleAndSide[i] & 1)]) continue;
         const ElementId side = locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
         if (side.valid()) leaf[i] = locator.leafAt(side, Vec2(p.uv[i]));
         weights[i] = power * gray(p.throughput[i]);
@@ -79,6 +80,22 @@ std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const 
     });
   }
   return total;
+}
+
+std::vector<bool> sidesThatKeepTheirMesh(const Scene& scene, const Particles& p, const ParticleUpdate& update) {
+  constexpr double kMatters = 0.1;
+  std::vector<bool> keep(2 * scene.primitives.size(), false);
+  if (update.all) return keep;
+  std::vector<double> all(keep.size(), 0.0), fresh(keep.size(), 0.0);
+  const auto add = [&](std::size_t path, std::vector<double>& to) {
+    const double power = p.weight(path);
+    for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i)
+      to[2 * p.primitive[i].index() + (p.triangleAndSide[i] & 1)] += power * gray(p.throughput[i]);
+  };
+  for (const RetracedPath& r : update.paths) add(r.path, fresh);
+  for (std::size_t path = 0; path < p.paths(); ++path) add(path, all);
+  for (std::size_t side = 0; side < keep.size(); ++side) keep[side] = !(fresh[side] > kMatters * all[side]);
+  return keep;
 }
 
 }  // namespace deltalux

@@ -1,6 +1,7 @@
 #include "particles/particle_tracing.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <optional>
 
 #include "base/check.hpp"
@@ -37,10 +38,11 @@ class Motions {
   using Motion = Receivers::Motion;
 
   Motions(const Scene& scene, std::span<const SceneChange::Moved> moved, const Particles& p,
-          const std::vector<Motion>& nodes, std::vector<char> senderMoved)
+          const std::vector<Motion>& nodes, const std::vector<char>& senderMoved)
       : particles_(p),
+        nodes_(nodes),
+        senderMoved_(senderMoved),
         moved_(scene.primitives.size(), 0),
-        senderMoved_(std::move(senderMoved)),
         after_(shapesOf(scene, moved), kMargin * farDistance(scene)) {
     const double margin = kMargin * farDistance(scene);
     Box before;
@@ -51,11 +53,12 @@ class Motions {
       if (isThinGlass(scene.materialOf(m.primitive))) panes_.emplace_back(m.before, margin);
     }
     if (!before.empty()) before_.emplace(before, margin);
-    for (const ParticleLink& l : p.links) receiver_.push_back(nodes[l.ends.receiver]);
   }
 
+  /// Whether all paths of the link are touched.
+  bool touchesAll(const ParticleLink& link) const { return nodes_[link.ends.receiver] == Motion::Bound; }
   bool touch(std::size_t path) const {
-    const Motion receiver = receiver_[particles_.link[path]];
+    const Motion receiver = nodes_[particles_.links[particles_.link[path]].ends.receiver];
     if (receiver == Motion::Bound || senderMoved_[particles_.sender[path]]) return true;
     const std::span<const Vec3f> v = particles_.verticesOf(path);
     // What was never begun may be possible now.
@@ -82,9 +85,9 @@ class Motions {
   }
 
   const Particles& particles_;
-  std::vector<char> moved_;        // by primitive
-  std::vector<char> senderMoved_;  // by cell
-  std::vector<Motion> receiver_;   // by link
+  const std::vector<Motion>& nodes_;      // of receivers
+  const std::vector<char>& senderMoved_;  // by cell
+  std::vector<char> moved_;               // by primitive
   MovedShapes after_;
   std::optional<SegmentBox> before_;  // all of it
   std::vector<SegmentBox> panes_;     // where they were
@@ -129,48 +132,112 @@ bool ParticleTracing::looksAsBefore(const SceneChange& change) const {
          std::all_of(change.materials.begin(), change.materials.end(), materialAsBefore);
 }
 
-std::vector<std::uint32_t> ParticleTracing::touchedPaths(const Particles& p,
-                                                         std::span<const SceneChange::Moved> moved) {
-  std::vector<PrimitiveId> primitives;
-  for (const SceneChange::Moved& m : moved) primitives.push_back(m.primitive);
-  std::vector<char> senderMoved = ends_->senders.follow(primitives);
-  const std::vector<Receivers::Motion> nodes = ends_->receivers.follow(primitives);
-  const Motions motions(scene_, moved, p, nodes, std::move(senderMoved));
-  constexpr std::size_t kBlock = 8192;
-  std::vector<std::vector<std::uint32_t>> found((p.paths() + kBlock - 1) / kBlock);
-  parallelBlocks(p.paths(), kBlock, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t path = begin; path < end; ++path)
-      if (motions.touch(path)) found[begin / kBlock].push_back(static_cast<std::uint32_t>(path));
-  });
-  std::vector<std::uint32_t> all;
-  for (const auto& block : found) all.insert(all.end(), block.begin(), block.end());
-  return all;
+/// Watches a region around what moves, with room to move on.
+void ParticleTracing::watch(const Particles& p, std::span<const SceneChange::Moved> moved) {
+  Box all;
+  bool covered = watch_.has_value();
+  for (const SceneChange::Moved& m : moved) {
+    const Box after = bounds(scene_[m.primitive].shape);
+    for (const Box& box : {m.before, after}) {
+      if (!box.empty()) all.extend(box);
+      covered = covered && watch_->covers(box);
+    }
+  }
+  if (!covered && !all.empty()) watchAround(p, all);
 }
 
-ParticleUpdate ParticleTracing::follow(Particles& p, const SceneChange& change) {
-  ParticleUpdate update;
-  if (!looksAsBefore(change)) {
-    update.all = true;
-    ends_ = std::make_unique<Ends>(scene_, tracer_);
-    look_ = Look(scene_);
-    p = trace();
-    update.rays = p.rays + p.looks, update.particles = p.arrived();
-    return update;
-  }
-  if (p.paths() == 0) return update;
+void ParticleTracing::watchAround(const Particles& p, const Box& box) {
+  constexpr double kRoom = 1.0;  // times the size of what moves
+  const double room = kRoom * box.diagonal();
+  watch_.emplace(p, Box{box.lower - room, box.upper + room}, 2 * kMargin * farDistance(scene_));
+}
+
+void ParticleTracing::expectMotion(const Particles& p, const Box& ofObject) {
+  if (p.paths() > 0 && !weighed_) weigh(p);
+  if (!ofObject.empty() && !(watch_ && watch_->covers(ofObject))) watchAround(p, ofObject);
+}
+
+void ParticleTracing::addTouched(const Particles& p, std::span<const SceneChange::Moved> moved, const Worth& worth) {
+  watch(p, moved);
+  if (!watch_) return;
+  std::vector<PrimitiveId> primitives;
+  for (const SceneChange::Moved& m : moved) primitives.push_back(m.primitive);
+  const std::vector<char> senderMoved = ends_->senders.follow(primitives);
+  const std::vector<Receivers::Motion> nodes = ends_->receivers.follow(primitives);
+  const Motions motions(scene_, moved, p, nodes, senderMoved);
+  waits_.resize(p.paths(), 0);
+  const auto wait = [&](std::size_t path, std::vector<Waiting>& found) {
+    waits_[path] = 1;
+    found.push_back({static_cast<std::uint32_t>(path), worth ? static_cast<float>(worth(path)) : 0.0f});
+  };
+  if (std::find(nodes.begin(), nodes.end(), Receivers::Motion::Bound) != nodes.end())
+    for (const ParticleLink& l : p.links)
+      if (motions.touchesAll(l))
+        for (std::uint32_t path = l.firstPath; path < l.firstPath + l.paths; ++path)
+          if (!waits_[path]) wait(path, waiting_);
+
+  const std::vector<std::uint64_t>& words = watch_->words();
+  constexpr std::size_t kBlock = 128;
+  std::vector<std::vector<Waiting>> found((words.size() + kBlock - 1) / kBlock);
+  parallelFor(words.size(), kBlock, [&](std::size_t w) {
+    for (std::uint64_t rest = words[w]; rest; rest &= rest - 1) {
+      const std::size_t path = w * PathWatch::kPathsOfWord + static_cast<std::size_t>(std::countr_zero(rest));
+      if (!waits_[path] && motions.touch(path)) wait(path, found[w / kBlock]);
+    }
+  });
+  for (const auto& block : found) waiting_.insert(waiting_.end(), block.begin(), block.end());
+}
+
+void ParticleTracing::note(const Particles& p, const SceneChange& change, const Worth& worth) {
+  all_ = all_ || !looksAsBefore(change);
+  if (all_ || p.paths() == 0 || change.moved.empty()) return;
   if (!weighed_) weigh(p);
-  const std::vector<std::uint32_t> paths = touchedPaths(p, change.moved);
+  addTouched(p, change.moved, worth);
+}
+
+ParticleUpdate ParticleTracing::retrace(Particles& p, std::size_t count) {
+  if (count < waiting_.size()) {
+    const auto worthier = [](const Waiting& a, const Waiting& b) {
+      return a.worth != b.worth ? a.worth > b.worth : a.path < b.path;
+    };
+    std::nth_element(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count), waiting_.end(), worthier);
+  }
+  const auto last = waiting_.begin() + static_cast<std::ptrdiff_t>(std::min(count, waiting_.size()));
+  std::vector<std::uint32_t> paths;
+  for (auto w = waiting_.begin(); w != last; ++w) paths.push_back(w->path);
+  waiting_.erase(waiting_.begin(), last);
+  std::sort(paths.begin(), paths.end());
+  ParticleUpdate update;
   update.paths.reserve(paths.size());
-  for (const std::uint32_t path : paths)
-    update.paths.push_back({path, p.sender[path], p.originTriangle[path], p.range[path]});
   std::vector<std::uint8_t> arrived;
-  for (const std::uint32_t path : paths) arrived.push_back(p.fate[path] & kArrived);
+  for (const std::uint32_t path : paths) {
+    update.paths.push_back({path, p.sender[path], p.originTriangle[path], p.range[path]});
+    arrived.push_back(p.fate[path] & kArrived);
+    waits_[path] = 0;
+  }
   const std::uint64_t before = p.rays;
   retracePaths(scene_, tracer_, ends_->emission, settings_.maxDepth, p, paths);
   update.rays = p.rays - before;
-  for (std::size_t i = 0; i < paths.size(); ++i)
+  for (std::size_t i = 0; i < paths.size(); ++i) {
     if (arrived[i] || (p.fate[paths[i]] & kArrived)) ++update.particles;
+    if (watch_) watch_->renew(p, paths[i]);
+  }
   return update;
+}
+
+ParticleUpdate ParticleTracing::retraceAll(Particles& p) {
+  ends_ = std::make_unique<Ends>(scene_, tracer_);
+  look_ = Look(scene_);
+  all_ = false, waiting_.clear(), waits_.clear(), watch_.reset();
+  p = trace();
+  ParticleUpdate update;
+  update.all = true, update.rays = p.rays + p.looks, update.particles = p.arrived();
+  return update;
+}
+
+ParticleUpdate ParticleTracing::follow(Particles& p, const SceneChange& change) {
+  note(p, change);
+  return all_ ? retraceAll(p) : retrace(p, waiting_.size());
 }
 
 Particles traceParticles(const Scene& scene, const RayTracer& tracer, const ParticleSettings& settings) {

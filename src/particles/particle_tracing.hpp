@@ -11,9 +11,12 @@
 // Dimmed lights and new diffuse colours change no path; other lights, other speculars and new things change all.
 // Cost: some nanoseconds a path, and the rays of what is touched.
 #include <deltalux/edit.hpp>
+#include <functional>
 #include <memory>
+#include <optional>
 
 #include "particles/particles.hpp"
+#include "particles/path_watch.hpp"
 
 namespace deltalux {
 
@@ -41,8 +44,27 @@ class ParticleTracing {
   /// Brings `particles`, which were right before, up to an edit that scene and tracer have taken in.
   ParticleUpdate follow(Particles&, const SceneChange&);
 
-  /// Paths that a motion can touch, ascending; takes in where things are now.
-  std::vector<std::uint32_t> touchedPaths(const Particles&, std::span<const SceneChange::Moved>);
+  // The same in two, for motion that waits for nobody: what edits touch is noted at once, and traced anew when there is
+  // time. A path is traced where things are by then, and once, however many edits have touched it.
+
+  /// Looks for the paths that motion from here can touch, so that note() need not.
+  void expectMotion(const Particles&, const Box& ofObject);
+
+  using Worth = std::function<double(std::size_t path)>;
+  struct Waiting {
+    std::uint32_t path = 0;
+    float worth = 0;  // when it was noted
+  };
+  /// Notes what an edit has touched. The edits before need not have been followed yet.
+  void note(const Particles&, const SceneChange&, const Worth& = {});
+  /// Whether edits have changed what all paths depend on: then retraceAll() must follow, and nothing else is noted.
+  bool allWait() const { return all_; }
+  /// Paths that wait to be traced anew, in no order.
+  const std::vector<Waiting>& waiting() const { return waiting_; }
+  /// Traces `count` of those that wait, the worthiest first.
+  ParticleUpdate retrace(Particles&, std::size_t count);
+  /// Traces everything, waiting or not.
+  ParticleUpdate retraceAll(Particles&);
 
  private:
   /// What first segments are drawn from.
@@ -66,6 +88,9 @@ class ParticleTracing {
 
   void weigh(const Particles&);
   bool looksAsBefore(const SceneChange&) const;
+  void watch(const Particles&, std::span<const SceneChange::Moved>);
+  void watchAround(const Particles&, const Box&);
+  void addTouched(const Particles&, std::span<const SceneChange::Moved>, const Worth&);
 
   const Scene& scene_;
   const RayTracer& tracer_;
@@ -73,6 +98,10 @@ class ParticleTracing {
   std::unique_ptr<Ends> ends_;
   Look look_;
   bool weighed_ = false;
+  bool all_ = false;
+  std::optional<PathWatch> watch_;
+  std::vector<Waiting> waiting_;
+  std::vector<char> waits_;  // by path
 };
 
 }  // namespace deltalux

@@ -1,0 +1,99 @@
+#include "engine/motion.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "hierarchy/input_level.hpp"
+
+namespace deltalux {
+
+void Backlog::add(const SceneUpdate& more) {
+  std::unordered_set<PrimitiveId> known;
+  for (const SceneChange::Moved& m : links.moved) known.insert(m.primitive);
+  for (const SceneChange::Moved& m : more.moved)
+    if (known.insert(m.primitive).second) links.moved.push_back(m);
+  const auto join = [](auto& to, const auto& from) {
+    for (const auto& x : from)
+      if (std::find(to.begin(), to.end(), x) == to.end()) to.push_back(x);
+  };
+  join(links.movedLights, more.movedLights);
+}
+
+void Backlog::add(const ParticleUpdate& more) {
+  if (more.all) landed = {};
+  landed.all |= more.all;
+  if (landed.all) return;
+  std::vector<RetracedPath> all;
+  const auto earlier = [](const RetracedPath& a, const RetracedPath& b) { return a.path < b.path; };
+  all.reserve(landed.paths.size() + more.paths.size());
+  std::merge(landed.paths.begin(), landed.paths.end(), more.paths.begin(), more.paths.end(), std::back_inserter(all),
+             earlier);
+  const auto same = [](const RetracedPath& a, const RetracedPath& b) { return a.path == b.path; };
+  all.erase(std::unique(all.begin(), all.end(), same), all.end());
+  landed.paths = std::move(all);
+}
+
+double deposited(const Solution& s, const ParticleTransfer& transfer, std::size_t path) {
+  const Particles& p = s.particles;
+  if (p.range[path].impacts == 0) return 0;
+  const Rgb power = p.links[p.link[path]].scale * transfer.power(path, s.elements, s.scene);
+  double sum = 0;
+  for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) sum += gray(power * p.throughput[i]);
+  return sum;
+}
+
+double lightOn(const Solution& s, const SceneUpdate& edits) {
+  std::vector<PrimitiveId> moved;
+  for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
+  std::vector<char> of(s.elements.size(), 0);
+  for (const ElementId e : elementsOf(s.elements, moved)) of[e.index()] = 1;
+  double light = 0;
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const ElementTopology& t = s.elements.topology[i];
+    if (t.depth > 0 && t.parent.valid() && of[t.parent.index()]) of[i] = 1;
+    if (!of[i] || t.emitter || t.childCount > 0) continue;
+    const ElementLight& l = s.elements.radiometry[i];
+    light += 2.0 * s.elements.geometry[i].litArea() * gray(l.direct + l.indirect);
+  }
+  return light;
+}
+
+void TextureFlux::add(const PathRange& range, const Rgb& power) {
+  const Particles& p = solution_.particles;
+  for (std::uint32_t i = range.impact; i < range.impact + range.impacts; ++i) {
+    const SurfaceCaustics* at = solution_.caustics.of(p.primitive[i], (p.triangleAndSide[i] & 1) == 0);
+    if (at)
+      change_[static_cast<std::size_t>(at - solution_.caustics.surfaces.data())] += RgbSum(power * p.throughput[i]);
+  }
+}
+
+void TextureFlux::takeOut(const ParticleUpdate& update, const ParticleTransfer& transfer) {
+  const Solution& s = solution_;
+  for (const RetracedPath& r : update.paths)
+    if (r.range.impacts > 0)
+      add(r.range, -s.particles.links[s.particles.link[r.path]].scale * transfer.power(r.path, s.elements, s.scene));
+}
+
+void TextureFlux::putIn(const ParticleUpdate& update, const ParticleTransfer& transfer) {
+  const Solution& s = solution_;
+  for (const RetracedPath& r : update.paths)
+    if (s.particles.range[r.path].impacts > 0)
+      add(s.particles.range[r.path],
+          s.particles.links[s.particles.link[r.path]].scale * transfer.power(r.path, s.elements, s.scene));
+}
+
+std::size_t TextureFlux::apply(Caustics& caustics, const std::vector<SurfaceCaustics>& still) const {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < change_.size(); ++i) {
+    if (change_[i] == RgbSum(0.0)) continue;
+    SurfaceCaustics& side = caustics.surfaces[i];
+    const RgbSum flux = glm::max(side.flux() + change_[i], RgbSum(0.0));
+    side.textures = still[i].textures;  // one that went dark can be bright again
+    rescale(side, flux, 0.0);
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace deltalux

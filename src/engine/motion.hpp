@@ -1,0 +1,89 @@
+#pragma once
+// Motion: frames that take edits in as far as their time goes, and what they put off until there is time. [GD01 4.3]
+//
+// In every frame the scene and the ray tracer follow at once. Of the particles that the edits touch those that deposit
+// the most light are traced anew, as many as fit; the others lie where they were, whole, so that no light is there
+// twice and none is lost. Their light is brought to the elements and handed on by as many iterations as fit. Textures
+// keep their picture and are multiplied to the flux that their surface has now. Links and rows stand still until a
+// frame has the time for all of them, or until motion stops; then they go from where they were last to where things are
+// in one step. (Departure: the paper re-emits a share of the links that the user sets; here time sets it.)
+//
+// How long parts of a frame take is learned from frame to frame.
+#include <cmath>
+#include <limits>
+
+#include "engine/scene_update.hpp"
+#include "particles/particle_tracing.hpp"
+#include "particles/transfer.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux {
+
+/// Seconds that a kind of work takes, by what it took before.
+class LearnedCost {
+ public:
+  explicit LearnedCost(double guess) : seconds_(guess) {}
+
+  double seconds() const { return seconds_; }
+  bool known() const { return std::isfinite(seconds_); }
+  /// `count` pieces took so long.
+  void learn(double seconds, double count = 1) {
+    if (!(count > 0)) return;
+    const double found = seconds / count;
+    seconds_ = std::isfinite(seconds_) ? seconds_ + kNew * (found - seconds_) : found;
+  }
+
+ private:
+  static constexpr double kNew = 0.5;
+  double seconds_;
+};
+
+/// What edits that were taken in have still to do.
+struct Backlog {
+  // What waits.
+  SceneUpdate links;                  // edits that links and rows have not seen, from where they stand
+  std::vector<ElementId> reflecting;  // that were black
+  bool afresh = false;                // only solving the scene anew helps
+  ParticleUpdate landed;              // paths traced anew since textures were last looked at, and what they were then
+  std::vector<SurfaceCaustics> textures;  // as they were when they were last looked at
+  bool frames = false;                    // some frame has been shown since
+
+  LearnedCost path{1e-6};                                       // traced anew
+  LearnedCost carry{0.005};                                     // what was traced taken into transfers and textures
+  LearnedCost deposit{0.01};                                    // particles' light brought to the elements
+  LearnedCost pass{0.1};                                        // one gathering over all rows
+  LearnedCost follow{std::numeric_limits<double>::infinity()};  // of links and rows; not known yet
+
+  bool linksWait() const { return !links.moved.empty() || !links.movedLights.empty(); }
+  /// Adds what a later edit did; where things were first is where they were.
+  void add(const SceneUpdate&);
+  /// Adds paths traced anew; what they were first is what they were.
+  void add(const ParticleUpdate&);
+};
+
+/// What a path deposits today, gray [W, with the scene's unit squared as area].
+double deposited(const Solution&, const ParticleTransfer&, std::size_t path);
+
+/// Twice the light that falls on the things that moved, where they stood: about what will be another when links and
+/// rows follow, since where they are now it is about as much. Gray [W, as above].
+double lightOn(const Solution&, const SceneUpdate&);
+
+/// Flux that textured sides lose and gain by paths that are traced anew, by index of Caustics::surfaces.
+class TextureFlux {
+ public:
+  explicit TextureFlux(const Solution& s) : solution_(s), change_(s.caustics.surfaces.size(), RgbSum(0.0)) {}
+
+  /// What the paths were is taken out: before `transfer` follows. What they are is put in: after.
+  void takeOut(const ParticleUpdate&, const ParticleTransfer&);
+  void putIn(const ParticleUpdate&, const ParticleTransfer&);
+  /// Multiplies the textures, of pictures as they are in `still`. Returns how many surfaces that was.
+  std::size_t apply(Caustics&, const std::vector<SurfaceCaustics>& still) const;
+
+ private:
+  void add(const PathRange&, const Rgb& power);
+
+  const Solution& solution_;
+  std::vector<RgbSum> change_;
+};
+
+}  // namespace deltalux

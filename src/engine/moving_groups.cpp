@@ -1,0 +1,27 @@
+#include "engine/moving_groups.hpp"
+
+#include <algorithm>
+
+namespace deltalux {
+
+void MovingGroups::separate(RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> primitives) {
+  if (primitives.empty()) return;
+  const GroupId group = groupOf(primitives[0]);
+  const auto together = [&](PrimitiveId p) { return groupOf(p) == group; };
+  const auto size = static_cast<std::size_t>(std::count(groups_.begin(), groups_.end(), group));
+  if (group != GroupId(0) && size == primitives.size() && std::all_of(primitives.begin(), primitives.end(), together))
+    return;
+  groups_.resize(scene.primitives.size(), GroupId(0));
+  const GroupId own = tracer.separate(primitives);
+  for (const PrimitiveId p : primitives) groups_[p.index()] = own;
+}
+
+void MovingGroups::rebuild(RayTracer& tracer, std::span<const PrimitiveId> moved) {
+  std::vector<GroupId> groups;
+  for (const PrimitiveId p : moved) groups.push_back(groupOf(p));
+  std::sort(groups.begin(), groups.end());
+  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  for (const GroupId g : groups) tracer.rebuild(g);
+}
+
+}  // namespace deltalux

@@ -1,0 +1,136 @@
+// Motion: whatever frames put off, light is nowhere twice, and in the end everything is as if there had been no frames.
+#include <gtest/gtest.h>
+
+#include <deltalux/check.hpp>
+#include <deltalux/io.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "particles/transfer.hpp"
+#include "support/solved.hpp"
+
+namespace deltalux {
+namespace {
+
+constexpr double kNoTime = 1e-3, kAllTime = 1e6;  // [ms]
+
+Engine cornell() {
+  SolveSettings settings;
+  settings.error = 0.1, settings.particles = 20000;
+  Engine engine(loadScene({DELTALUX_SOURCE_DIR "/scenes/cornell-caustic/cornell-caustic.rad"}).scene, settings);
+  engine.solve();
+  return engine;
+}
+
+Edit shift(const std::string& object, const Vec3& by) { return TransformObject{object, glm::translate(Mat4(1.0), by)}; }
+
+std::vector<Edit> drag() {
+  return {shift("ball", {0.03, 0, 0.02}), shift("ball", {0.03, 0, 0.02}), shift("short_block", {0.02, 0, 0.01}),
+          shift("ball", {-0.02, 0, 0.02})};
+}
+
+/// The light of particles at every leaf is that of the paths as they are, each once.
+void expectEachPathOnce(const Solution& s) {
+  Elements elements = s.elements;
+  ParticleTransfer(s.particles, elements, s.scene).apply(elements, s.scene);
+  double sum = 0, difference = 0;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (elements.topology[i].childCount > 0) continue;
+    const double area = elements.geometry[i].area;
+    sum += area * gray(elements.radiometry[i].particle);
+    difference += area * gray(glm::abs(elements.radiometry[i].particle - s.elements.radiometry[i].particle));
+  }
+  EXPECT_GT(sum, 0);
+  EXPECT_LT(difference, 0.01 * sum);  // frames end before the light is settled
+}
+
+/// Textures hold the flux of the particles on their side.
+void expectTexturesHoldTheFlux(const Solution& s) {
+  std::vector<RgbSum> flux(s.caustics.surfaces.size(), RgbSum(0.0));
+  for (const Impact& i : impacts(s.particles, s.elements, s.scene))
+    if (const SurfaceCaustics* side = s.caustics.of(i.primitive, i.front))
+      flux[static_cast<std::size_t>(side - s.caustics.surfaces.data())] += RgbSum(i.flux);
+  for (std::size_t i = 0; i < flux.size(); ++i)
+    EXPECT_NEAR(gray(s.caustics.surfaces[i].flux()) / gray(flux[i]), 1.0, 0.01) << "side " << i;
+}
+
+TEST(Motion, SettlesToWhatOneUpdateGives) {
+  Engine dragged = cornell(), at_once = cornell();
+  for (const Edit& e : drag()) {
+    dragged.apply(e);
+    dragged.frame(kNoTime);
+    at_once.apply(e);
+  }
+  const StepReport settled = dragged.update();
+  at_once.update();
+  EXPECT_EQ(settled.deferred, 0u);
+  EXPECT_FALSE(settled.staleW);
+  const Solution &a = dragged.solution().get(), &b = at_once.solution().get();
+  EXPECT_NO_THROW(validate(a.particles, a.scene));
+  EXPECT_NO_THROW(a.transfers.validate(a.elements, a.links));
+  EXPECT_NO_THROW(validate(a.caustics));
+  EXPECT_EQ(a.particles.hash(), b.particles.hash());
+  EXPECT_EQ(a.particles.hash(), traceParticles(a.scene, *makeEmbreeTracer(a.scene), {20000, a.settings.seed}).hash());
+  // Rows are dealt out by the light there is, which the frames had already moved.
+  const CheckReport check = compareSolutions(dragged.solution(), at_once.solution());
+  EXPECT_LT(check.medianRelDiff, 0.005);
+  EXPECT_LT(check.p95RelDiff, 0.03);
+  EXPECT_EQ(a.caustics.count(), b.caustics.count());
+}
+
+TEST(Motion, NoLightIsThereTwice) {
+  Engine engine = cornell();
+  ASSERT_GT(engine.solution().get().caustics.count(), 0u);
+  engine.select("ball");
+  bool waited = false;
+  for (const Edit& e : drag()) {
+    engine.apply(e);
+    const StepReport step = engine.frame(kNoTime);
+    waited |= step.deferred > 1;
+    ASSERT_TRUE(step.staleW);
+    EXPECT_GT(*step.staleW, 0);
+    expectEachPathOnce(engine.solution().get());
+    expectTexturesHoldTheFlux(engine.solution().get());
+  }
+  EXPECT_TRUE(waited);
+}
+
+/// Frames without edits go on with what waits, and those with all the time in the world leave nothing.
+TEST(Motion, FramesDrainWhatWaits) {
+  Engine engine = cornell();
+  engine.apply(shift("ball", {0.05, 0, 0.05}));
+  const StepReport first = engine.frame(kNoTime), second = engine.frame(kNoTime);
+  EXPECT_GT(first.particlesRetraced, 0u);
+  EXPECT_LT(second.deferred, first.deferred);
+  EXPECT_LT(*second.staleW, *first.staleW);
+  const StepReport last = engine.frame(kAllTime);
+  EXPECT_EQ(last.deferred, 0u);
+  EXPECT_EQ(*last.staleW, 0.0);
+  expectEachPathOnce(engine.solution().get());
+}
+
+/// What deposits the most goes first.
+TEST(Motion, TheBrightestGoFirst) {
+  Engine engine = cornell();
+  engine.apply(shift("ball", {0.05, 0, 0.05}));
+  const StepReport first = engine.frame(kNoTime);
+  ASSERT_GT(first.deferred, 500u);
+  const StepReport second = engine.frame(kNoTime);
+  const StepReport third = engine.frame(kNoTime);
+  EXPECT_GE(*first.staleW - *second.staleW, *second.staleW - *third.staleW);
+}
+
+TEST(Motion, OtherEditsWaitForTheEnd) {
+  Engine engine = cornell(), fresh = cornell();
+  for (Engine* e : {&engine, &fresh}) {
+    e->apply(SetMaterial{"tall_block_surface", Rgb(0.5f), std::nullopt});
+    e->apply(ScaleLight{"lamp", 0.5f});
+  }
+  EXPECT_EQ(engine.frame(kNoTime).particlesRetraced, 0u);
+  engine.update();
+  fresh.update();
+  EXPECT_EQ(engine.solution().get().particles.hash(), fresh.solution().get().particles.hash());
+  EXPECT_LT(compareSolutions(engine.solution(), fresh.solution()).p95RelDiff, 1e-3);
+}
+
+}  // namespace
+}  // namespace deltalux
