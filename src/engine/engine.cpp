@@ -270,7 +270,8 @@ struct Engine::State {
     StepReport step;
     constexpr double kLikely = 0.02;  // of the time of a solve
     if (!backlog.follow.known()) backlog.follow.learn(kLikely * s.report.times.total);
-    if (gapsAreMany()) {  // what the paths were, textures have to see first
+    constexpr double kMostGapsInMotion = 4;  // closing them takes longer than a frame
+    if (gapsAreMany(kMostGapsInMotion)) {    // what the paths were, textures have to see first
       if (tracing && transfer) followWithTextures(step);
       closeGaps();
     }
@@ -401,10 +402,10 @@ struct Engine::State {
       const Clock passing;
       s.transfers.gatherIndirect(s.elements);
       transfer->apply(s.elements, s.scene);
-      const double unsettled = gray(pull(s.elements));
+      unsettled = pull(s.elements);
       backlog.pass.learn(passing.seconds());
       ++s.report.counts.iterations;
-      if (unsettled <= kSettledRows * emitted) break;
+      if (gray(unsettled) <= kSettledRows * emitted) break;
     }
     step.times.gather += time.seconds();
   }
@@ -445,11 +446,11 @@ struct Engine::State {
   }
 
   /// Paths that were traced anew leave gaps.
-  bool gapsAreMany() const {
+  bool gapsAreMany(double most = kMostGaps) const {
     const Particles& p = solution->particles;
     std::size_t used = 0;
     for (const PathRange& r : p.range) used += r.vertices;
-    return static_cast<double>(p.vertices.size()) > kMostGaps * static_cast<double>(used);
+    return static_cast<double>(p.vertices.size()) > most * static_cast<double>(used);
   }
   void closeGaps() {
     solution->particles.compact();
