@@ -290,6 +290,8 @@ void ParticleEmission::arrive(std::span<const LinkEnds> links, std::span<const F
                               std::span<Arrival> arrivals, std::uint64_t& rays) const {
   std::vector<std::uint32_t> targets, opens;
   std::vector<Ray> straight, open;
+  targets.reserve(segments.size()), straight.reserve(segments.size());
+  opens.reserve(segments.size()), open.reserve(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const FirstSegment& s = segments[i];
     arrivals[i] = {};

@@ -27,6 +27,12 @@ struct PathBlock {
   std::vector<std::uint8_t> fate;
   std::uint64_t rays = 0;
 
+  /// Room for what so many paths usually make.
+  void reserve(std::size_t paths) {
+    vertexOf.reserve(3 * paths), vertices.reserve(3 * paths), met.reserve(3 * paths);
+    impactOf.reserve(paths), primitive.reserve(paths), triangleAndSide.reserve(paths), uv.reserve(paths);
+    throughput.reserve(paths);
+  }
   void addVertex(std::uint32_t path, const Vec3f& p, PrimitiveId there) {
     vertexOf.push_back(path), vertices.push_back(p), met.push_back(there);
   }

@@ -247,13 +247,15 @@ Senders::Choice Senders::choose(std::uint32_t at, double u) const {
 Senders::Choice Senders::chooseNear(std::uint32_t at, const BoundingSphere& towards, double u) const {
   constexpr double kInside = 0.25;  // of the sphere's radius: what is within stands about so far from something there
   const double least = kInside * kInside * towards.radius * towards.radius;
-  const auto importance = [&](std::uint32_t n) {
+  const auto spread = [&](std::uint32_t n) {
     const Vec3 d = restBounds_[n].center - towards.center;
-    return weightOf(nodes_[n]) / (glm::dot(d, d) + restBounds_[n].radius * restBounds_[n].radius + least);
+    return glm::dot(d, d) + restBounds_[n].radius * restBounds_[n].radius + least;
   };
   double chance = 1;
   while (!nodes_[at].isLeaf()) {
-    const double a = importance(nodes_[at].child[0]), b = importance(nodes_[at].child[1]);
+    // Weight over spread of the one, as a share of both.
+    const std::uint32_t one = nodes_[at].child[0], other = nodes_[at].child[1];
+    const double a = weightOf(nodes_[one]) * spread(other), b = weightOf(nodes_[other]) * spread(one);
     const double first = a / (a + b);
     const bool second = u >= first;
     u = second ? (u - first) / (1 - first) : u / first;

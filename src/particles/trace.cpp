@@ -29,6 +29,7 @@ class Tracing {
 
   PathBlock trace(std::size_t begin, std::size_t end) const {
     PathBlock r;
+    r.reserve(end - begin);
     r.accounts.resize(end - begin);
     r.fate.resize(end - begin);
     std::vector<Walker> walkers = emit(begin, end, r);
