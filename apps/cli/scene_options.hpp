@@ -19,14 +19,20 @@ struct SceneOptions {
   /// Reads the scene, adds the luminaires, notes names, times and statistics in the run's report, and passes the
   /// import's warnings on. Throws InputError.
   ImportedScene load(Run&) const;
-
- private:
+  std::vector<Luminaire> hung() const;
   /// An option that this scene's format does not heed is a mistake worth telling.
   void requireEffect() const;
+  /// The names of its options.
+  static std::vector<const char*> names() { return {"--ies", "--metres-per-unit", "--efficacy"}; }
 
+ private:
   CLI::Option* metresOption_ = nullptr;
   CLI::Option* efficacyOption_ = nullptr;
 };
+
+/// What SceneOptions::load does, of what they say.
+ImportedScene importScene(Run&, const std::vector<std::filesystem::path>& files, const std::vector<Luminaire>&,
+                          const ImportSettings&);
 
 /// What a scene holds; what its import ignored is not known to it.
 SceneStats sceneStats(const Scene&);

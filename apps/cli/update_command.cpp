@@ -1,6 +1,7 @@
 // deltalux update: a solution, brought up to edits of its scene; deltalux replay: the same edit by edit, measured.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deltalux/check.hpp>
 #include <deltalux/edit_io.hpp>
 #include <deltalux/engine.hpp>
@@ -50,10 +51,48 @@ struct UpdateOptions {
   SceneOptions scene;
   SolveOptions solve;
   RunOptions run;
-  std::string edits, output;
+  std::string edits, output, record;
   bool check = false;
   double frameMs = 0;  // 0: no motion
 };
+
+bool isRecording(const std::string& file) { return std::filesystem::path(file).extension() == ".json"; }
+
+/// What replay is to play: a recording, or what its options say.
+Recording sessionOf(const UpdateOptions& options, const CLI::App& command) {
+  if (options.scene.files.size() == 1 && isRecording(options.scene.files.front())) {
+    std::vector<const char*> others = SceneOptions::names();
+    for (const char* name : {"--error", "--particles", "--diffuse-only", "--no-caustic-textures", "--seed", "--edits"})
+      others.push_back(name);
+    for (const char* name : others)
+      if (command.get_option(name)->count() > 0)
+        throw CLI::ValidationError(std::string(name) + ": a recording says that itself");
+    return loadRecording(options.scene.files.front());
+  }
+  if (options.edits.empty()) throw CLI::RequiredError("--edits (or a recording in place of SCENE)");
+  Recording session;
+  session.scene = {options.scene.files.begin(), options.scene.files.end()};
+  session.luminaires = options.scene.hung();
+  session.import = options.scene.import;
+  session.settings = options.solve.settings;
+  session.settings.seed = options.run.seed;
+  session.steps = loadEdits(options.edits, session.import);
+  return session;
+}
+
+/// A bug report is a file: it is there before anything is solved.
+void record(const UpdateOptions& options, const Recording& session) {
+  const auto folderOf = [](const std::string& file) { return std::filesystem::absolute(file).parent_path(); };
+  const bool adds = std::any_of(session.steps.begin(), session.steps.end(), [](const EditStep& step) {
+    const auto* edit = std::get_if<Edit>(&step);
+    return edit && std::holds_alternative<AddObject>(*edit);
+  });
+  const std::string& from = options.edits.empty() ? options.scene.files.front() : options.edits;
+  if (adds && folderOf(options.record) != folderOf(from))
+    throw CLI::ValidationError("--record " + options.record +
+                               ": edits that add files are recorded in the folder of those files");
+  saveRecording(options.record, session);
+}
 
 void describe(const StepReport& step, Run& run) {
   std::string line = fmt::format("{} {}: {:.0f} ms, {} links visited, {} changed, {} of {} particles retraced", step.op,
@@ -95,20 +134,27 @@ void drag(Engine& engine, Session& session, const std::vector<EditStep>& steps, 
   rows.back().op = "settle";
 }
 
-void runReplay(const UpdateOptions& options) {
-  Run run("replay", options.run);
+void runReplay(const UpdateOptions& options, const CLI::App& command) {
+  const Recording session = sessionOf(options, command);
+  RunOptions running = options.run;
+  running.seed = session.settings.seed;
+  Run run("replay", running);
+  if (!options.record.empty()) checkWritable(options.record);
   {
-    ProgressPrinter progress(options.run.progressStyle());
-    ImportedScene imported = options.scene.load(run);
-    const std::vector<EditStep> steps = loadEdits(options.edits);
+    ProgressPrinter progress(running.progressStyle());
+    if (!options.edits.empty()) options.scene.requireEffect();
+    ImportedScene imported = importScene(run, session.scene, session.luminaires, session.import);
     addAreaLights(imported.scene);
-    validateEdits(imported.scene, steps, options.edits);
-    Engine engine(options.solve.solve(std::move(imported.scene), run, options.run, progress));
-    Session session(engine);
+    validateEdits(imported.scene, session.steps, options.edits.empty() ? options.scene.files.front() : options.edits);
+    if (!options.record.empty()) record(options, session);
+    SolveOptions solving = options.solve;
+    solving.settings = session.settings;
+    Engine engine(solving.solve(std::move(imported.scene), run, running, progress));
+    Session playing(engine);
     if (options.frameMs > 0)
-      drag(engine, session, steps, options.frameMs, run.report.steps, progress);
+      drag(engine, playing, session.steps, options.frameMs, run.report.steps, progress);
     else
-      for (const EditStep& step : steps) run.report.steps.push_back(session.take(step, progress));
+      for (const EditStep& step : session.steps) run.report.steps.push_back(playing.take(step, progress));
     if (options.check) {
       Engine fresh(engine.solution().scene(), engine.solution().settings());
       const SolveReport solved = fresh.solve(&progress);
@@ -141,8 +187,11 @@ void addReplayCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("replay", "Solve a scene, then apply edits one by one and say what each cost");
   const auto options = std::make_shared<UpdateOptions>();
   options->scene.add(*command);
+  command->get_option("SCENE")->description(".gltf, .glb or .obj, or .rad files in order; or a recording (.json)");
   options->solve.add(*command);
-  command->add_option("--edits", options->edits, "What to do to the scene")->type_name("E.json")->required();
+  command->add_option("--edits", options->edits, "What to do to the scene")->type_name("E.json");
+  command->add_option("--record", options->record, "Write scene, settings and edits as a recording that replays")
+      ->type_name("FILE.json");
   command
       ->add_option("--frame-ms", options->frameMs,
                    "As a drag: each edit takes about that long and leaves the rest for later; then all is settled")
@@ -150,7 +199,7 @@ void addReplayCommand(CLI::App& app) {
   command->add_flag("--check", options->check, "At the end solve from scratch too, and say what differs");
   options->run.addLongWork(*command);
   options->run.addReport(*command);
-  command->callback([options] { runReplay(*options); });
+  command->callback([options, command] { runReplay(*options, *command); });
 }
 
 }  // namespace deltalux::cli

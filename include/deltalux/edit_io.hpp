@@ -12,7 +12,7 @@
 //     {"op": "remove", "object": NAME}, {"op": "undo"}, {"op": "redo"}
 //   ]}
 //
-// A recording has "scene": [files], "import", "seed" and "settings" beside its edits.
+// A recording has "scene": [files], "luminaires", "import", "seed" and "settings" beside its edits.
 #include <deltalux/edit.hpp>
 #include <deltalux/io.hpp>
 #include <deltalux/settings.hpp>
@@ -37,8 +37,10 @@ AppliedEdit applyStep(Scene&, EditHistory&, const EditStep&);
 /// Tries all steps on a copy of the scene. Throws InputError that names the first step that cannot be.
 void validateEdits(Scene, const std::vector<EditStep>&, const std::string& file);
 
+/// A session, and all that it takes to have it again.
 struct Recording {
   std::vector<std::filesystem::path> scene;
+  std::vector<Luminaire> luminaires;
   ImportSettings import;
   SolveSettings settings;  // with the seed
   std::vector<EditStep> steps;
@@ -46,9 +48,10 @@ struct Recording {
 
 /// The recording as JSON text. Steps hold no Restore: sessions say undo (checked).
 std::string toJson(const Recording&);
-/// toJson into a file, atomically. Throws OutputError.
+/// toJson into a file, atomically, with files named from its folder. Files that steps add must lie there, or below.
+/// Throws OutputError.
 void saveRecording(const std::filesystem::path&, const Recording&);
-/// Throws InputError.
+/// Names of files are those from here again. Throws InputError.
 Recording loadRecording(const std::filesystem::path&);
 
 }  // namespace deltalux

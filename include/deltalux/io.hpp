@@ -35,6 +35,15 @@ ImportedScene loadScene(const std::vector<std::filesystem::path>& files, const I
 /// looks doubtful in the file is appended to `warnings`, one line each, when given.
 Photometry loadPhotometry(const std::filesystem::path& file, std::vector<std::string>* warnings = nullptr);
 
+/// A measured light that hangs in a scene: aimed against its up, the 0 degree plane along +x (+y where up is x).
+struct Luminaire {
+  std::filesystem::path file;  // IES LM-63
+  Vec3 position{0};
+};
+
+/// Adds it, named after its file and different from every light. Throws InputError.
+void addLuminaire(Scene&, const Luminaire&);
+
 /// Reads a Radiance view file: the last line that starts with rview, rvu, rpict or VIEW=. Throws InputError.
 View loadView(const std::filesystem::path& file);
 

@@ -48,6 +48,43 @@ TEST(UpdateCommand, ASolutionFromAFileIsUpdatedIntoAnother) {
   EXPECT_TRUE(std::filesystem::exists(folder / "c.dlx"));
 }
 
+TEST(UpdateCommand, ARecordingReplaysToTheSameResult) {
+  const TempFolder folder;
+  folder.write("e.json", kEdits);
+  folder.write("lamp.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 50\n0 45 90\n0\n800 400 0\n");
+  const auto recorded =
+      runCli({"replay", bundledScene("cornell/cornell.rad"), "--ies", (folder / "lamp.ies").string() + "@0.3,0.4,0.3",
+              "--edits", folder / "e.json", "--error", "0.1", "--seed", "7", "--record", folder / "session.json",
+              "--report", folder / "a.json", "--check"});
+  ASSERT_EQ(recorded.exitCode, 0) << recorded.err;
+  // Nothing but the recording, and the files it names, says what is played.
+  std::filesystem::remove(folder / "e.json");
+  const auto replayed = runCli({"replay", folder / "session.json", "--report", folder / "b.json", "--check"});
+  ASSERT_EQ(replayed.exitCode, 0) << replayed.err;
+  auto a = nlohmann::json::parse(readText(folder / "a.json")), b = nlohmann::json::parse(readText(folder / "b.json"));
+  EXPECT_EQ(b["seed"], 7);
+  EXPECT_EQ(a["scene_stats"]["lights"], 2);
+  for (const char* same : {"scene_stats", "counts"}) EXPECT_EQ(a[same], b[same]);
+  for (const char* same : {"emitted_w", "absorbed_w"}) EXPECT_EQ(a["energy"][same], b["energy"][same]);
+  ASSERT_EQ(a["steps"].size(), b["steps"].size());
+  for (std::size_t i = 0; i < a["steps"].size(); ++i) {
+    a["steps"][i].erase("time_s"), b["steps"][i].erase("time_s");
+    EXPECT_EQ(a["steps"][i], b["steps"][i]);
+  }
+  EXPECT_EQ(a["check"]["irradiance_rel_diff"], b["check"]["irradiance_rel_diff"]);
+}
+
+TEST(UpdateCommand, ARecordingSaysItselfWhatIsPlayed) {
+  const TempFolder folder;
+  folder.write("session.json", R"({"recording": 1, "scene": ["room.rad"], "edits": []})");
+  test::expectUsageError({"replay", folder / "session.json", "--error", "0.1"});
+  test::expectUsageError({"replay", folder / "session.json", "--edits", folder / "e.json"});
+  test::expectUsageError({"replay", bundledScene("cornell/cornell.rad")});
+  const auto missing = runCli({"replay", folder / "session.json"});
+  EXPECT_EQ(missing.exitCode, 3) << missing.err;
+  EXPECT_NE(missing.err.find("room.rad"), std::string::npos) << missing.err;
+}
+
 TEST(UpdateCommand, AnEditThatCannotBeIsRefusedBeforeAnythingIsDone) {
   const TempFolder folder;
   folder.write("e.json", R"({"edits": [{"op": "remove", "object": "short_blok"}]})");

@@ -134,7 +134,8 @@ TEST(Recording, ComesBackAndReplaysTheSame) {
   recording.scene = {folder.write("room.rad", kRoom)};
   recording.import.metresPerUnit = 0.3048;
   recording.settings.error = 0.1, recording.settings.seed = 18446744073709551615u,
-  recording.settings.diffuseOnly = true;
+  recording.settings.diffuseOnly = true, recording.settings.causticTextures = false;
+  recording.luminaires = {{folder / "lamp.ies", {1, 2, 3}}};
   recording.steps = parse(
       R"({"op": "transform", "object": "ball", "rotate": {"axis": [1, 2, 3], "degrees": 33.3, "about": [0.1, 0.2, 0.3]}},
     {"op": "light", "light": "lamp", "scale": 0.1}, {"op": "light", "light": "lamp", "rgb": [0.1, 0.2, 0.3]},
@@ -146,6 +147,11 @@ TEST(Recording, ComesBackAndReplaysTheSame) {
   EXPECT_EQ(toJson(loaded), toJson(recording));
   EXPECT_EQ(loaded.settings.seed, recording.settings.seed);
   EXPECT_EQ(loaded.settings.diffuseOnly, true);
+  EXPECT_EQ(loaded.settings.causticTextures, false);
+  EXPECT_EQ(loaded.scene, recording.scene);
+  ASSERT_EQ(loaded.luminaires.size(), 1u);
+  EXPECT_EQ(loaded.luminaires[0].file, recording.luminaires[0].file);
+  EXPECT_EQ(loaded.luminaires[0].position, Vec3(1, 2, 3));
   EXPECT_EQ(loaded.import.metresPerUnit, 0.3048);
   ASSERT_EQ(loaded.steps.size(), recording.steps.size());
   const auto play = [](const Recording& r) {

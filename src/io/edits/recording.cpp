@@ -72,6 +72,9 @@ SolveSettings settingsOf(const JsonView& document) {
   s.particles = count(json, "particles", s.particles);
   json.member("diffuse_only").expectBool();
   if (json.member("diffuse_only").present()) s.diffuseOnly = json.member("diffuse_only").value().get<bool>();
+  const JsonView textures = json.member("caustic_textures");
+  textures.expectBool();
+  if (textures.present()) s.causticTextures = textures.value().get<bool>();
   s.seed = count(document, "seed", s.seed);
   return s;
 }
@@ -83,24 +86,35 @@ nlohmann::ordered_json entryOf(const EditStep& step) {
 }
 
 std::string toJson(const Recording& r) {
-  Json scene = Json::array(), edits = Json::array();
+  Json scene = Json::array(), luminaires = Json::array(), edits = Json::array();
   for (const fs::path& file : r.scene) scene.push_back(file.string());
+  for (const Luminaire& l : r.luminaires)
+    luminaires.push_back({{"file", l.file.string()}, {"position", triple(l.position)}});
   for (const EditStep& step : r.steps) edits.push_back(entryOf(step));
   Json document{
       {"recording", kRecordingVersion},
       {"scene", std::move(scene)},
+      {"luminaires", std::move(luminaires)},
       {"import", {{"metres_per_unit", r.import.metresPerUnit}, {"luminous_efficacy", r.import.luminousEfficacy}}},
       {"seed", r.settings.seed},
       {"settings",
        {{"error", r.settings.error},
         {"particles", r.settings.particles},
         {"seconds", r.settings.seconds},
-        {"diffuse_only", r.settings.diffuseOnly}}},
+        {"diffuse_only", r.settings.diffuseOnly},
+        {"caustic_textures", r.settings.causticTextures}}},
       {"edits", std::move(edits)}};
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void saveRecording(const fs::path& path, const Recording& recording) { writeFile(path, toJson(recording)); }
+void saveRecording(const fs::path& path, const Recording& recording) {
+  Recording fromThere = recording;
+  const fs::path folder = fs::absolute(path).parent_path();
+  const auto relative = [&](fs::path& file) { file = fs::absolute(file).lexically_proximate(folder); };
+  for (fs::path& file : fromThere.scene) relative(file);
+  for (Luminaire& l : fromThere.luminaires) relative(l.file);
+  writeFile(path, toJson(fromThere));
+}
 
 Recording loadRecording(const fs::path& path) {
   const std::string file = path.string();
@@ -114,8 +128,20 @@ Recording loadRecording(const fs::path& path) {
   scene.expectPresent("the files of the scene");
   for (const JsonView& name : scene.elements()) {
     name.expectString();
-    r.scene.emplace_back(name.value().get<std::string>());
+    r.scene.push_back((path.parent_path() / name.value().get<std::string>()).lexically_normal());
   }
+  const JsonView luminaires = document.member("luminaires");
+  if (luminaires.present())
+    for (const JsonView& l : luminaires.objects()) {
+      l.member("file").expectPresent("the file of a measured light");
+      l.member("file").expectString();
+      const JsonView position = l.member("position");
+      position.expectPresent("where the light is");
+      position.expectNumbers(3, -1e9, 1e9);
+      const auto& at = position.value();
+      r.luminaires.push_back({(path.parent_path() / l.member("file").value().get<std::string>()).lexically_normal(),
+                              {at[0].get<double>(), at[1].get<double>(), at[2].get<double>()}});
+    }
   if (r.scene.empty()) scene.fail("names no file");
   r.import.metresPerUnit = number(import, "metres_per_unit", 1e-12, 1e12, r.import.metresPerUnit);
   r.import.luminousEfficacy = number(import, "luminous_efficacy", 1e-6, 1e6, r.import.luminousEfficacy);
