@@ -36,6 +36,29 @@ TEST(UpdateCommand, ReplayMeasuresEachEditAndChecksTheLast) {
   EXPECT_EQ(report["check"]["particles_identical"], true);
 }
 
+/// A row for each edit, and one for the settling.
+TEST(UpdateCommand, ADragIsSettledAtItsEnd) {
+  const TempFolder folder;
+  folder.write("e.json", kEdits);
+  const auto result = runCli({"replay", bundledScene("cornell/cornell.rad"), "--edits", folder / "e.json", "--check",
+                              "--frame-ms", "10", "--report", folder / "r.json"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto report = nlohmann::json::parse(readText(folder / "r.json"));
+  ASSERT_EQ(report["steps"].size(), 4u);
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(report["steps"][i].contains("stale_w")) << "frame " << i;
+  EXPECT_GT(report["steps"][2]["deferred"], 0);
+  const auto& settled = report["steps"][3];
+  EXPECT_EQ(settled["op"], "settle");
+  EXPECT_EQ(settled["deferred"], 0);
+  EXPECT_GT(settled["links_visited"], 0);
+  EXPECT_LT(report["check"]["irradiance_rel_diff"]["median"], 0.005);
+  EXPECT_LT(report["check"]["irradiance_rel_diff"]["p95"], 0.03);
+  EXPECT_EQ(report["check"]["particles_identical"], true);
+  EXPECT_EQ(
+      runCli({"replay", bundledScene("cornell/cornell.rad"), "--edits", folder / "e.json", "--frame-ms", "0"}).exitCode,
+      2);
+}
+
 TEST(UpdateCommand, ASolutionFromAFileIsUpdatedIntoAnother) {
   const TempFolder folder;
   folder.write("e.json", kEdits);

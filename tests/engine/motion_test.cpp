@@ -119,6 +119,24 @@ TEST(Motion, TheBrightestGoFirst) {
   EXPECT_GE(*first.staleW - *second.staleW, *second.staleW - *third.staleW);
 }
 
+TEST(Motion, WithoutParticlesToo) {
+  SolveSettings settings;
+  settings.error = 0.1, settings.diffuseOnly = true;
+  Engine engine(loadScene({DELTALUX_SOURCE_DIR "/scenes/cornell/cornell.rad"}).scene, settings);
+  engine.solve();
+  engine.select("short_block");
+  engine.apply(shift("short_block", {0.02, 0, 0.01}));
+  const StepReport frame = engine.frame(kNoTime);
+  EXPECT_GT(frame.deferred, 0u);
+  EXPECT_GT(*frame.staleW, 0);
+  const StepReport last = engine.frame(kAllTime);
+  EXPECT_EQ(last.deferred, 0u);
+  EXPECT_GT(last.linksVisited, 0u);
+  engine.update();
+  EXPECT_NO_THROW(
+      engine.solution().get().transfers.validate(engine.solution().get().elements, engine.solution().get().links));
+}
+
 TEST(Motion, OtherEditsWaitForTheEnd) {
   Engine engine = cornell(), fresh = cornell();
   for (Engine* e : {&engine, &fresh}) {
