@@ -343,7 +343,8 @@ struct Engine::State {
   bool outshines(const SceneUpdate& edits) const {
     const Solution& s = *solution;
     return std::any_of(edits.dimmed.begin(), edits.dimmed.end(), [&](LightId light) {
-      return gray(s.scene[light].scale) > kBrighter * gray(s.sampledScale[light.index()]);
+      return light.index() >= s.sampledScale.size() ||  // it was not there
+             gray(s.scene[light].scale) > kBrighter * gray(s.sampledScale[light.index()]);
     });
   }
 

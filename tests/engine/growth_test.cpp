@@ -164,6 +164,23 @@ TEST(Growth, ALampThatWasOffCanBeSwitchedOnInACloset) {
   expectAsSolved(engine, {6, 7, 8, 9, 10, 11}, 0.03);
 }
 
+TEST(Growth, AnAddedLampIsSolvedForAndCanBeDimmed) {
+  Scene room = litRoom();
+  addLamp(room);
+  Engine engine = test::solved(std::move(room), 0.1);
+  Scene part;
+  test::addMaterial(part, "glow", test::lambert(0.0f), Emission{Rgb(30.0f), false, {}});
+  test::addShape(part, MaterialId(0), Sphere{{0.8, 1.1, 0.6}, 0.1, false});
+  addAreaLights(part);
+  part.lights.back().name = "globe";
+  engine.apply(AddObject{"globe", "", std::make_shared<const Scene>(part)});
+  engine.update();
+  expectAsSolved(engine, {0, 1, 2, 3, 4, 5}, 0.01, 0.1);
+  engine.apply(ScaleLight{engine.solution().scene().lights.back().name, 0.25f});
+  EXPECT_EQ(engine.update().linksVisited, 0u);
+  expectAsSolved(engine, {0, 1, 2, 3, 4, 5}, 0.02, 0.1);
+}
+
 TEST(Growth, IsKeptInSolutionFiles) {
   const test::TempFolder folder;
   Engine engine = test::solved(roomWithStandingBox(), 0.1);
