@@ -27,6 +27,7 @@
 #include "radiosity/line_space.hpp"
 #include "radiosity/push_pull.hpp"
 #include "radiosity/refine.hpp"
+#include "radiosity/row_settling.hpp"
 #include "scene/diffuse_only.hpp"
 #include "solution/solution.hpp"
 
@@ -66,6 +67,7 @@ struct Engine::State {
   std::optional<ParticleTracing> tracing;    // knows the scene that the particles are of
   RgbSum unsettled{0.0};                     // power that the last iteration of rows changed
   bool counted = true;                       // the report is of the solution as it is
+  std::optional<RowSettling> settling;       // of diffuse light, rows as they are
   std::optional<ParticleTransfer> transfer;  // of the particles, on the mesh of the rows
   std::optional<TextureUpkeep> upkeep;       // of the textures, once there are edits
   Backlog backlog;                           // what edits that were taken in have still to do
@@ -223,6 +225,8 @@ struct Engine::State {
     SpaceChange all;                // bounds before and after
     std::vector<ElementId> inputs;  // of what moves
     LinkMarks marks;
+    bool grown = false;           // elements were added above the leaves that there were
+    std::vector<ElementId> rows;  // leaves whose rows are others than before
   };
 
   /// What a fresh solve would make of the edited scene, from the solution there is. [GD01 5]
@@ -245,7 +249,7 @@ struct Engine::State {
     if (std::exchange(backlog.frames, false) || split) transfer.reset();
     placeParticles(followed, step);
     const Clock gathering;
-    settleRows(progress);
+    settleAfter(edits, motion, progress);
     step.times.gather += gathering.seconds();
     followWithTextures(step);
     if (gapsAreMany()) closeGaps();
@@ -259,6 +263,8 @@ struct Engine::State {
     Growth growth = grow(edits, backlog.landed, step);
     const std::vector<ElementId> reflecting = std::exchange(backlog.reflecting, {});
     growth.woken.insert(growth.woken.end(), reflecting.begin(), reflecting.end());
+    motion.grown = split || growth.root.valid();
+    motion.rows = leavesBelow(solution->elements, growth);
     if (split || !motion.marks.changes.empty() || !growth.empty()) arrive(motion, growth, step);
   }
 
@@ -275,6 +281,7 @@ struct Engine::State {
       if (tracing && transfer) followWithTextures(step);
       closeGaps();
     }
+    settling.reset();
     if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
     const bool relit = !pending.dimmed.empty();
     takeIn(step, true);
@@ -504,7 +511,11 @@ struct Engine::State {
   /// While the scene is still what the particles and textures are of.
   void prepareToFollow() {
     Solution& s = *solution;
-    if (s.settings.diffuseOnly || !finished) return;
+    if (!finished) return;
+    if (s.settings.diffuseOnly) {
+      if (!settling) settling.emplace(s.transfers, s.elements);
+      return;
+    }
     if (!tracing) tracing.emplace(s.scene, *s.tracer, ParticleSettings{particleCount(s.settings), s.settings.seed});
     if (upkeep || !s.settings.causticTextures) return;
     if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
@@ -601,6 +612,7 @@ struct Engine::State {
     step.leavesExamined = std::max(leaves.byLights.size(), leaves.byLeaves.size());
     step.leavesRenewed = std::max(rows.direct, rows.indirect);
     step.times.gather = gathering.seconds();
+    motion.rows.insert(motion.rows.end(), rows.leaves.begin(), rows.leaves.end());
   }
 
   static std::vector<char> subtrees(const Elements& elements, const std::vector<ElementId>& tops) {
@@ -646,6 +658,19 @@ struct Engine::State {
       if (gray(unsettled) <= kSettledRows * gray(emitted)) break;
     }
     return gray(unsettled) <= kSettledRows * gray(emitted);
+  }
+
+  /// Where nothing but rows has changed, only they and what they light is gathered again.
+  void settleAfter(const SceneUpdate& edits, const Motion& motion, Progress* progress) {
+    Solution& s = *solution;
+    if (!s.settings.diffuseOnly || !edits.dimmed.empty() || !edits.materials.empty() || motion.grown) {
+      settling.reset();
+      settleRows(progress);
+      return;
+    }
+    if (!settling) settling.emplace(s.transfers, s.elements);
+    unsettled = settling->settle(s.transfers, s.elements, motion.rows, kSettledRows * gray(directPower()),
+                                 kMaxRowIterations, s.report.counts.iterations);
   }
 
   RgbSum directPower() const {

@@ -35,6 +35,18 @@ void addLanding(std::vector<SurfaceSide>& sides, const Particles& particles, con
 
 }  // namespace
 
+std::vector<ElementId> leavesBelow(const Elements& elements, const Growth& growth) {
+  std::vector<ElementId> stack = growth.woken, leaves;
+  stack.insert(stack.end(), growth.asleep.begin(), growth.asleep.end());
+  while (!stack.empty()) {
+    const ElementId e = stack.back();
+    stack.pop_back();
+    if (elements.isLeaf(e)) leaves.push_back(e);
+    for (std::size_t i = 0; i < elements.at(e).childCount; ++i) stack.push_back(elements.child(e, i));
+  }
+  return leaves;
+}
+
 Growth growInLight(Solution& s, const SceneUpdate& edits, const ParticleUpdate& particles) {
   CoveredSides sides;
   if (!edits.moved.empty() || !edits.movedLights.empty()) {
@@ -52,12 +64,14 @@ Growth growInLight(Solution& s, const SceneUpdate& edits, const ParticleUpdate& 
     else if (std::binary_search(s.elements.asleep.begin(), s.elements.asleep.end(), known[i]))
       growth.woken.push_back(known[i]);
   }
-  const std::vector<ElementId> dark = elementsOf(s.elements, sides.covered);
-  growth.asleep = dark.size();
-  if (growth.asleep > 0) setAsleep(s.elements, s.scene, dark, true);
+  growth.asleep = elementsOf(s.elements, sides.covered);
+  if (!growth.asleep.empty()) setAsleep(s.elements, s.scene, growth.asleep, true);
   if (!growth.woken.empty()) setAsleep(s.elements, s.scene, growth.woken, false);
   if (!fresh.empty()) growth.root = growElements(s.elements, s.scene, fresh);
-  if (!growth.empty()) pull(s.elements);
+  if (growth.root.valid())
+    pull(s.elements);
+  else if (!growth.empty())
+    pull(s.elements, leavesBelow(s.elements, growth));
   return growth;
 }
 

@@ -11,10 +11,13 @@ namespace deltalux {
 struct Growth {
   ElementId root;                // of what has grown, or none; its links are still to be made
   std::vector<ElementId> woken;  // and they, to be judged anew
-  std::size_t asleep = 0;
+  std::vector<ElementId> asleep;
 
-  bool empty() const { return !root.valid() && woken.empty() && asleep == 0; }
+  bool empty() const { return !root.valid() && woken.empty() && asleep.empty(); }
 };
+
+/// Leaf patches of what has woken or fallen asleep.
+std::vector<ElementId> leavesBelow(const Elements&, const Growth&);
 
 /// Scene, tracer and particles are those after the edits.
 Growth growInLight(Solution&, const SceneUpdate&, const ParticleUpdate&);

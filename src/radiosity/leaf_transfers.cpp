@@ -93,19 +93,23 @@ std::size_t LeafTransfers::memoryBytes() const {
   return bytes;
 }
 
+void LeafTransfers::gatherDirect(const LeafRow& row, Elements& elements) const {
+  elements.radiometry[row.leaf.index()].direct = gatheredFromLights(row, elements);
+}
+
+void LeafTransfers::gatherIndirect(const LeafRow& row, Elements& elements, const std::vector<Rgb>& B) const {
+  elements.radiometry[row.leaf.index()].indirect = gatheredFromLeaves(row, elements, B);
+}
+
 void LeafTransfers::gatherDirect(Elements& elements) const {
-  parallelFor(rows_.size(), kBlock, [&](std::size_t i) {
-    elements.radiometry[rows_[i].leaf.index()].direct = gatheredFromLights(rows_[i], elements);
-  });
+  parallelFor(rows_.size(), kBlock, [&](std::size_t i) { gatherDirect(rows_[i], elements); });
 }
 
 void LeafTransfers::gatherIndirect(Elements& elements) const {
   // Close together, since rows read them in no order.
   std::vector<Rgb> B(elements.size());
   for (std::size_t i = 0; i < B.size(); ++i) B[i] = elements.radiometry[i].B;
-  parallelFor(rows_.size(), kBlock, [&](std::size_t i) {
-    elements.radiometry[rows_[i].leaf.index()].indirect = gatheredFromLeaves(rows_[i], elements, B);
-  });
+  parallelFor(rows_.size(), kBlock, [&](std::size_t i) { gatherIndirect(rows_[i], elements, B); });
 }
 
 void LeafTransfers::validate(const Elements& elements, const Links& links) const {

@@ -24,6 +24,7 @@ struct LeafTransferReport {
 struct LeafUpdateReport {
   std::uint64_t rays = 0, split = 0;
   std::uint64_t direct = 0, indirect = 0;  // rows that were made anew, in part or whole
+  std::vector<ElementId> leaves;           // theirs, in the order of ids; direct light and all above is up to date
 };
 
 /// Leaves whose rows may have to be made anew.
@@ -56,12 +57,16 @@ class LeafTransfers {
                           const ConcernedLeaves&);
 
   bool empty() const { return rows_.empty(); }
+  std::span<const LeafRow> rows() const { return rows_; }
   std::size_t memoryBytes() const;
 
   /// Fills `direct` of the leaves from the present B of emitters.
   void gatherDirect(Elements&) const;
   /// Fills `indirect` of the leaves from the present B of leaves.
   void gatherIndirect(Elements&) const;
+  /// Fills those of the leaf of one row; B by element.
+  void gatherDirect(const LeafRow&, Elements&) const;
+  void gatherIndirect(const LeafRow&, Elements&, const std::vector<Rgb>& B) const;
 
   /// Checks that rows are those of receiving leaves, each once, from leaves and emitters that exist, by transfers that
   /// are finite and not negative. Throws std::logic_error with the first violation.

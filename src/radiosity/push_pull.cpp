@@ -73,102 +73,116 @@ void push(Elements& elements) {
 }
 
 /// The exposed share of what has parts.
-void pullExposure(Elements& elements) {
-  for (std::size_t i = elements.size(); i-- > 0;) {
-    const ElementTopology& t = elements.topology[i];
-    if (t.kind != ElementKind::Patch || t.childCount == 0) continue;
-    double lit = 0, area = 0;
-    for (std::size_t c = 0; c < t.childCount; ++c) {
-      const ElementGeometry& g = elements.geometry[t.firstChild.index() + c];
-      lit += g.litArea(), area += g.area;
-    }
-    if (area > 0) elements.geometry[i].exposed = static_cast<float>(lit / area);
+void pullExposure(Elements& elements, std::size_t i) {
+  const ElementTopology& t = elements.topology[i];
+  if (t.kind != ElementKind::Patch || t.childCount == 0) return;
+  double lit = 0, area = 0;
+  for (std::size_t c = 0; c < t.childCount; ++c) {
+    const ElementGeometry& g = elements.geometry[t.firstChild.index() + c];
+    lit += g.litArea(), area += g.area;
+  }
+  if (area > 0) elements.geometry[i].exposed = static_cast<float>(lit / area);
+}
+
+void pullIrradiance(Elements& elements, std::size_t i) {
+  const ElementTopology& t = elements.topology[i];
+  if (t.emitter) return;
+  ElementLight& light = elements.radiometry[i];
+  if (t.childCount == 0) {
+    // The first estimate is free of the leaks that a coarse solution has, so it bounds what may be tolerated.
+    light.tolerance = std::clamp(gray(light.direct + light.indirect + light.particle), kDarkest * light.typical,
+                                 kBrightest * light.typical);
+    return;
+  }
+  RgbSum direct(0.0), indirect(0.0), particle(0.0);
+  double area = 0, inverse = 0;
+  for (std::size_t c = 0; c < t.childCount; ++c) {
+    const std::size_t child = t.firstChild.index() + c;
+    if (elements.topology[child].blocker) continue;
+    const double a = elements.geometry[child].litArea();
+    const ElementLight& l = elements.radiometry[child];
+    direct += a * RgbSum(l.direct), indirect += a * RgbSum(l.indirect), particle += a * RgbSum(l.particle);
+    inverse += a / std::max(l.tolerance, kLeast);
+    area += a;
+  }
+  if (area <= 0) return;
+  light.direct = Rgb(direct / area), light.indirect = Rgb(indirect / area), light.particle = Rgb(particle / area);
+  // The harmonic mean: a cluster with dark surfaces must not let bright ones speak for them.
+  light.tolerance = static_cast<float>(area / inverse);
+}
+
+void pullIntensity(Elements& elements, ElementId cluster) {
+  DirectionalRgb& intensity = elements.clusters[elements.slot[cluster.index()]].intensity;
+  intensity = {};
+  for (std::size_t c = 0; c < elements.at(cluster).childCount; ++c) {
+    const ElementId child = elements.child(cluster, c);
+    if (elements.isCluster(child))
+      intensity += elements.cluster(child).intensity;
+    else if (elements.isPatch(child))
+      intensity.addLobe(elements.moments[child.index()],
+                        elements.shape(child).litArea() / float(kPi) * elements.radiometry[child.index()].B);
+    else  // a point of any distribution, as bright all round as where it is brightest
+      intensity.c[0] += elements.radiometry[child.index()].B / kConstantHarmonic;
   }
 }
 
-void pullIrradiance(Elements& elements) {
-  for (std::size_t i = elements.size(); i-- > 0;) {
-    const ElementTopology& t = elements.topology[i];
-    if (t.emitter) continue;
-    ElementLight& light = elements.radiometry[i];
-    if (t.childCount == 0) {
-      // The first estimate is free of the leaks that a coarse solution has, so it bounds what may be tolerated.
-      light.tolerance = std::clamp(gray(light.direct + light.indirect + light.particle), kDarkest * light.typical,
-                                   kBrightest * light.typical);
-      continue;
-    }
-    RgbSum direct(0.0), indirect(0.0), particle(0.0);
-    double area = 0, inverse = 0;
-    for (std::size_t c = 0; c < t.childCount; ++c) {
-      const std::size_t child = t.firstChild.index() + c;
-      if (elements.topology[child].blocker) continue;
-      const double a = elements.geometry[child].litArea();
-      const ElementLight& l = elements.radiometry[child];
-      direct += a * RgbSum(l.direct), indirect += a * RgbSum(l.indirect), particle += a * RgbSum(l.particle);
-      inverse += a / std::max(l.tolerance, kLeast);
-      area += a;
-    }
-    if (area <= 0) continue;
-    light.direct = Rgb(direct / area), light.indirect = Rgb(indirect / area), light.particle = Rgb(particle / area);
-    // The harmonic mean: a cluster with dark surfaces must not let bright ones speak for them.
-    light.tolerance = static_cast<float>(area / inverse);
-  }
-}
-
-RgbSum reflectAndPull(Elements& elements) {
-  RgbSum change(0.0);
-  for (std::size_t i = elements.size(); i-- > 0;) {
-    const ElementTopology& t = elements.topology[i];
-    const ElementId e(i);
-    if (t.kind == ElementKind::Cluster) {
-      DirectionalRgb& intensity = elements.clusters[elements.slot[i]].intensity;
-      intensity = {};
-      for (std::size_t c = 0; c < t.childCount; ++c) {
-        const ElementId child = elements.child(e, c);
-        if (elements.isCluster(child))
-          intensity += elements.cluster(child).intensity;
-        else if (elements.isPatch(child))
-          intensity.addLobe(elements.moments[child.index()],
-                            elements.shape(child).litArea() / float(kPi) * elements.radiometry[child.index()].B);
-        else  // a point of any distribution, as bright all round as where it is brightest
-          intensity.c[0] += elements.radiometry[child.index()].B / kConstantHarmonic;
+/// Adds the power by which a leaf's radiosity changes.
+void reflectAndPull(Elements& elements, std::size_t i, RgbSum& change) {
+  const ElementTopology& t = elements.topology[i];
+  const ElementId e(i);
+  if (t.kind == ElementKind::Cluster) return pullIntensity(elements, e);
+  if (t.emitter) return;
+  ElementLight& light = elements.radiometry[i];
+  if (t.childCount == 0) {
+    Rgb B = light.rho * (light.direct + light.indirect + light.particle);
+    if (!isBlack(light.tau)) {
+      const ElementId other = otherSide(elements, e);
+      if (other.valid()) {
+        const ElementLight& o = elements.radiometry[other.index()];
+        B += light.tau * (o.direct + o.indirect + o.particle);
       }
-      continue;
     }
-    if (t.emitter) continue;
-    ElementLight& light = elements.radiometry[i];
-    const float area = elements.geometry[i].litArea();
-    if (t.childCount == 0) {
-      Rgb B = light.rho * (light.direct + light.indirect + light.particle);
-      if (!isBlack(light.tau)) {
-        const ElementId other = otherSide(elements, e);
-        if (other.valid()) {
-          const ElementLight& o = elements.radiometry[other.index()];
-          B += light.tau * (o.direct + o.indirect + o.particle);
-        }
-      }
-      change += RgbSum(area * glm::abs(B - light.B));
-      light.B = B;
-      continue;
-    }
-    RgbSum power(0.0);
-    double total = 0;
-    for (std::size_t c = 0; c < t.childCount; ++c) {
-      const std::size_t child = t.firstChild.index() + c;
-      power += double(elements.geometry[child].litArea()) * RgbSum(elements.radiometry[child].B);
-      total += elements.geometry[child].litArea();
-    }
-    if (total > 0) light.B = Rgb(power / total);
+    change += RgbSum(elements.geometry[i].litArea() * glm::abs(B - light.B));
+    light.B = B;
+    return;
   }
-  return change;
+  RgbSum power(0.0);
+  double total = 0;
+  for (std::size_t c = 0; c < t.childCount; ++c) {
+    const std::size_t child = t.firstChild.index() + c;
+    power += double(elements.geometry[child].litArea()) * RgbSum(elements.radiometry[child].B);
+    total += elements.geometry[child].litArea();
+  }
+  if (total > 0) light.B = Rgb(power / total);
 }
 
 }  // namespace
 
 RgbSum pull(Elements& elements) {
-  pullExposure(elements);
-  pullIrradiance(elements);
-  return reflectAndPull(elements);
+  RgbSum change(0.0);
+  for (std::size_t i = elements.size(); i-- > 0;) pullExposure(elements, i), pullIrradiance(elements, i);
+  for (std::size_t i = elements.size(); i-- > 0;) reflectAndPull(elements, i, change);
+  return change;
+}
+
+RgbSum pull(Elements& elements, std::span<const ElementId> leaves) {
+  std::vector<char> marked(elements.size(), 0);
+  const auto mark = [&](ElementId e) {
+    for (; e.valid() && !marked[e.index()]; e = elements.at(e).parent) marked[e.index()] = 1;
+  };
+  for (const ElementId leaf : leaves) {
+    mark(leaf);
+    if (isBlack(elements.radiometry[leaf.index()].tau)) continue;
+    const ElementId other = otherSide(elements, leaf);  // it shines through
+    if (other.valid()) mark(other);
+  }
+  std::vector<std::uint32_t> touched;
+  for (std::size_t i = elements.size(); i-- > 0;)
+    if (marked[i]) touched.push_back(static_cast<std::uint32_t>(i));
+  RgbSum change(0.0);
+  for (const std::uint32_t i : touched) pullExposure(elements, i), pullIrradiance(elements, i);
+  for (const std::uint32_t i : touched) reflectAndPull(elements, i, change);
+  return change;
 }
 
 RgbSum pushPull(Elements& elements) {

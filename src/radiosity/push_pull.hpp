@@ -4,7 +4,9 @@
 // direction [GD01 2.1; Sillion 1995]. The one writer of B, tolerance and cluster intensities; of direct and indirect
 // while links are refined, and above the leaves once rows of transfers fill those (leaf_transfers.hpp). Means are over
 // the exposed parts of leaves (exposure.hpp). Cost: linear in elements; parents stand before their children, so both
-// ways are plain loops.
+// ways are plain loops; or in what a change has touched, and one look at each element.
+#include <span>
+
 #include "hierarchy/element.hpp"
 
 namespace deltalux {
@@ -15,5 +17,7 @@ RgbSum pushPull(Elements&);
 
 /// The upward half alone: from the irradiances that the leaves have, everything above. Returns as pushPull.
 RgbSum pull(Elements&);
+/// The same of these leaves, what lies on their other sides and what stands above them; all else is as it was.
+RgbSum pull(Elements&, std::span<const ElementId> leaves);
 
 }  // namespace deltalux

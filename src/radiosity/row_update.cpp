@@ -145,8 +145,12 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
                                                      rows_[at].direct = std::move(row);
                                                    });
   report.rays += direct.rays, report.split = direct.split;
-  gatherDirect(elements);
-  pull(elements);
+  for (std::size_t i = 0; i < anew.size(); ++i)
+    if (anew[i] || renewed[i].any) report.leaves.push_back(leaves.byLights[i]);
+  report.leaves.insert(report.leaves.end(), grown.begin(), grown.end());
+  std::erase_if(report.leaves, [&](ElementId e) { return !receivesLight(elements, e); });
+  for (const ElementId leaf : report.leaves) gatherDirect(rows_[rowOf[leaf.index()]], elements);
+  pull(elements, report.leaves);
 
   std::vector<ElementId> indirect = leaves.byLeaves;
   indirect.insert(indirect.end(), grown.begin(), grown.end());
@@ -164,7 +168,14 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
       done[i] = sampler.update(leaf, marks.changes, changed.at(leaf, false), space, row, rays[i]);
     }
   });
-  for (std::size_t i = 0; i < indirect.size(); ++i) report.rays += rays[i], report.indirect += done[i] != 0;
+  for (std::size_t i = 0; i < indirect.size(); ++i) {
+    report.rays += rays[i];
+    if (!done[i]) continue;
+    ++report.indirect;
+    report.leaves.push_back(indirect[i]);
+  }
+  std::sort(report.leaves.begin(), report.leaves.end());
+  report.leaves.erase(std::unique(report.leaves.begin(), report.leaves.end()), report.leaves.end());
   dropNoLeaves(elements);
   return report;
 }
