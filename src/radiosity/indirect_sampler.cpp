@@ -274,7 +274,7 @@ bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span
     at += t.count;
     const bool retraced = again != anew.end() && *again == i;
     again += retraced;
-    if (changeOf(links, t.link) == LinkChange::Changed) continue;
+    if (changeOf(links, t.link) == LinkChange::Changed || coveredBy(changed, t)) continue;
     if (retraced) {
       append(leaf, dealt(leaf, t), next, traced);
       continue;
@@ -285,6 +285,13 @@ bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span
   dealChanged(leaf, changed, next, traced);
   row = std::move(next);
   return true;
+}
+
+/// Whether a term that was dealt over a link now split is one of these links' by now.
+bool IndirectSampler::coveredBy(std::span<const LinkId> changed, const RowTerm& t) const {
+  if (links_[t.link].state != LinkState::Interior) return false;
+  return std::any_of(changed.begin(), changed.end(),
+                     [&](LinkId id) { return holds(elements_, links_[id].sender, t.sender); });
 }
 
 IndirectSampler::Dealt IndirectSampler::dealt(ElementId leaf, const RowTerm& t) const {

@@ -82,6 +82,7 @@ class IndirectSampler {
   Rgb transfer(ElementId leaf, const Dealt&, const PointAt&, std::uint64_t& traced) const;
   Rgb transferOf(ElementId leaf, const Dealt&, std::uint64_t& traced) const;
   void append(ElementId leaf, const Dealt&, TransferRow&, std::uint64_t& traced) const;
+  bool coveredBy(std::span<const LinkId> changed, const RowTerm&) const;
   /// What a term of a row was dealt, by today's kernel.
   Dealt dealt(ElementId leaf, const RowTerm&) const;
   /// Traces these terms of a row again, in ascending order.

@@ -59,6 +59,7 @@ LineSpace::Finding LineSpace::examine(LinkId id) const {
     case LinkState::Averted:
       break;
     case LinkState::Interior:
+      f.touched = true;  // rows may sample over it since before it was split
       // One that was refined for its shadow may no longer need to be; clusters with what moved stay refined.
       f.anew = resampled();
       f.moved = f.moved && (change_.moved(l.receiver) || change_.moved(l.sender));

@@ -433,7 +433,8 @@ class Descent {
       return;
     }
     if (!splitLink(links_, elements_, scene_, id, v.split)) return;
-    changed(id);
+    // When the receiver is split, rows go on to sample over the link: it covers all that they did.
+    if (v.split != Split::Receiver) changed(id);
     ++report_.split;
     report_.created += links_[id].childCount;
     descend(task, v, next, true);
