@@ -67,7 +67,7 @@ struct Engine::State {
   std::optional<ParticleTracing> tracing;    // knows the scene that the particles are of
   RgbSum unsettled{0.0};                     // power that the last iteration of rows changed
   bool counted = true;                       // the report is of the solution as it is
-  std::optional<RowSettling> settling;       // of diffuse light, rows as they are
+  std::optional<RowSettling> settling;       // of diffuse light, while nothing but rows changes
   std::optional<ParticleTransfer> transfer;  // of the particles, on the mesh of the rows
   std::optional<TextureUpkeep> upkeep;       // of the textures, once there are edits
   Backlog backlog;                           // what edits that were taken in have still to do
@@ -249,7 +249,7 @@ struct Engine::State {
     if (std::exchange(backlog.frames, false) || split) transfer.reset();
     placeParticles(followed, step);
     const Clock gathering;
-    settleAfter(edits, motion, progress);
+    settleAfter(motion, progress);
     step.times.gather += gathering.seconds();
     followWithTextures(step);
     if (gapsAreMany()) closeGaps();
@@ -319,6 +319,7 @@ struct Engine::State {
     step.op = edits.op, step.object = edits.subject;
     backlog.afresh |= !haveElements(solution->elements, solution->scene, edits) || outshines(edits);
     if (backlog.afresh) return;
+    if (!edits.dimmed.empty() || !edits.materials.empty()) settling.reset();
     const std::vector<ElementId> reflecting = relight(edits);
     backlog.reflecting.insert(backlog.reflecting.end(), reflecting.begin(), reflecting.end());
     std::vector<PrimitiveId> moved;
@@ -526,7 +527,7 @@ struct Engine::State {
   void solveAfresh(Progress* progress) {
     Solution& s = *solution;
     s.tracer = makeEmbreeTracer(s.scene);
-    tracing.reset(), transfer.reset(), upkeep.reset(), backlog = {}, groups = {};
+    tracing.reset(), transfer.reset(), upkeep.reset(), settling.reset(), backlog = {}, groups = {};
     s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.caustics = {}, s.report = {};
     finished = false;
     clock = {};
@@ -661,14 +662,13 @@ struct Engine::State {
   }
 
   /// Where nothing but rows has changed, only they and what they light is gathered again.
-  void settleAfter(const SceneUpdate& edits, const Motion& motion, Progress* progress) {
+  void settleAfter(const Motion& motion, Progress* progress) {
     Solution& s = *solution;
-    if (!s.settings.diffuseOnly || !edits.dimmed.empty() || !edits.materials.empty() || motion.grown) {
-      settling.reset();
+    if (motion.grown) settling.reset();
+    if (!settling) {
       settleRows(progress);
       return;
     }
-    if (!settling) settling.emplace(s.transfers, s.elements);
     unsettled = settling->settle(s.transfers, s.elements, motion.rows, kSettledRows * gray(directPower()),
                                  kMaxRowIterations, s.report.counts.iterations);
   }

@@ -42,6 +42,13 @@ std::uint64_t RowSettling::regionsOf(const LeafRow& row) const {
   return regions;
 }
 
+RgbSum RowSettling::unheard(const Elements& elements) const {
+  RgbSum power(0.0);
+  for (const ElementId e : unheard_)
+    power += RgbSum(elements.shape(e).litArea() * glm::abs(elements.radiometry[e.index()].B - seen_[e.index()]));
+  return power;
+}
+
 RgbSum RowSettling::settle(const LeafTransfers& transfers, Elements& elements, std::span<const ElementId> changed,
                            double tolerated, int most, std::uint64_t& passes) {
   label(elements);
@@ -66,16 +73,21 @@ RgbSum RowSettling::settle(const LeafTransfers& transfers, Elements& elements, s
     leaves.clear();
     for (const std::uint32_t i : active) leaves.push_back(rows[i].leaf);
     if (pass == 0) leaves.insert(leaves.end(), dark.begin(), dark.end());
-    unsettled = pull(elements, leaves);
+    pull(elements, leaves);
     ++passes;
+    unheard_.insert(unheard_.end(), leaves.begin(), leaves.end());
+    std::sort(unheard_.begin(), unheard_.end());
+    unheard_.erase(std::unique(unheard_.begin(), unheard_.end()), unheard_.end());
+    unsettled = unheard(elements);
     if (gray(unsettled) <= tolerated) break;
     std::uint64_t news = 0;
-    for (const ElementId e : leaves) {
+    for (const ElementId e : unheard_) {
       const Rgb B = elements.radiometry[e.index()].B, seen = seen_[e.index()];
       if (maxChannel(glm::abs(B - seen)) <= kSeen * std::max(maxChannel(B), maxChannel(seen))) continue;
       seen_[e.index()] = B;
       news |= std::uint64_t(1) << region_[e.index()];
     }
+    unheard_.clear();
     active.clear();
     for (std::uint32_t i = 0; i < rows.size(); ++i)
       if (from_[rows[i].leaf.index()] & news) active.push_back(i);

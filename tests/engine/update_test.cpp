@@ -48,6 +48,16 @@ test::Spread difference(const Engine& a, const Engine& b) {
   return test::spreadOf(std::move(differences));
 }
 
+/// The same solution, gathered over all rows again, as edits of lights have it.
+Engine settledOverAllRows(const Engine& engine) {
+  Engine again(engine.solution());
+  for (const float scale : {2.0f, 0.5f}) {
+    again.apply(ScaleLight{again.solution().scene().lights.back().name, scale});
+    again.update();
+  }
+  return again;
+}
+
 TEST(Update, MovingABoxIsSolvingTheMovedScene) {
   Engine engine = test::solved(roomWithBox(), 0.05);
   engine.apply(moveBox({0.15, 0.1, 0}));
@@ -64,6 +74,53 @@ TEST(Update, MovingABoxIsSolvingTheMovedScene) {
   EXPECT_LT(between.p95, 0.12);
   for (std::size_t wall = 0; wall < 6; ++wall)
     EXPECT_NEAR(test::meshMean(engine, PrimitiveId(wall)) / test::meshMean(fresh, PrimitiveId(wall)), 1.0, 0.01);
+}
+
+TEST(Update, ManySmallMovesCarryTheirLightOn) {
+  // Each changes less light than is worth a pass over the rest of the room; all of them together do not.
+  SolveSettings settings;
+  settings.error = 0.05, settings.diffuseOnly = true;
+  Engine engine(roomWithBox(), settings);
+  engine.solve();
+  for (int i = 0; i < 200; ++i) {
+    engine.apply(moveBox({0.0005, 0, 0}));
+    engine.update();
+  }
+  const EnergyLedger ledger = engine.solution().get().report.energy;
+  EXPECT_LE(*ledger.unsettledW, 1e-4 * *ledger.emittedW);
+  EXPECT_LT(difference(engine, settledOverAllRows(engine)).p95, 0.01);
+}
+
+TEST(Update, DiffuseOnlyFollowsLights) {
+  SolveSettings settings;
+  settings.error = 0.05, settings.diffuseOnly = true;
+  Engine engine(roomWithBox(), settings);
+  engine.solve();
+  std::vector<double> before;
+  for (std::size_t wall = 0; wall < 6; ++wall) before.push_back(test::meshMean(engine, PrimitiveId(wall)));
+  engine.apply(ScaleLight{engine.solution().scene().lights.back().name, 0.5f});
+  engine.update();
+  for (std::size_t wall = 0; wall < 6; ++wall)
+    EXPECT_NEAR(test::meshMean(engine, PrimitiveId(wall)) / before[wall], 0.5, 0.002);
+}
+
+TEST(Update, WhatWasSolvedAfreshSettlesAnew) {
+  SolveSettings settings;
+  settings.error = 0.1, settings.diffuseOnly = true;
+  Engine engine(roomWithBox(), settings);
+  engine.solve();
+  engine.apply(moveBox({0.1, 0, 0}));
+  engine.update();
+  Scene part;
+  const MaterialId glow = test::addMaterial(part, "glow", test::lambert(0.0f), Emission{Rgb(30.0f), false, {}});
+  test::addShape(part, glow, Sphere{{0.6, 3.2, 0.8}, 0.1, false});
+  addAreaLights(part);
+  part.lights.back().name = "globe";
+  engine.apply(AddObject{"globe", "", std::make_shared<const Scene>(part)});
+  engine.update();
+  engine.apply(moveBox({0.2, 0.3, 0}));
+  engine.update();
+  EXPECT_LT(difference(engine, settledOverAllRows(engine)).p95, 0.01);
 }
 
 TEST(Update, DiffuseOnlyFollowsMovesThatSplitLeaves) {
