@@ -55,6 +55,7 @@ Growth growInLight(Solution& s, const SceneUpdate& edits, const ParticleUpdate& 
     sides = coveredSides(s.scene, *s.tracer, s.elements, moved, newlyLit(edits, s.scene));
   }
   addLanding(sides.uncovered, s.particles, particles, s.scene);
+  dropReachedSides(sides.covered, s.particles);
   Growth growth;
   std::vector<SurfaceSide> fresh;
   const std::vector<ElementId> known = elementsOf(s.elements, sides.uncovered);

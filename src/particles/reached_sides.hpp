@@ -9,5 +9,7 @@ namespace deltalux {
 void addReachedSides(std::vector<SurfaceSide>&, const Particles&, const Scene&);
 /// The same of some paths alone.
 void addReachedSides(std::vector<SurfaceSide>&, const Particles&, std::span<const std::uint32_t> paths, const Scene&);
+/// Takes out the sides that any particle lands on; `sides` in the order of surfaceSides().
+void dropReachedSides(std::vector<SurfaceSide>& sides, const Particles&);
 
 }  // namespace deltalux

@@ -66,6 +66,11 @@ TEST(SpecularMotion, SpotMoves) {
   Engine engine = solvedScene("ring/ring.rad");
   expectFresh(engine, TransformObject{"lamp", translation({0, 0.01, 0})}, 0.12);
 }
+// Between its shells, which no light but particles reaches, before and after.
+TEST(SpecularMotion, RingMoves) {
+  Engine engine = solvedScene("ring/ring.rad");
+  expectFresh(engine, TransformObject{"ring", translation({0.01, 0.01, 0})}, 0.02);
+}
 
 }  // namespace
 }  // namespace deltalux
