@@ -47,8 +47,6 @@ struct LitPart {
   double E, area;
 };
 
-bool receives(const ElementTopology& t) { return t.kind == ElementKind::Patch && !t.emitter && !t.blocker; }
-
 /// Puts them in order, and the index with them.
 Caustics indexed(std::vector<SurfaceCaustics> surfaces, std::size_t primitives) {
   std::sort(surfaces.begin(), surfaces.end(), [](const SurfaceCaustics& a, const SurfaceCaustics& b) {
@@ -71,7 +69,7 @@ OtherLight otherLight(const Scene& scene, const Elements& elements) {
   std::vector<LitPart> parts;
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const ElementTopology& t = elements.topology[i];
-    if (!receives(t) || t.childCount > 0) continue;
+    if (!elements.isReceivingLeaf(ElementId(i))) continue;
     const ElementLight& l = elements.radiometry[i];
     parts.push_back(
         {sideOf(elements.domain[i].primitive, t.front), gray(l.direct + l.indirect), elements.geometry[i].litArea()});

@@ -18,11 +18,6 @@ constexpr std::size_t kBlock = 1024;
 constexpr int kPanes = 64;
 constexpr std::uint64_t kKey = 0x62616c616e63657aull;
 
-bool receives(const Elements& elements, std::size_t e) {
-  const ElementTopology& t = elements.topology[e];
-  return t.kind == ElementKind::Patch && t.childCount == 0 && !t.emitter && !t.blocker;
-}
-
 struct Surfaces {
   RgbSum direct{0.0}, absorbed{0.0};  // [W]
 
@@ -34,7 +29,8 @@ Surfaces surfacesOf(const Solution& s) {
   const ParticleSurfaces particles(s.scene);
   return parallelSum<Surfaces>(elements.size(), kBlock, [&](std::size_t e) {
     // What mirrors get, particles account for.
-    if (!receives(elements, e) || !particles.takes(elements.domain[e].primitive, elements.topology[e].front))
+    if (!elements.isReceivingLeaf(ElementId(e)) ||
+        !particles.takes(elements.domain[e].primitive, elements.topology[e].front))
       return Surfaces{};
     const ElementLight& l = elements.radiometry[e];
     const double A = elements.geometry[e].litArea();
@@ -55,7 +51,7 @@ Outcome diffuseLight(const Solution& s) {
   const Elements& elements = s.elements;
   std::vector<double> power{0.0};
   for (std::size_t e = 0; e < elements.size(); ++e)
-    power.push_back(power.back() + (receives(elements, e)
+    power.push_back(power.back() + (elements.isReceivingLeaf(ElementId(e))
                                         ? double(elements.geometry[e].area) * double(gray(elements.radiometry[e].B))
                                         : 0.0));
   const double total = power.back();

@@ -37,8 +37,7 @@ double leafRoundSeconds(const Elements& elements, const Links& links, const Scen
                         const LeafTransferSettings& settings) {
   std::vector<ElementId> leaves;
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    const ElementTopology& t = elements.topology[i];
-    if (t.kind == ElementKind::Patch && t.childCount == 0 && !t.emitter && !t.blocker) leaves.push_back(ElementId(i));
+    if (elements.isReceivingLeaf(ElementId(i))) leaves.push_back(ElementId(i));
   }
   if (leaves.empty()) return 0;
   const DirectSampler direct(scene, elements, links, tracer);

@@ -126,6 +126,9 @@ class Elements {
   bool isDistant(ElementId e) const { return at(e).kind == ElementKind::Distant; }
   bool isPoint(ElementId e) const { return at(e).kind == ElementKind::Point; }
   bool isLeaf(ElementId e) const { return at(e).childCount == 0; }
+  /// Takes diffuse light: a patch, of surfaces that are not lamps or glass.
+  bool receives(ElementId e) const { return isPatch(e) && !at(e).emitter && !at(e).blocker; }
+  bool isReceivingLeaf(ElementId e) const { return receives(e) && isLeaf(e); }
   bool isInputLevel(ElementId e) const { return isPatch(e) && at(e).depth == 0; }
   ElementId child(ElementId e, std::size_t i) const {
     return ElementId(at(e).firstChild.value + static_cast<std::uint32_t>(i));

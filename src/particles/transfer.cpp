@@ -14,8 +14,6 @@ constexpr std::uint32_t kNone = RadixNode::kNone;
 constexpr double kMostGain = 1;  // E of a patch if all surfaces had B = 1: no more is possible, but for noise
 constexpr std::size_t kBlock = 1024;
 
-bool receives(const ElementTopology& t) { return t.kind == ElementKind::Patch && !t.emitter && !t.blocker; }
-
 }  // namespace
 
 std::uint32_t ParticleTransfer::locateSender(const Particles& p, std::size_t path, const SideLocator& locator) const {
@@ -137,7 +135,7 @@ void ParticleTransfer::chooseLevels(const Elements& elements) {
   damping_.assign(elements.size(), 1.0f);
   for (std::size_t i = elements.size(); i-- > 0;) {
     const ElementTopology& t = elements.topology[i];
-    if (!receives(t)) continue;
+    if (!elements.receives(ElementId(i))) continue;
     double parts = 0;
     bool split = t.childCount > 0 && entries_[i].empty();
     for (std::size_t c = 0; c < t.childCount; ++c) {
@@ -158,7 +156,7 @@ void ParticleTransfer::chooseLevels(const Elements& elements) {
   level_.assign(elements.size(), kNone);
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const ElementTopology& t = elements.topology[i];
-    if (!receives(t)) continue;
+    if (!elements.receives(ElementId(i))) continue;
     const bool covered = t.depth > 0 && level_[t.parent.index()] != kNone;
     if (covered)
       level_[i] = level_[t.parent.index()];
@@ -188,8 +186,7 @@ void ParticleTransfer::apply(Elements& elements, const Scene& scene) const {
   for (std::size_t e = 0; e < entries_.size(); ++e)
     if (!entries_[e].empty() && level_[e] != e) flux[level_[e]] += flux[e];
   for (std::size_t e = 0; e < elements.size(); ++e) {
-    const ElementTopology& t = elements.topology[e];
-    if (!receives(t) || t.childCount > 0) continue;
+    if (!elements.isReceivingLeaf(ElementId(e))) continue;
     const std::uint32_t level = level_[e];
     elements.radiometry[e].particle = Rgb(flux[level] / std::max<double>(elements.geometry[level].litArea(), 1e-30));
   }

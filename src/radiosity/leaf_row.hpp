@@ -40,10 +40,4 @@ struct LeafTransferSettings {
   int gatherRays = 128;  // of a leaf
 };
 
-/// Whether the element is a leaf patch that has a row.
-inline bool receivesLight(const Elements& elements, ElementId e) {
-  const ElementTopology& t = elements.at(e);
-  return t.kind == ElementKind::Patch && t.childCount == 0 && !t.emitter && !t.blocker;
-}
-
 }  // namespace deltalux

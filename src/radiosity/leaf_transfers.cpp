@@ -65,7 +65,7 @@ LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, 
   LeafTransferReport report;
   std::vector<ElementId> fresh;
   for (std::size_t i = 0; i < elements.size(); ++i)
-    if (receivesLight(elements, ElementId(i))) fresh.push_back(ElementId(i));
+    if (elements.isReceivingLeaf(ElementId(i))) fresh.push_back(ElementId(i));
   rows_.clear();
   const DirectRowsReport direct = sampleDirectRows(std::move(fresh), elements, links, scene, tracer, settings,
                                                    [&](ElementId leaf, TransferRow row) {
@@ -116,7 +116,7 @@ void LeafTransfers::validate(const Elements& elements, const Links& links) const
   std::vector<char> has(elements.size(), 0);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const ElementId leaf = rows_[i].leaf;
-    require(leaf.index() < elements.size() && receivesLight(elements, leaf), "transfers: of leaves");
+    require(leaf.index() < elements.size() && elements.isReceivingLeaf(leaf), "transfers: of leaves");
     require(!has[leaf.index()], "transfers: each leaf once");
     has[leaf.index()] = 1;
     validateRow(rows_[i].direct, true, elements, links);

@@ -70,7 +70,7 @@ bool uncovers(const Elements& elements, ElementId leaf, const SpaceChange& space
 }  // namespace
 
 void LeafTransfers::dropNoLeaves(const Elements& elements) {
-  std::erase_if(rows_, [&](const LeafRow& r) { return !receivesLight(elements, r.leaf); });
+  std::erase_if(rows_, [&](const LeafRow& r) { return !elements.isReceivingLeaf(r.leaf); });
 }
 
 std::vector<std::uint32_t> LeafTransfers::rowsByElement(const Elements& elements) const {
@@ -94,7 +94,7 @@ ConcernedLeaves LeafTransfers::concerned(const Elements& elements, const Links& 
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const ElementId e(i), up = elements.at(e).parent;  // parents stand before their children
     for (auto& t : touched) t[i] |= up.valid() && t[up.index()];
-    if (!receivesLight(elements, e)) continue;
+    if (!elements.isReceivingLeaf(e)) continue;
     const bool anew = rowOf[i] == kNone || space.moved(e);
     if (anew || touched[1][i] || changed.any(e, true) || uncovers(elements, e, space)) out.byLights.push_back(e);
     if (anew || touched[0][i] || changed.any(e, false)) out.byLeaves.push_back(e);
@@ -148,13 +148,13 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
   for (std::size_t i = 0; i < anew.size(); ++i)
     if (anew[i] || renewed[i].any) report.leaves.push_back(leaves.byLights[i]);
   report.leaves.insert(report.leaves.end(), grown.begin(), grown.end());
-  std::erase_if(report.leaves, [&](ElementId e) { return !receivesLight(elements, e); });
+  std::erase_if(report.leaves, [&](ElementId e) { return !elements.isReceivingLeaf(e); });
   for (const ElementId leaf : report.leaves) gatherDirect(rows_[rowOf[leaf.index()]], elements);
   pull(elements, report.leaves);
 
   std::vector<ElementId> indirect = leaves.byLeaves;
   indirect.insert(indirect.end(), grown.begin(), grown.end());
-  std::erase_if(indirect, [&](ElementId e) { return !receivesLight(elements, e); });
+  std::erase_if(indirect, [&](ElementId e) { return !elements.isReceivingLeaf(e); });
   rays.assign(indirect.size(), 0);
   std::vector<char> done(indirect.size(), 0);
   const IndirectSampler sampler(scene, elements, links, tracer);

@@ -31,7 +31,7 @@ IrradianceField::IrradianceField(const Elements& elements, const Scene& scene, c
                                  const std::vector<LeafIrradiance>& values)
     : elements_(elements), scene_(scene), tracer_(tracer), siteOf_(elements.size(), Id<void>::kNone) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (!isReceivingLeaf(elements, ElementId(i))) continue;
+    if (!elements.isReceivingLeaf(ElementId(i))) continue;
     siteOf_[i] = static_cast<std::uint32_t>(sites_.size());
     sites_.push_back({ElementId(i), {}, 0, {}});
   }

@@ -10,11 +10,6 @@ struct LeafIrradiance {
   Rgb indirect{0.0f};  // from other surfaces, particles included [W/m2]
 };
 
-inline bool isReceivingLeaf(const Elements& elements, ElementId e) {
-  const ElementTopology& t = elements.at(e);
-  return t.kind == ElementKind::Patch && t.childCount == 0 && !t.emitter && !t.blocker;
-}
-
 /// What push-pull left at every element; without the particles' light where caustic textures show that.
 inline std::vector<LeafIrradiance> meshIrradiance(const Elements& elements, const Caustics& caustics) {
   std::vector<LeafIrradiance> values(elements.size());

@@ -13,8 +13,7 @@ namespace {
 template <class Check>
 void forEachLeaf(const Solution& s, const Check& check) {
   for (std::size_t i = 0; i < s.elements.size(); ++i) {
-    const ElementTopology& t = s.elements.topology[i];
-    if (t.kind == ElementKind::Patch && !t.emitter && !t.blocker && t.childCount == 0) check(ElementId(i));
+    if (s.elements.isReceivingLeaf(ElementId(i))) check(ElementId(i));
   }
 }
 

@@ -134,8 +134,7 @@ TEST(Particles, DepositKeepsTheirFlux) {
   transfer.apply(elements, scene);
   RgbSum deposited(0.0), landed(0.0);
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    const ElementTopology& t = elements.topology[i];
-    if (t.kind == ElementKind::Patch && !t.emitter && !t.blocker && t.childCount == 0)
+    if (elements.isReceivingLeaf(ElementId(i)))
       deposited += double(elements.geometry[i].area) * RgbSum(elements.radiometry[i].particle);
   }
   for (const Impact& i : impacts(p, elements, scene)) landed += RgbSum(i.flux);

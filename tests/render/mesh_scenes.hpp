@@ -45,7 +45,7 @@ struct MeshScene {
   void light(const std::function<Rgb(const Vec3f& center, ElementId leaf)>& E) {
     values.assign(elements.size(), {});
     for (std::size_t i = 0; i < elements.size(); ++i)
-      if (isReceivingLeaf(elements, ElementId(i))) {
+      if (elements.isReceivingLeaf(ElementId(i))) {
         const Rgb value = E(elements.geometry[i].center, ElementId(i));
         values[i] = {value, value};
       }

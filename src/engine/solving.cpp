@@ -1,0 +1,236 @@
+// A scene is solved in rounds: links are refined, light settles over them, until they are as fine as the target error
+// asks; then every leaf gets its row of transfers, and light settles over rows.
+#include <algorithm>
+#include <deltalux/error.hpp>
+
+#include "base/check.hpp"
+#include "engine/energy_balance.hpp"
+#include "engine/particle_count.hpp"
+#include "engine/state.hpp"
+#include "hierarchy/build.hpp"
+#include "particles/mesh_for_particles.hpp"
+#include "particles/reached_sides.hpp"
+#include "radiosity/coarse_solution.hpp"
+#include "radiosity/gather.hpp"
+#include "radiosity/push_pull.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr double kFirstError = 64.0;   // of the links, relative to the target, in the first round
+constexpr double kErrorFactor = 0.35;  // from round to round
+constexpr double kHasty = 8.0;         // first round when time is limited, against the first otherwise
+constexpr double kSettled = 1e-3;      // unsettled power, relative to emitted
+constexpr int kMaxIterations = 64;
+
+}  // namespace
+
+SolveReport Engine::State::step(Progress* progress) {
+  const Clock time;
+  Solution& s = *solution;
+  if (!s.elements.sceneRoot.valid() && s.elements.size() == 0) prepare(progress);
+  if (s.elements.sceneRoot.valid())
+    round(progress);
+  else
+    s.report.converged = finished = true;
+  s.report.times.total += time.seconds();
+  return s.report;
+}
+
+void Engine::State::prepare(Progress* progress) {
+  Solution& s = *solution;
+  const Clock time;
+  CoarseReport coarse;
+  auto sides = coarseSolution(s.scene, *s.tracer, &coarse);
+  trace();
+  addReachedSides(sides, s.particles, s.scene);
+  s.elements = buildElements(s.scene, sides);
+  pull(s.elements);
+  DELTALUX_VALIDATED(validate(s.elements));
+  s.report.counts.raysVisibility += coarse.rays;
+  s.report.times.hierarchy += time.seconds() - s.report.times.particles;
+  budget = TimeBudget(s.settings.seconds, clock.seconds());
+  nextError = s.settings.error * kFirstError * (budget.limited() ? kHasty : 1.0);
+  if (progress) progress->report("hierarchy", 1.0);
+}
+
+void Engine::State::trace() {
+  Solution& s = *solution;
+  if (s.settings.diffuseOnly) return;
+  const Clock time;
+  tracing.emplace(s.scene, *s.tracer, ParticleSettings{particleCount(s.settings), s.settings.seed});
+  s.particles = tracing->trace();
+  DELTALUX_VALIDATED(validate(s.particles, s.scene));
+  s.report.times.particles += time.seconds();
+  countParticles();
+}
+
+void Engine::State::countParticles() {
+  Solution& s = *solution;
+  WorkCounts& c = s.report.counts;
+  c.linksDs = s.particles.links.size();
+  c.particles = s.particles.arrived();
+  c.impacts = s.particles.impacts();
+  s.report.cutParticles = s.particles.cut();
+  c.raysParticles = s.particles.rays + s.particles.looks;
+  s.report.memory.particles = s.particles.memoryBytes();
+}
+
+void Engine::State::round(Progress* progress) {
+  Solution& s = *solution;
+  OracleSettings oracle;
+  const double least = s.settings.error * kLastError;
+  oracle.error = std::max(nextError, least);
+  const bool last = oracle.error <= least;
+  const RefineReport refined = refineLinks(oracle, progress);
+
+  chooseTextures();
+  const Clock placing;
+  subdivideForParticles(s.elements, s.scene, s.particles, textured);
+  s.report.times.particles += placing.seconds();
+
+  const Clock gathering;
+  bool settled = settle(progress);
+  LeafTransferSettings leaves;
+  leaves.error = s.settings.error;
+  nextError = std::max(least, oracle.error * kErrorFactor);
+  bool whole = true;
+  if (budget.limited()) {
+    const double needed = leafRoundSeconds(s.elements, s.links, s.scene, *s.tracer, leaves), left = budget.left();
+    nextError = budget.reach(LinkErrors(s.links, s.elements, oracle), oracle.error, nextError, left - needed);
+    whole = needed <= left;
+    leaves = shrunk(leaves, needed, left);
+  }
+  finished = last || refined.stopped || !(nextError < oracle.error);
+  if (finished) settled = resolve(leaves, progress);
+  s.report.times.gather += gathering.seconds();
+  if (finished) makeTextures();
+  count();
+  s.report.converged = settled && whole && last && !refined.stopped;
+}
+
+RefineReport Engine::State::refineLinks(const OracleSettings& oracle, Progress* progress) {
+  Solution& s = *solution;
+  const double predicted = budget.limited() ? LinkErrors(s.links, s.elements, oracle).madeBy(oracle.error) : 0;
+  const Clock time;
+  const RefineReport refined = refine(s.links, s.elements, s.scene, *s.tracer, oracle, [&] {
+    if (progress && progress->stopRequested()) throw Interrupted();
+    return budget.limited() && budget.left() < 0;
+  });
+  DELTALUX_VALIDATED(validate(s.links, s.elements));
+  budget.learn(time.seconds(), predicted, static_cast<double>(refined.created));
+  s.report.times.refine += time.seconds();
+  s.report.counts.raysVisibility += refined.rays;
+  s.report.provenClear += refined.provenClear;
+  s.report.provenBlocked += refined.provenBlocked;
+  return refined;
+}
+
+void Engine::State::chooseTextures() {
+  Solution& s = *solution;
+  textured.assign(2 * s.scene.primitives.size(), false);
+  if (s.particles.impacts() == 0 || !s.settings.causticTextures) return;
+  const Clock time;
+  textured = sidesWithTextures(s.scene, s.elements, impacts(s.particles, s.elements, s.scene), s.settings.error);
+  s.report.times.textures += time.seconds();
+}
+
+void Engine::State::makeTextures() {
+  Solution& s = *solution;
+  const Clock time;
+  s.caustics = makeCaustics(s.scene, s.elements, impacts(s.particles, s.elements, s.scene), s.settings.error, textured);
+  DELTALUX_VALIDATED(validate(s.caustics));
+  s.report.times.textures += time.seconds();
+  countTextures();
+}
+
+void Engine::State::countTextures() {
+  Solution& s = *solution;
+  s.report.counts.causticTextures = s.caustics.count();
+  s.report.counts.causticTextureMeanSize = s.caustics.meanSize();
+  s.report.memory.textures = s.caustics.memoryBytes() + (upkeep ? upkeep->memoryBytes() : 0);
+}
+
+bool Engine::State::settle(Progress* progress) {
+  Solution& s = *solution;
+  const GatherPlan plan(s.links, s.elements);
+  plan.gatherDirect(s.elements);
+  const ParticleTransfer onMesh(s.particles, s.elements, s.scene);
+  RgbSum emitted(0.0);
+  for (int i = 0; i < kMaxIterations; ++i) {
+    plan.gatherIndirect(s.elements);
+    onMesh.apply(s.elements, s.scene);
+    unsettled = pushPull(s.elements);
+    ++s.report.counts.iterations;
+    emitted = directPower();
+    if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
+    if (gray(unsettled) <= kSettled * gray(emitted)) break;
+  }
+  return gray(unsettled) <= kSettled * gray(emitted);
+}
+
+void Engine::State::solveAfresh(Progress* progress) {
+  Solution& s = *solution;
+  s.tracer = makeEmbreeTracer(s.scene);
+  tracing.reset(), transfer.reset(), upkeep.reset(), settling.reset(), backlog = {}, groups = {};
+  s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.caustics = {}, s.report = {};
+  finished = false;
+  clock = {};
+  while (!finished) step(progress);
+}
+
+bool Engine::State::resolve(const LeafTransferSettings& settings, Progress* progress) {
+  Solution& s = *solution;
+  transfer.reset();
+  const LeafTransferReport r = s.transfers.build(s.elements, s.links, s.scene, *s.tracer, settings);
+  s.report.counts.raysVisibility += r.rays;
+  s.sampledScale.clear();
+  for (const Light& light : s.scene.lights) s.sampledScale.push_back(light.scale);
+  return settleRows(progress);
+}
+
+bool Engine::State::settleRows(Progress* progress) {
+  Solution& s = *solution;
+  s.transfers.gatherDirect(s.elements);
+  pull(s.elements);
+  const RgbSum emitted = directPower();
+  if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
+  for (int i = 0; i < kMaxRowIterations; ++i) {
+    s.transfers.gatherIndirect(s.elements);
+    transfer->apply(s.elements, s.scene);
+    unsettled = pull(s.elements);
+    ++s.report.counts.iterations;
+    if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
+    if (gray(unsettled) <= kSettledRows * gray(emitted)) break;
+  }
+  return gray(unsettled) <= kSettledRows * gray(emitted);
+}
+
+RgbSum Engine::State::directPower() const {
+  const Elements& e = solution->elements;
+  RgbSum sum(0.0);
+  for (std::size_t i = 0; i < e.size(); ++i)
+    if (solution->elements.isReceivingLeaf(ElementId(i)))
+      sum += double(e.geometry[i].litArea()) * RgbSum(e.radiometry[i].direct);
+  return sum;
+}
+
+void Engine::State::count() {
+  Solution& s = *solution;
+  if (finished) s.report.energy = energyBalance(s, unsettled);
+  WorkCounts& c = s.report.counts;
+  c.elements = s.elements.size();
+  c.leafElements = 0;
+  for (std::size_t i = 0; i < s.elements.size(); ++i)
+    c.leafElements += solution->elements.isReceivingLeaf(ElementId(i));
+  c.links = s.links.size();
+  s.report.activeLinks = 0;
+  for (const Link& l : s.links.all) s.report.activeLinks += l.state == LinkState::Active;
+  s.report.memory.elements = s.elements.memoryBytes();
+  s.report.memory.links = s.links.memoryBytes() + s.transfers.memoryBytes();
+  s.report.memory.peakRss = peakResidentBytes();
+  counted = true;
+}
+
+}  // namespace deltalux

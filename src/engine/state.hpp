@@ -1,0 +1,148 @@
+#pragma once
+// What an engine holds between calls, and its three ways to get on: it solves (solving.cpp), takes edits in whole
+// (updating.cpp), or takes them in frame by frame, as far as time goes (frames.cpp).
+#include <chrono>
+#include <deltalux/engine.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "caustics/texture_upkeep.hpp"
+#include "engine/growth.hpp"
+#include "engine/motion.hpp"
+#include "engine/moving_groups.hpp"
+#include "engine/scene_update.hpp"
+#include "engine/time_budget.hpp"
+#include "particles/particle_tracing.hpp"
+#include "particles/transfer.hpp"
+#include "radiosity/line_space.hpp"
+#include "radiosity/oracle.hpp"
+#include "radiosity/refine.hpp"
+#include "radiosity/row_settling.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux {
+
+constexpr double kLastError = 20.0;    // of the links, relative to the target: the rest the leaves' own samples resolve
+constexpr double kSettledRows = 1e-4;  // unsettled power over rows, relative to emitted
+constexpr int kMaxRowIterations = 1024;
+constexpr double kMostGaps = 1.5;  // size of particles with gaps, to that without
+
+class Clock {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+struct Engine::State {
+  std::shared_ptr<Solution> solution = std::make_shared<Solution>();
+  double nextError = 0;   // of the next round
+  bool finished = false;  // the last round has run
+  SurfaceSides textured;  // that textures show the particles of
+  Clock clock;
+  TimeBudget budget{0};
+  SceneUpdate pending;                       // edits since the last update
+  std::optional<ParticleTracing> tracing;    // knows the scene that the particles are of
+  RgbSum unsettled{0.0};                     // power that the last iteration of rows changed
+  bool counted = true;                       // the report is of the solution as it is
+  std::optional<RowSettling> settling;       // of diffuse light, while nothing but rows changes
+  std::optional<ParticleTransfer> transfer;  // of the particles, on the mesh of the rows
+  std::optional<TextureUpkeep> upkeep;       // of the textures, once there are edits
+  Backlog backlog;                           // what edits that were taken in have still to do
+  MovingGroups groups;                       // of the tracer
+
+  // Solving.
+  SolveReport step(Progress* progress);
+  void prepare(Progress* progress);
+  /// Once a geometry: what particles carry follows the light by itself.
+  void trace();
+  void countParticles();
+  void round(Progress* progress);
+  RefineReport refineLinks(const OracleSettings& oracle, Progress* progress);
+  /// Sides whose particles textures show: their mesh need not. [GD01 3]
+  void chooseTextures();
+  void makeTextures();
+  void countTextures();
+  /// Gathers until the light no longer changes. [algorithm 3]
+  bool settle(Progress* progress);
+  /// There is no place in the trees for what was not there.
+  void solveAfresh(Progress* progress);
+  /// The links' transfers resolved to leaves, and settled again.
+  bool resolve(const LeafTransferSettings& settings, Progress* progress);
+  /// Gathers over rows, from the light there is, until it no longer changes.
+  bool settleRows(Progress* progress);
+  RgbSum directPower() const;
+  /// Sums that take a walk over everything, for who looks at the report.
+  void count();
+  LeafTransferSettings leafSettings() const {
+    LeafTransferSettings settings;
+    settings.error = solution->settings.error;
+    return settings;
+  }
+
+  // Updating.
+  struct Motion {
+    SpaceChange all;                // bounds before and after
+    std::vector<ElementId> inputs;  // of what moves
+    LinkMarks marks;
+    bool grown = false;           // elements were added above the leaves that there were
+    std::vector<ElementId> rows;  // leaves whose rows are others than before
+  };
+  /// What a fresh solve would make of the edited scene, from the solution there is. [GD01 5]
+  StepReport update(Progress* progress);
+  /// What moves, and sides that come into the light by it.
+  void arriveInLight(const SceneUpdate& edits, Motion& motion, bool split, StepReport& step);
+  /// Edits reach the scene's emission, the tracer, and the lists of what has to follow.
+  void takeIn(StepReport& step, bool inMotion = false);
+  /// Whether a light is so much brighter than when links were refined and rows sampled that it needs its own.
+  bool outshines(const SceneUpdate& edits) const;
+  /// Retraces particles that edits have touched: `count` of those that wait. [GD01 4]
+  ParticleUpdate followWithParticles(std::size_t count, StepReport& step);
+  /// Where light of particles is new. It is sent on from where it lies, so the mesh must know.
+  bool subdivideWhereParticlesLanded(StepReport& step);
+  /// On the mesh as it is now.
+  void placeParticles(const ParticleUpdate& followed, StepReport& step);
+  /// Elements for what the edits brought into the light.
+  Growth grow(const SceneUpdate& edits, const ParticleUpdate& followed, StepReport& step);
+  /// Paths that were traced anew leave gaps.
+  bool gapsAreMany(double most = kMostGaps) const;
+  void closeGaps();
+  /// Makes the textures anew whose light has changed.
+  void followWithTextures(StepReport& step);
+  Restore apply(const Edit& edit);
+  /// While the scene is still what the particles and textures are of.
+  void prepareToFollow();
+  /// Emission and reflectance of what stays where it was. Returns what was black and reflects now: links took it for no
+  /// sender.
+  std::vector<ElementId> relight(const SceneUpdate& edits);
+  /// What moves leaves its place: the links that it touches there, and the shapes of its elements.
+  Motion leave(const SceneUpdate& edits, StepReport& step);
+  /// It comes to its new place, and what has grown in the light with it: links and rows follow.
+  void arrive(Motion& motion, const Growth& growth, StepReport& step);
+  static std::vector<char> subtrees(const Elements& elements, const std::vector<ElementId>& tops);
+  /// Where nothing but rows has changed, only they and what they light is gathered again.
+  void settleAfter(const Motion& motion, Progress* progress);
+  /// Nobody traces now, and who holds the solution holds the engine's tracer.
+  RayTracer& tracer() { return *std::const_pointer_cast<RayTracer>(solution->tracer); }
+
+  // Frames of motion.
+  using SecondsLeft = std::function<double()>;
+  /// As much of an update as fits. [GD01 4.3]
+  StepReport frame(double seconds);
+  void countWaiting(StepReport& step) const;
+  /// Links and rows, to where things are now, and particles onto the mesh that there is then.
+  void followWithLinks(StepReport& step);
+  /// Traces those that deposit the most anew, as many as there is time for, and carries their light along.
+  void followInPart(const SecondsLeft& left, StepReport& step);
+  void carryTextures(TextureFlux& textures, const ParticleUpdate& followed);
+  /// Brings the particles' light to the elements, and hands on light as often as there is time for.
+  void iterate(const SecondsLeft& left, StepReport& step);
+  /// Gives an object a place of its own in the tracer, and makes ready what updates need to know.
+  void select(const std::string& object);
+};
+
+}  // namespace deltalux

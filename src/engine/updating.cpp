@@ -1,0 +1,281 @@
+// Edits are taken in whole: what a fresh solve would make of the edited scene, from the solution there is. [GD01 4, 5]
+#include <algorithm>
+#include <utility>
+
+#include "base/check.hpp"
+#include "engine/particle_count.hpp"
+#include "engine/state.hpp"
+#include "hierarchy/build.hpp"
+#include "hierarchy/input_level.hpp"
+#include "particles/mesh_for_particles.hpp"
+#include "radiosity/push_pull.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr float kBrighter = 8.0f;  // times as bright as when it was solved for, a light is solved for anew
+
+}  // namespace
+
+StepReport Engine::State::update(Progress* progress) {
+  const Clock time;
+  StepReport step;
+  takeIn(step);
+  if (backlog.afresh) {
+    solveAfresh(progress);
+    step.times.total = time.seconds();
+    return step;
+  }
+  const SceneUpdate edits = std::exchange(backlog.links, {});
+  Motion motion = leave(edits, step);
+  ParticleUpdate followed;
+  if (tracing) followed = followWithParticles(tracing->waiting().size(), step);
+  const bool split = subdivideWhereParticlesLanded(step);
+  arriveInLight(edits, motion, split, step);
+  // Frames may have found origins on what had moved where its elements did not stand yet.
+  if (std::exchange(backlog.frames, false) || split) transfer.reset();
+  placeParticles(followed, step);
+  const Clock gathering;
+  settleAfter(motion, progress);
+  step.times.gather += gathering.seconds();
+  followWithTextures(step);
+  if (gapsAreMany()) closeGaps();
+  counted = false;
+  step.times.total = time.seconds();
+  return step;
+}
+
+void Engine::State::arriveInLight(const SceneUpdate& edits, Motion& motion, bool split, StepReport& step) {
+  Growth growth = grow(edits, backlog.landed, step);
+  const std::vector<ElementId> reflecting = std::exchange(backlog.reflecting, {});
+  growth.woken.insert(growth.woken.end(), reflecting.begin(), reflecting.end());
+  motion.grown = split || growth.root.valid();
+  motion.rows = leavesBelow(solution->elements, growth);
+  if (split || !motion.marks.changes.empty() || !growth.empty()) arrive(motion, growth, step);
+}
+
+void Engine::State::takeIn(StepReport& step, bool inMotion) {
+  const SceneUpdate edits = std::exchange(pending, {});
+  step.op = edits.op, step.object = edits.subject;
+  backlog.afresh |= !haveElements(solution->elements, solution->scene, edits) || outshines(edits);
+  if (backlog.afresh) return;
+  if (!edits.dimmed.empty() || !edits.materials.empty()) settling.reset();
+  const std::vector<ElementId> reflecting = relight(edits);
+  backlog.reflecting.insert(backlog.reflecting.end(), reflecting.begin(), reflecting.end());
+  std::vector<PrimitiveId> moved;
+  for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
+  groups.rebuild(tracer(), moved);
+  backlog.add(edits);
+  if (!tracing) return;
+  const Clock time;
+  ParticleTracing::Worth worth;
+  if (inMotion) worth = [&](std::size_t path) { return deposited(*solution, *transfer, path); };
+  tracing->note(solution->particles, edits.whole, worth);
+  step.times.particles += time.seconds();
+}
+
+bool Engine::State::outshines(const SceneUpdate& edits) const {
+  const Solution& s = *solution;
+  return std::any_of(edits.dimmed.begin(), edits.dimmed.end(), [&](LightId light) {
+    return light.index() >= s.sampledScale.size() ||  // it was not there
+           gray(s.scene[light].scale) > kBrighter * gray(s.sampledScale[light.index()]);
+  });
+}
+
+ParticleUpdate Engine::State::followWithParticles(std::size_t count, StepReport& step) {
+  Solution& s = *solution;
+  const Clock time;
+  ParticleUpdate followed =
+      tracing->allWait() ? tracing->retraceAll(s.particles) : tracing->retrace(s.particles, count);
+  DELTALUX_VALIDATED(validate(s.particles, s.scene));
+  constexpr std::size_t kTelling = 2048;  // fewer paths cost what starting costs
+  if (followed.paths.size() >= kTelling) backlog.path.learn(time.seconds(), static_cast<double>(followed.paths.size()));
+  backlog.add(followed);
+  if (!backlog.frames) countParticles();
+  step.particlesRetraced = followed.all ? s.particles.arrived() : followed.particles;
+  step.particlesTotal = s.particles.arrived();
+  step.times.particles += time.seconds();
+  return followed;
+}
+
+bool Engine::State::subdivideWhereParticlesLanded(StepReport& step) {
+  Solution& s = *solution;
+  const Clock time;
+  if (!tracing) return false;
+  if (backlog.landed.paths.empty() && !backlog.landed.all) return false;
+  std::vector<bool> shown(2 * s.scene.primitives.size(), false);
+  for (const SurfaceCaustics& c : s.caustics.surfaces) shown[2 * c.primitive.index() + (c.front ? 0 : 1)] = true;
+  const std::size_t split = subdivideForParticles(s.elements, s.scene, s.particles, shown,
+                                                  sidesThatKeepTheirMesh(s.scene, s.particles, backlog.landed));
+  step.times.particles += time.seconds();
+  return split > 0;
+}
+
+void Engine::State::placeParticles(const ParticleUpdate& followed, StepReport& step) {
+  if (!transfer) return;
+  const Clock time;
+  if (!tracing || followed.all)
+    transfer.reset();  // none, on a mesh that may have changed; or all of them
+  else
+    transfer->follow(solution->particles, followed, solution->elements, solution->scene);
+  step.times.particles += time.seconds();
+}
+
+Growth Engine::State::grow(const SceneUpdate& edits, const ParticleUpdate& followed, StepReport& step) {
+  const Clock time;
+  const Growth growth = growInLight(*solution, edits, followed);
+  DELTALUX_VALIDATED(validate(solution->elements));
+  if (growth.root.valid()) transfer.reset();  // particles may have landed there all the while
+  step.times.hierarchy = time.seconds();
+  return growth;
+}
+
+bool Engine::State::gapsAreMany(double most) const {
+  const Particles& p = solution->particles;
+  std::size_t used = 0;
+  for (const PathRange& r : p.range) used += r.vertices;
+  return static_cast<double>(p.vertices.size()) > most * static_cast<double>(used);
+}
+
+void Engine::State::closeGaps() {
+  solution->particles.compact();
+  transfer.reset(), upkeep.reset();
+}
+
+void Engine::State::followWithTextures(StepReport& step) {
+  Solution& s = *solution;
+  const Clock time;
+  const ParticleUpdate followed = std::exchange(backlog.landed, {});
+  if (!backlog.textures.empty()) s.caustics.surfaces = std::exchange(backlog.textures, {});
+  if (!upkeep || followed.all) {
+    upkeep.reset();
+    chooseTextures();
+    makeTextures();
+    step.texturesRebuilt = s.caustics.count();
+  } else {
+    step.texturesRebuilt = upkeep->follow(followed, *transfer, s.caustics).rebuilt;
+    DELTALUX_VALIDATED(validate(s.caustics));
+    countTextures();
+  }
+  step.times.textures = time.seconds();
+}
+
+Restore Engine::State::apply(const Edit& edit) {
+  if (pending.empty() && !backlog.frames) prepareToFollow();
+  return applyInto(pending, solution->scene, edit);
+}
+
+void Engine::State::prepareToFollow() {
+  Solution& s = *solution;
+  if (!finished) return;
+  if (s.settings.diffuseOnly) {
+    if (!settling) settling.emplace(s.transfers, s.elements);
+    return;
+  }
+  if (!tracing) tracing.emplace(s.scene, *s.tracer, ParticleSettings{particleCount(s.settings), s.settings.seed});
+  if (upkeep || !s.settings.causticTextures) return;
+  if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
+  upkeep.emplace(TextureUpkeep::Parts{s.scene, s.elements, s.particles}, *transfer, s.settings.error);
+}
+
+std::vector<ElementId> Engine::State::relight(const SceneUpdate& edits) {
+  Solution& s = *solution;
+  std::vector<ElementId> reflecting;
+  for (const ElementId e : elementsOf(s.elements, edits.dimmed)) setEmission(s.elements, s.scene, e);
+  for (const LightId light : edits.movedLights) s.sampledScale[light.index()] = s.scene[light].scale;
+  std::vector<PrimitiveId> repainted;
+  for (std::size_t i = 0; i < s.scene.primitives.size(); ++i)
+    if (std::find(edits.materials.begin(), edits.materials.end(), s.scene.primitives[i].material) !=
+        edits.materials.end())
+      repainted.emplace_back(i);
+  for (const ElementId e : elementsOf(s.elements, repainted)) {
+    if (s.elements.at(e).emitter) continue;
+    const ElementLight& l = s.elements.radiometry[e.index()];
+    const bool wasBlack = isBlack(l.rho) && isBlack(l.tau);
+    setReflectance(s.elements, s.scene, e);
+    if (wasBlack && !(isBlack(l.rho) && isBlack(l.tau))) reflecting.push_back(e);
+  }
+  return reflecting;
+}
+
+Engine::State::Motion Engine::State::leave(const SceneUpdate& edits, StepReport& step) {
+  Solution& s = *solution;
+  const Clock time;
+  Motion motion;
+  std::vector<PrimitiveId> primitives;
+  SpaceChange before, after;
+  for (const SceneChange::Moved& m : edits.moved) {
+    primitives.push_back(m.primitive);
+    before.add(m.before), motion.all.add(m.before);
+  }
+  for (const PrimitiveId id : primitives)
+    if (const Box box = bounds(s.scene[id].shape); !box.empty()) after.add(box), motion.all.add(box);
+  motion.inputs = elementsOf(s.elements, primitives);
+  const std::vector<ElementId> lights = elementsOf(s.elements, edits.movedLights);
+  motion.inputs.insert(motion.inputs.end(), lights.begin(), lights.end());
+  motion.all.setMoved(subtrees(s.elements, motion.inputs));
+  if (primitives.empty() && motion.inputs.empty()) return motion;
+  motion.marks = LineSpace(s.links, s.elements, s.scene, motion.all, before, after).visit();
+  reshape(s.elements, s.scene, motion.inputs);
+  step.times.visibility = time.seconds();
+  return motion;
+}
+
+void Engine::State::arrive(Motion& motion, const Growth& growth, StepReport& step) {
+  Solution& s = *solution;
+  const Clock time;
+  LinkMarks& marks = motion.marks;
+  if (marks.changes.empty() || !growth.woken.empty()) {
+    SpaceChange woken;
+    woken.setMoved(subtrees(s.elements, growth.woken));
+    add(LineSpace(s.links, s.elements, s.scene, woken, {}, {}).visit(), marks);
+    motion.inputs.insert(motion.inputs.end(), growth.woken.begin(), growth.woken.end());
+    motion.all.setMoved(subtrees(s.elements, motion.inputs));
+  }
+  if (growth.root.valid()) addRootLinks(s.links, s.elements, growth.root);
+  step.linksVisited = marks.visited;
+  step.times.visibility += time.seconds();
+
+  const Clock refining;
+  OracleSettings oracle;
+  oracle.error = s.settings.error * kLastError;
+  std::vector<LinkId> changed;
+  const RefineReport refined = rejudge(s.links, s.elements, s.scene, *s.tracer, oracle, motion.all, marks, changed);
+  DELTALUX_VALIDATED(validate(s.links, s.elements));
+  step.linksChanged = changed.size();
+  step.times.refine = refining.seconds();
+  const Clock gathering;
+  const ConcernedLeaves leaves = s.transfers.concerned(s.elements, s.links, marks, changed, motion.all);
+  const LeafUpdateReport rows =
+      s.transfers.update(s.elements, s.links, s.scene, *s.tracer, leafSettings(), marks, changed, motion.all, leaves);
+  DELTALUX_VALIDATED(s.transfers.validate(s.elements, s.links));
+  s.report.counts.raysVisibility += refined.rays + rows.rays;
+  step.leavesExamined = std::max(leaves.byLights.size(), leaves.byLeaves.size());
+  step.leavesRenewed = std::max(rows.direct, rows.indirect);
+  step.times.gather = gathering.seconds();
+  motion.rows.insert(motion.rows.end(), rows.leaves.begin(), rows.leaves.end());
+}
+
+std::vector<char> Engine::State::subtrees(const Elements& elements, const std::vector<ElementId>& tops) {
+  std::vector<char> in(elements.size(), 0);
+  for (const ElementId e : tops) in[e.index()] = 1;
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    const ElementTopology& t = elements.topology[i];
+    if (t.parent.valid() && t.depth > 0 && in[t.parent.index()]) in[i] = 1;
+  }
+  return in;
+}
+
+void Engine::State::settleAfter(const Motion& motion, Progress* progress) {
+  Solution& s = *solution;
+  if (motion.grown) settling.reset();
+  if (!settling) {
+    settleRows(progress);
+    return;
+  }
+  unsettled = settling->settle(s.transfers, s.elements, motion.rows, kSettledRows * gray(directPower()),
+                               kMaxRowIterations, s.report.counts.iterations);
+}
+
+}  // namespace deltalux
