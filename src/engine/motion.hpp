@@ -43,6 +43,8 @@ struct Backlog {
   // What waits.
   SceneUpdate links;                  // edits that links and rows have not seen, from where they stand
   std::vector<ElementId> reflecting;  // that were black
+  std::vector<ElementId> painted;     // input-level patches whose reflectance is another
+  bool dimmed = false;                // some light sends otherwise
   bool afresh = false;                // only solving the scene anew helps
   ParticleUpdate landed;              // paths traced anew since textures were last looked at, and what they were then
   std::vector<SurfaceCaustics> textures;  // as they were when they were last looked at

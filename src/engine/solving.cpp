@@ -202,7 +202,7 @@ bool Engine::State::settleRows(Progress* progress) {
     unsettled = pull(s.elements);
     ++s.report.counts.iterations;
     if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
-    if (gray(unsettled) <= kSettledRows * gray(emitted)) break;
+    if (gray(unsettled) <= kSettledWell * gray(emitted)) break;
   }
   return gray(unsettled) <= kSettledRows * gray(emitted);
 }

@@ -11,6 +11,7 @@
 
 #include "caustics/texture_upkeep.hpp"
 #include "engine/growth.hpp"
+#include "engine/light_settling.hpp"
 #include "engine/motion.hpp"
 #include "engine/moving_groups.hpp"
 #include "engine/scene_update.hpp"
@@ -20,13 +21,13 @@
 #include "radiosity/line_space.hpp"
 #include "radiosity/oracle.hpp"
 #include "radiosity/refine.hpp"
-#include "radiosity/row_settling.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux {
 
 constexpr double kLastError = 20.0;    // of the links, relative to the target: the rest the leaves' own samples resolve
 constexpr double kSettledRows = 1e-4;  // unsettled power over rows, relative to emitted
+constexpr double kSettledWell = 1e-6;  // the same, where it shall be right in dark corners too
 constexpr int kMaxRowIterations = 1024;
 constexpr double kMostGaps = 1.5;  // size of particles with gaps, to that without
 
@@ -49,7 +50,7 @@ struct Engine::State {
   std::optional<ParticleTracing> tracing;    // knows the scene that the particles are of
   RgbSum unsettled{0.0};                     // power that the last iteration of rows changed
   bool counted = true;                       // the report is of the solution as it is
-  std::optional<RowSettling> settling;       // of diffuse light, while nothing but rows changes
+  std::optional<LightSettling> settling;     // from update to update
   std::optional<ParticleTransfer> transfer;  // of the particles, on the mesh of the rows
   std::optional<TextureUpkeep> upkeep;       // of the textures, once there are edits
   Backlog backlog;                           // what edits that were taken in have still to do
@@ -89,8 +90,7 @@ struct Engine::State {
     SpaceChange all;                // bounds before and after
     std::vector<ElementId> inputs;  // of what moves
     LinkMarks marks;
-    bool grown = false;           // elements were added above the leaves that there were
-    std::vector<ElementId> rows;  // leaves whose rows are others than before
+    LightChanges light;
   };
   /// What a fresh solve would make of the edited scene, from the solution there is. [GD01 5]
   StepReport update(Progress* progress);
@@ -105,7 +105,7 @@ struct Engine::State {
   /// Where light of particles is new. It is sent on from where it lies, so the mesh must know.
   bool subdivideWhereParticlesLanded(StepReport& step);
   /// On the mesh as it is now.
-  void placeParticles(const ParticleUpdate& followed, StepReport& step);
+  void placeParticles(const ParticleUpdate& followed, LightChanges&, StepReport& step);
   /// Elements for what the edits brought into the light.
   Growth grow(const SceneUpdate& edits, const ParticleUpdate& followed, StepReport& step);
   /// Paths that were traced anew leave gaps.
@@ -124,8 +124,8 @@ struct Engine::State {
   /// It comes to its new place, and what has grown in the light with it: links and rows follow.
   void arrive(Motion& motion, const Growth& growth, StepReport& step);
   static std::vector<char> subtrees(const Elements& elements, const std::vector<ElementId>& tops);
-  /// Where nothing but rows has changed, only they and what they light is gathered again.
-  void settleAfter(const Motion& motion, Progress* progress);
+  /// Hands on what has changed, where light was settled before; all light otherwise.
+  void settleAfter(const LightChanges&, Progress* progress);
   /// Nobody traces now, and who holds the solution holds the engine's tracer.
   RayTracer& tracer() { return *std::const_pointer_cast<RayTracer>(solution->tracer); }
 

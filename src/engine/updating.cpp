@@ -14,6 +14,7 @@ namespace deltalux {
 
 namespace {
 
+constexpr double kMissed = 3e-5;   // power that leaves may fail to send, relative to emitted
 constexpr float kBrighter = 8.0f;  // times as bright as when it was solved for, a light is solved for anew
 
 }  // namespace
@@ -34,10 +35,12 @@ StepReport Engine::State::update(Progress* progress) {
   const bool split = subdivideWhereParticlesLanded(step);
   arriveInLight(edits, motion, split, step);
   // Frames may have found origins on what had moved where its elements did not stand yet.
-  if (std::exchange(backlog.frames, false) || split) transfer.reset();
-  placeParticles(followed, step);
+  if (std::exchange(backlog.frames, false)) transfer.reset();
+  placeParticles(followed, motion.light, step);
+  motion.light.lights = std::exchange(backlog.dimmed, false);
+  motion.light.painted = std::exchange(backlog.painted, {});
   const Clock gathering;
-  settleAfter(motion, progress);
+  settleAfter(motion.light, progress);
   step.times.gather += gathering.seconds();
   followWithTextures(step);
   if (gapsAreMany()) closeGaps();
@@ -50,8 +53,7 @@ void Engine::State::arriveInLight(const SceneUpdate& edits, Motion& motion, bool
   Growth growth = grow(edits, backlog.landed, step);
   const std::vector<ElementId> reflecting = std::exchange(backlog.reflecting, {});
   growth.woken.insert(growth.woken.end(), reflecting.begin(), reflecting.end());
-  motion.grown = split || growth.root.valid();
-  motion.rows = leavesBelow(solution->elements, growth);
+  motion.light.rows = leavesBelow(solution->elements, growth);
   if (split || !motion.marks.changes.empty() || !growth.empty()) arrive(motion, growth, step);
 }
 
@@ -60,7 +62,7 @@ void Engine::State::takeIn(StepReport& step, bool inMotion) {
   step.op = edits.op, step.object = edits.subject;
   backlog.afresh |= !haveElements(solution->elements, solution->scene, edits) || outshines(edits);
   if (backlog.afresh) return;
-  if (!edits.dimmed.empty() || !edits.materials.empty()) settling.reset();
+  backlog.dimmed |= !edits.dimmed.empty();
   const std::vector<ElementId> reflecting = relight(edits);
   backlog.reflecting.insert(backlog.reflecting.end(), reflecting.begin(), reflecting.end());
   std::vector<PrimitiveId> moved;
@@ -112,13 +114,15 @@ bool Engine::State::subdivideWhereParticlesLanded(StepReport& step) {
   return split > 0;
 }
 
-void Engine::State::placeParticles(const ParticleUpdate& followed, StepReport& step) {
-  if (!transfer) return;
+void Engine::State::placeParticles(const ParticleUpdate& followed, LightChanges& light, StepReport& step) {
+  const Solution& s = *solution;
   const Clock time;
-  if (!tracing || followed.all)
-    transfer.reset();  // none, on a mesh that may have changed; or all of them
+  if (followed.all) transfer.reset();
+  light.allParticles = !transfer;
+  if (transfer)
+    light.surfaces = transfer->follow(s.particles, followed, s.elements, s.scene);
   else
-    transfer->follow(solution->particles, followed, solution->elements, solution->scene);
+    transfer.emplace(s.particles, s.elements, s.scene);
   step.times.particles += time.seconds();
 }
 
@@ -126,7 +130,6 @@ Growth Engine::State::grow(const SceneUpdate& edits, const ParticleUpdate& follo
   const Clock time;
   const Growth growth = growInLight(*solution, edits, followed);
   DELTALUX_VALIDATED(validate(solution->elements));
-  if (growth.root.valid()) transfer.reset();  // particles may have landed there all the while
   step.times.hierarchy = time.seconds();
   return growth;
 }
@@ -169,13 +172,11 @@ Restore Engine::State::apply(const Edit& edit) {
 void Engine::State::prepareToFollow() {
   Solution& s = *solution;
   if (!finished) return;
-  if (s.settings.diffuseOnly) {
-    if (!settling) settling.emplace(s.transfers, s.elements);
-    return;
-  }
+  if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
+  if (!settling) settling.emplace(LightSettling::Parts{s.scene, s.transfers, *transfer}, s.elements);
+  if (s.settings.diffuseOnly) return;
   if (!tracing) tracing.emplace(s.scene, *s.tracer, ParticleSettings{particleCount(s.settings), s.settings.seed});
   if (upkeep || !s.settings.causticTextures) return;
-  if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
   upkeep.emplace(TextureUpkeep::Parts{s.scene, s.elements, s.particles}, *transfer, s.settings.error);
 }
 
@@ -191,6 +192,7 @@ std::vector<ElementId> Engine::State::relight(const SceneUpdate& edits) {
       repainted.emplace_back(i);
   for (const ElementId e : elementsOf(s.elements, repainted)) {
     if (s.elements.at(e).emitter) continue;
+    backlog.painted.push_back(e);
     const ElementLight& l = s.elements.radiometry[e.index()];
     const bool wasBlack = isBlack(l.rho) && isBlack(l.tau);
     setReflectance(s.elements, s.scene, e);
@@ -254,7 +256,7 @@ void Engine::State::arrive(Motion& motion, const Growth& growth, StepReport& ste
   step.leavesExamined = std::max(leaves.byLights.size(), leaves.byLeaves.size());
   step.leavesRenewed = std::max(rows.direct, rows.indirect);
   step.times.gather = gathering.seconds();
-  motion.rows.insert(motion.rows.end(), rows.leaves.begin(), rows.leaves.end());
+  motion.light.rows.insert(motion.light.rows.end(), rows.leaves.begin(), rows.leaves.end());
 }
 
 std::vector<char> Engine::State::subtrees(const Elements& elements, const std::vector<ElementId>& tops) {
@@ -267,15 +269,15 @@ std::vector<char> Engine::State::subtrees(const Elements& elements, const std::v
   return in;
 }
 
-void Engine::State::settleAfter(const Motion& motion, Progress* progress) {
+void Engine::State::settleAfter(const LightChanges& changes, Progress* progress) {
   Solution& s = *solution;
-  if (motion.grown) settling.reset();
   if (!settling) {
     settleRows(progress);
     return;
   }
-  unsettled = settling->settle(s.transfers, s.elements, motion.rows, kSettledRows * gray(directPower()),
-                               kMaxRowIterations, s.report.counts.iterations);
+  const double missed = settling->settle({s.scene, s.transfers, *transfer}, s.elements, changes,
+                                         kMissed * gray(directPower()), kMaxRowIterations, s.report.counts.iterations);
+  unsettled = RgbSum(missed);
 }
 
 }  // namespace deltalux

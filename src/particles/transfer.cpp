@@ -1,6 +1,7 @@
 #include "particles/transfer.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
@@ -10,9 +11,33 @@ namespace deltalux {
 
 namespace {
 
-constexpr std::uint32_t kNone = RadixNode::kNone;
-constexpr double kMostGain = 1;  // E of a patch if all surfaces had B = 1: no more is possible, but for noise
 constexpr std::size_t kBlock = 1024;
+
+/// By element: whether particles are placed there when they start or land on it.
+std::vector<char> placesOf(const Elements& elements) {
+  std::vector<char> places(elements.size());
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = elements.isReceivingLeaf(ElementId(i));
+  return places;
+}
+
+std::vector<ElementId> surfacesOf(const Elements& elements) {
+  std::vector<ElementId> surfaces;
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    if (elements.receives(ElementId(i)) && elements.topology[i].depth == 0) surfaces.emplace_back(i);
+  return surfaces;
+}
+
+ElementId surfaceOf(const Elements& elements, ElementId e) {
+  while (elements.at(e).depth > 0) e = elements.at(e).parent;
+  return e;
+}
+
+bool earlier(const RetracedPath& a, const RetracedPath& b) { return a.path < b.path; }
+
+void sortUnique(std::vector<ElementId>& all) {
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+}
 
 }  // namespace
 
@@ -42,7 +67,10 @@ void ParticleTransfer::visit(const Particles& p, std::size_t path, std::uint32_t
 }
 
 ParticleTransfer::ParticleTransfer(const Particles& p, const Elements& elements, const Scene& scene)
-    : lights_(scene.lights.size()), senderOf_(p.paths(), kNone), elementOf_(p.impactSlots(), kNone) {
+    : lights_(scene.lights.size()),
+      senderOf_(p.paths(), kNone),
+      elementOf_(p.impactSlots(), kNone),
+      places_(placesOf(elements)) {
   entries_.resize(elements.size());
   sums_.resize(elements.size());
   const SideLocator locator(elements, scene);
@@ -69,42 +97,86 @@ ParticleTransfer::ParticleTransfer(const Particles& p, const Elements& elements,
     std::stable_sort(begin, end, [](const Landing& a, const Landing& b) { return a.sender < b.sender; });
     std::for_each(begin, end, [&](const Landing& l) { add(l); });
   });
-  chooseLevels(elements);
+  levels_.choose(surfacesOf(elements), elements, sums_);
+  for (std::size_t e = 0; e < entries_.size(); ++e)
+    if (!entries_[e].empty()) surfaces_.push_back(surfaceOf(elements, ElementId(e)));
+  sortUnique(surfaces_);
 }
 
-void ParticleTransfer::follow(const Particles& p, const ParticleUpdate& update, const Elements& elements,
-                              const Scene& scene) {
-  if (update.all) {
-    *this = ParticleTransfer(p, elements, scene);
-    return;
+/// Paths with ends that are no places any more, or may have become some; other than those that were retraced.
+std::vector<RetracedPath> ParticleTransfer::misplaced(const Particles& p, const ParticleUpdate& update) const {
+  std::vector<std::vector<RetracedPath>> found((p.paths() + kBlock - 1) / kBlock);
+  parallelBlocks(p.paths(), kBlock, [&](std::size_t begin, std::size_t end) {
+    const auto first = static_cast<std::uint32_t>(lights_);
+    for (std::size_t path = begin; path < end; ++path) {
+      const PathRange range = p.range[path];
+      if (range.impacts == 0) continue;
+      const std::uint32_t sender = senderOf_[path];
+      bool all = sender < first || (sender != kNone && places_[sender - first]);
+      for (std::uint32_t i = range.impact; i < range.impact + range.impacts; ++i)
+        all = all && elementOf_[i] != kNone && places_[elementOf_[i]];
+      if (!all)
+        found[begin / kBlock].push_back(
+            {static_cast<std::uint32_t>(path), p.sender[path], p.originTriangle[path], range});
+    }
+  });
+  std::vector<RetracedPath> all, paths;
+  for (const auto& block : found) all.insert(all.end(), block.begin(), block.end());
+  std::set_difference(all.begin(), all.end(), update.paths.begin(), update.paths.end(), std::back_inserter(paths),
+                      earlier);
+  return paths;
+}
+
+std::vector<ElementId> ParticleTransfer::follow(const Particles& p, const ParticleUpdate& update,
+                                                const Elements& elements, const Scene& scene) {
+  DELTALUX_CHECK(!update.all && senderOf_.size() == p.paths() && elementOf_.size() <= p.impactSlots(),
+                 "the particles of before");
+  std::vector<char> before = placesOf(elements);
+  before.swap(places_);
+  entries_.resize(elements.size());
+  sums_.resize(elements.size());
+  elementOf_.resize(p.impactSlots(), kNone);
+  std::vector<RetracedPath> paths = update.paths;
+  if (places_ != before) {
+    const std::vector<RetracedPath> others = misplaced(p, update);
+    paths.insert(paths.end(), others.begin(), others.end());
+    std::inplace_merge(paths.begin(), paths.end() - static_cast<std::ptrdiff_t>(others.size()), paths.end(), earlier);
   }
-  DELTALUX_CHECK(senderOf_.size() == p.paths() && elementOf_.size() <= p.impactSlots(), "the particles of before");
-  for (const RetracedPath& r : update.paths)
+
+  std::vector<char> touched(elements.size(), 0);
+  for (const RetracedPath& r : paths)
     visit(p, r.path, senderOf_[r.path], r.sender, r.range, [&](const Landing& l) {
       if (l.element == kNone)
         lost_ -= l.weight;
       else
-        remove(l);
+        remove(l), touched[l.element] = 1;
     });
-  entries_.resize(elements.size());
-  sums_.resize(elements.size());
-  elementOf_.resize(p.impactSlots(), kNone);
   const SideLocator locator(elements, scene);
-  parallelFor(update.paths.size(), 64, [&](std::size_t i) { locate(p, update.paths[i].path, locator); });
-  for (const RetracedPath& r : update.paths)
+  parallelFor(paths.size(), 64, [&](std::size_t i) { locate(p, paths[i].path, locator); });
+  for (const RetracedPath& r : paths)
     visit(p, r.path, senderOf_[r.path], p.sender[r.path], p.range[r.path], [&](const Landing& l) {
       if (l.element == kNone)
         lost_ += l.weight;
       else
-        add(l);
+        add(l), touched[l.element] = 1;
     });
-  chooseLevels(elements);
+
+  std::vector<ElementId> changed;  // in particles, or in patches
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    const bool other = places_[i] != (i < before.size() ? before[i] : 0);
+    if ((touched[i] || other) && elements.receives(ElementId(i))) changed.push_back(surfaceOf(elements, ElementId(i)));
+    if (touched[i]) surfaces_.push_back(surfaceOf(elements, ElementId(i)));
+  }
+  sortUnique(changed), sortUnique(surfaces_);
+  levels_.choose(changed, elements, sums_);
+  std::erase_if(changed, [&](ElementId e) { return !std::binary_search(surfaces_.begin(), surfaces_.end(), e); });
+  return changed;
 }
 
 void ParticleTransfer::add(const Landing& l) {
-  Sums& s = sums_[l.element];
-  s.weight += l.weight, s.squares += double(l.weight) * l.weight;
   if (l.sender == kNone) return;
+  LandingSums& s = sums_[l.element];
+  s.weight += l.weight, s.squares += double(l.weight) * l.weight, ++s.count;
   if (l.sender >= lights_) s.gain += maxChannel(l.flux);
   std::vector<Entry>& all = entries_[l.element];
   auto at = std::lower_bound(all.begin(), all.end(), l.sender,
@@ -114,9 +186,9 @@ void ParticleTransfer::add(const Landing& l) {
 }
 
 void ParticleTransfer::remove(const Landing& l) {
-  Sums& s = sums_[l.element];
-  s.weight -= l.weight, s.squares -= double(l.weight) * l.weight;
   if (l.sender == kNone) return;
+  LandingSums& s = sums_[l.element];
+  s.weight -= l.weight, s.squares -= double(l.weight) * l.weight, --s.count;
   if (l.sender >= lights_) s.gain -= maxChannel(l.flux);
   std::vector<Entry>& all = entries_[l.element];
   const auto at = std::lower_bound(all.begin(), all.end(), l.sender,
@@ -127,44 +199,6 @@ void ParticleTransfer::remove(const Landing& l) {
   if (all.empty()) s = {};
 }
 
-void ParticleTransfer::chooseLevels(const Elements& elements) {
-  std::vector<Sums> sums = sums_;
-  std::vector<double> least(elements.size(), 0.0);
-  std::vector<char> whole(elements.size(), 1);    // its particles are spread over all of it
-  std::vector<char> tooMuch(elements.size(), 0);  // for so small a patch
-  damping_.assign(elements.size(), 1.0f);
-  for (std::size_t i = elements.size(); i-- > 0;) {
-    const ElementTopology& t = elements.topology[i];
-    if (!elements.receives(ElementId(i))) continue;
-    double parts = 0;
-    bool split = t.childCount > 0 && entries_[i].empty();
-    for (std::size_t c = 0; c < t.childCount; ++c) {
-      const std::size_t child = t.firstChild.index() + c;
-      const Sums& s = sums[child];
-      sums[i].weight += s.weight, sums[i].squares += s.squares, sums[i].gain += s.gain, parts += least[child];
-      tooMuch[i] |= tooMuch[child];
-    }
-    const double A = std::max<double>(elements.geometry[i].area, 1e-30);
-    const double J = (2 * sums[i].squares - sums[i].weight * sums[i].weight) / A;  // [Rudemo82 (2.8)]
-    whole[i] = !split || tooMuch[i] || J <= parts;
-    least[i] = whole[i] ? J : parts;
-    tooMuch[i] = sums[i].gain > kMostGain * A;
-    // Counts where not even the whole surface is enough to spread it on.
-    if (tooMuch[i]) damping_[i] = static_cast<float>(kMostGain * A / sums[i].gain);
-  }
-  // From above: once a patch is whole, so is everything in it.
-  level_.assign(elements.size(), kNone);
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const ElementTopology& t = elements.topology[i];
-    if (!elements.receives(ElementId(i))) continue;
-    const bool covered = t.depth > 0 && level_[t.parent.index()] != kNone;
-    if (covered)
-      level_[i] = level_[t.parent.index()];
-    else if (whole[i])
-      level_[i] = static_cast<std::uint32_t>(i);
-  }
-}
-
 Rgb ParticleTransfer::power(std::size_t path, const Elements& elements, const Scene& scene) const {
   const std::uint32_t sender = senderOf_[path];
   if (sender == kNone) return Rgb(0.0f);
@@ -172,23 +206,50 @@ Rgb ParticleTransfer::power(std::size_t path, const Elements& elements, const Sc
 }
 
 void ParticleTransfer::apply(Elements& elements, const Scene& scene) const {
-  const auto power = [&](std::uint32_t sender) {
-    return RgbSum(sender < lights_ ? scene.lights[sender].scale : elements.radiometry[sender - lights_].B);
-  };
-  // Flux by element, then by level.
-  std::vector<RgbSum> flux(entries_.size(), RgbSum(0.0));
-  parallelFor(entries_.size(), 256, [&](std::size_t e) {
-    if (entries_[e].empty()) return;
-    const double damping = damping_[level_[e]];
-    for (const Entry& entry : entries_[e])
-      flux[e] += (entry.sender < lights_ ? 1.0 : damping) * entry.flux * power(entry.sender);
+  DELTALUX_CHECK(places_.size() == elements.size(), "the mesh that particles were placed on");
+  std::vector<Rgb> B(elements.size());
+  for (std::size_t i = 0; i < B.size(); ++i) {
+    B[i] = elements.radiometry[i].B;
+    if (places_[i]) elements.radiometry[i].particle = Rgb(0.0f);
+  }
+  std::vector<char> marks;
+  apply(surfaces_, elements, {B, scene}, std::numeric_limits<float>::infinity(), marks);
+}
+
+void ParticleTransfer::apply(std::span<const ElementId> surfaces, Elements& elements, const Sources& sources,
+                             float least, std::vector<char>& marks) const {
+  parallelBlocks(surfaces.size(), 16, [&](std::size_t begin, std::size_t end) {
+    PatchTree tree;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!elements.receives(surfaces[i])) continue;
+      tree.list(elements, surfaces[i]);
+      apply(tree, elements, sources, least, marks);
+    }
   });
-  for (std::size_t e = 0; e < entries_.size(); ++e)
-    if (!entries_[e].empty() && level_[e] != e) flux[level_[e]] += flux[e];
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    if (!elements.isReceivingLeaf(ElementId(e))) continue;
-    const std::uint32_t level = level_[e];
-    elements.radiometry[e].particle = Rgb(flux[level] / std::max<double>(elements.geometry[level].litArea(), 1e-30));
+}
+
+void ParticleTransfer::apply(const PatchTree& tree, Elements& elements, const Sources& sources, float least,
+                             std::vector<char>& marks) const {
+  for (std::size_t begin = 0, end = 0; begin < tree.places.size(); begin = end) {
+    const std::uint32_t level = levels_.of(tree.places[begin].element);
+    end = begin + 1;
+    if (level == kNone) continue;
+    while (end < tree.places.size() && levels_.of(tree.places[end].element) == level) ++end;
+    const double damping = levels_.damping(level);
+    RgbSum flux(0.0);
+    for (std::size_t i = begin; i < end; ++i)
+      for (const Entry& entry : entries_[tree.places[i].element.index()])
+        flux += entry.sender < lights_ ? entry.flux * RgbSum(sources.scene.lights[entry.sender].scale)
+                                       : damping * entry.flux * RgbSum(sources.B[entry.sender - lights_]);
+    const Rgb E(flux / std::max<double>(elements.shape(ElementId(level)).litArea(), 1e-30));
+    for (std::size_t i = begin; i < end; ++i) {
+      const ElementId e = tree.places[i].element;
+      if (!elements.isLeaf(e)) continue;
+      Rgb& particle = elements.radiometry[e.index()].particle;
+      if (maxChannel(glm::abs(E - particle)) > least * std::max(maxChannel(E), maxChannel(particle)))
+        marks[e.index()] = 1;
+      particle = E;
+    }
   }
 }
 
@@ -199,8 +260,9 @@ std::size_t ParticleTransfer::pairs() const {
 }
 
 std::size_t ParticleTransfer::memoryBytes() const {
-  return (senderOf_.capacity() + elementOf_.capacity() + level_.capacity() + damping_.capacity()) * 4 +
-         sums_.capacity() * sizeof(Sums) + entries_.capacity() * sizeof(entries_[0]) + pairs() * sizeof(Entry);
+  return (senderOf_.capacity() + elementOf_.capacity() + surfaces_.capacity()) * 4 + places_.capacity() +
+         levels_.memoryBytes() + sums_.capacity() * sizeof(LandingSums) + entries_.capacity() * sizeof(entries_[0]) +
+         pairs() * sizeof(Entry);
 }
 
 }  // namespace deltalux

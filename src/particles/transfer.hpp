@@ -1,21 +1,16 @@
 #pragma once
 // Particles as one more sparse transfer: E(receiver) = sum of T B(sender), senders being leaf patches and lights. Made
 // once a mesh; every iteration then costs a multiplication per pair of sender and receiver that particles connect, and
-// no ray. The one writer of ElementLight::particle. [GD01 2.1, "placed at an appropriate level in the hierarchy"]
+// no ray. The one writer of ElementLight::particle. [GD01 2.1, "placed at an appropriate level in the hierarchy"; at
+// which: spread_levels.hpp]
 //
-// The level at which the particles of a leaf are spread is chosen per input-level surface by the least estimated error:
-// the tree of patches is cut where the sum of
-//
-//   J = (2 sum w^2 - (sum w)^2) / A
-//
-// over the cut is least, w being the particles' fluxes and A a patch's area: the cross-validated squared error of a
-// histogram [Rudemo82]. No threshold, and much light on few particles is not mistaken for detail. A patch that would
-// receive more than surfaces of radiosity 1 all around could give it is too small for its particles, too: light sent
-// round between such patches would grow without end. Energy is kept, except where a whole surface is that small.
-//
-// Retraced paths are taken out and put in one by one; only the cut is chosen anew.
-// Cost: to build, about 0.3 microseconds an impact; an update, that for what is retraced and 10 nanoseconds an element.
+// Retraced paths, and those whose ends lie on patches that were split, are taken out and put in one by one; levels are
+// chosen anew, and light is written, surface by surface, so that settling need only look at surfaces where particles or
+// their senders' light have changed.
+// Cost: to build, about 0.3 microseconds an impact; to follow, that for what is retraced, and some nanoseconds a path
+// where elements were split.
 #include "particles/particle_tracing.hpp"
+#include "particles/spread_levels.hpp"
 
 namespace deltalux {
 
@@ -26,12 +21,28 @@ class ParticleTransfer {
   /// Finds where the particles start and land on today's mesh.
   ParticleTransfer(const Particles&, const Elements&, const Scene&);
 
-  /// Takes in what was traced anew. Elements may have been split since; not removed, and no particles compacted: then
-  /// make a new one.
-  void follow(const Particles&, const ParticleUpdate&, const Elements&, const Scene&);
+  /// Takes in what was traced anew, and that elements were split, woken, put to sleep or added. Not for updates of all
+  /// particles, or compacted ones: then make a new one. Returns the surfaces that particles lie otherwise on.
+  std::vector<ElementId> follow(const Particles&, const ParticleUpdate&, const Elements&, const Scene&);
 
   /// Writes E of particles at every leaf from today's radiosities and the scale of lights.
   void apply(Elements&, const Scene&) const;
+
+  /// Radiosity by element, and the scale of lights.
+  struct Sources {
+    const std::vector<Rgb>& B;
+    const Scene& scene;
+  };
+  /// Writes E of particles at every leaf of these surfaces; marks the leaves, in an array by element, whose E changes
+  /// by more than `least`, relatively.
+  void apply(std::span<const ElementId> surfaces, Elements&, const Sources&, float least,
+             std::vector<char>& marks) const;
+
+  /// Input-level patches that particles land on, or did, ascending.
+  const std::vector<ElementId>& surfaces() const { return surfaces_; }
+  /// sender(ElementId) for every patch that sends particles to the surface; some come more than once.
+  template <class Sender>
+  void visitSenders(ElementId surface, const Elements&, const Sender& sender) const;
 
   /// Radiosity of the element, or scale of the light, that sends a path; black when it has no element. [W/m2, or 1]
   Rgb power(std::size_t path, const Elements&, const Scene&) const;
@@ -42,15 +53,12 @@ class ParticleTransfer {
   std::size_t memoryBytes() const;
 
  private:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
   struct Entry {
     std::uint32_t sender = 0;  // a light, or behind all lights an element
     std::uint32_t count = 0;   // of impacts
     RgbSum flux{0.0};          // per radiosity [unit^2], of lights per scale [W]
-  };
-  /// Of the impacts of an element itself.
-  struct Sums {
-    double weight = 0, squares = 0;  // by nominal senders
-    double gain = 0;                 // flux per radiosity of surfaces, brightest channels
   };
   struct Landing {
     std::uint32_t element, sender;
@@ -65,16 +73,27 @@ class ParticleTransfer {
              const Visit&) const;
   void add(const Landing&);
   void remove(const Landing&);
-  void chooseLevels(const Elements&);
+  std::vector<RetracedPath> misplaced(const Particles&, const ParticleUpdate&) const;
+  void apply(const PatchTree&, Elements&, const Sources&, float least, std::vector<char>& marks) const;
 
   std::size_t lights_ = 0;
   double lost_ = 0;
   std::vector<std::uint32_t> senderOf_;      // by path
   std::vector<std::uint32_t> elementOf_;     // by slot of impact
   std::vector<std::vector<Entry>> entries_;  // by element: ascending by sender
-  std::vector<Sums> sums_;                   // by element
-  std::vector<std::uint32_t> level_;         // by element: the one that its particles are spread over
-  std::vector<float> damping_;               // by such an element: of what surfaces send
+  std::vector<LandingSums> sums_;            // by element
+  std::vector<char> places_;                 // by element: whether particles can start and land there
+  std::vector<ElementId> surfaces_;
+  SpreadLevels levels_;
 };
+
+template <class Sender>
+void ParticleTransfer::visitSenders(ElementId surface, const Elements& elements, const Sender& sender) const {
+  PatchTree tree;
+  tree.list(elements, surface);
+  for (const PatchTree::Place& p : tree.places)
+    for (const Entry& e : entries_[p.element.index()])
+      if (e.sender >= lights_) sender(ElementId(e.sender - lights_));
+}
 
 }  // namespace deltalux

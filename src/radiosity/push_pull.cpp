@@ -165,17 +165,30 @@ RgbSum pull(Elements& elements) {
   return change;
 }
 
+void addOtherSides(const Elements& elements, std::vector<ElementId>& leaves) {
+  const std::size_t given = leaves.size();
+  for (std::size_t i = 0; i < given; ++i) {
+    if (isBlack(elements.radiometry[leaves[i].index()].tau)) continue;
+    const ElementId other = otherSide(elements, leaves[i]);
+    std::vector<ElementId> stack;
+    if (other.valid()) stack.push_back(other);
+    while (!stack.empty()) {
+      const ElementId e = stack.back();
+      stack.pop_back();
+      if (elements.isLeaf(e)) leaves.push_back(e);
+      for (std::size_t c = 0; c < elements.at(e).childCount; ++c) stack.push_back(elements.child(e, c));
+    }
+  }
+}
+
 RgbSum pull(Elements& elements, std::span<const ElementId> leaves) {
   std::vector<char> marked(elements.size(), 0);
   const auto mark = [&](ElementId e) {
     for (; e.valid() && !marked[e.index()]; e = elements.at(e).parent) marked[e.index()] = 1;
   };
-  for (const ElementId leaf : leaves) {
-    mark(leaf);
-    if (isBlack(elements.radiometry[leaf.index()].tau)) continue;
-    const ElementId other = otherSide(elements, leaf);  // it shines through
-    if (other.valid()) mark(other);
-  }
+  std::vector<ElementId> lit(leaves.begin(), leaves.end());
+  addOtherSides(elements, lit);
+  for (const ElementId leaf : lit) mark(leaf);
   std::vector<std::uint32_t> touched;
   for (std::size_t i = elements.size(); i-- > 0;)
     if (marked[i]) touched.push_back(static_cast<std::uint32_t>(i));

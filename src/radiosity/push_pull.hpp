@@ -6,6 +6,7 @@
 // the exposed parts of leaves (exposure.hpp). Cost: linear in elements; parents stand before their children, so both
 // ways are plain loops; or in what a change has touched, and one look at each element.
 #include <span>
+#include <vector>
 
 #include "hierarchy/element.hpp"
 
@@ -19,5 +20,7 @@ RgbSum pushPull(Elements&);
 RgbSum pull(Elements&);
 /// The same of these leaves, what lies on their other sides and what stands above them; all else is as it was.
 RgbSum pull(Elements&, std::span<const ElementId> leaves);
+/// Adds the leaves that light on these shines through to.
+void addOtherSides(const Elements&, std::vector<ElementId>& leaves);
 
 }  // namespace deltalux

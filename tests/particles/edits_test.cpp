@@ -6,6 +6,7 @@
 
 #include "base/random.hpp"
 #include "hierarchy/build.hpp"
+#include "hierarchy/patch.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/particle_tracing.hpp"
 #include "particles/segment_box.hpp"
@@ -153,22 +154,45 @@ std::vector<Rgb> irradiances(const ParticleTransfer& transfer, Elements& element
   return E;
 }
 
-/// Transfers that follow are those made anew.
+/// Splits some of the leaves that particles land on.
+void splitLeaves(Elements& elements, const Scene& scene, std::size_t every) {
+  const std::size_t count = elements.size();
+  for (std::size_t i = 0; i < count; i += every)
+    if (elements.receives(ElementId(i)) && !isBlack(elements.radiometry[i].particle))
+      subdivide(elements, scene, ElementId(i));
+}
+
+/// Transfers that follow are those made anew, and light is another on the surfaces alone that they name.
 TEST(ParticleEdits, TransferFollows) {
   World w;
   Elements elements = buildElements(w.scene, surfaceSides(w.scene));
   subdivideForParticles(elements, w.scene, w.particles, std::vector<bool>(2 * w.scene.primitives.size()));
   for (std::size_t i = 0; i < elements.size(); ++i) elements.radiometry[i].B = Rgb(0.1f + 0.01f * float(i % 7));
   ParticleTransfer transfer(w.particles, elements, w.scene);
-  const std::vector<Rgb> before = irradiances(transfer, elements, w.scene);
+  std::vector<Rgb> before = irradiances(transfer, elements, w.scene);
+  std::size_t every = 5;
   for (const Edit& e : {Edit(TransformObject{"ball", translation({0.1, 0, 0.1})}),
                         Edit(TransformObject{"tall_block", turn(0.1, {0.37, 0, 0.35})}), Edit(RemoveObject{"ball"})}) {
     const ParticleUpdate u = w.apply(e);
-    transfer.follow(w.particles, u, elements, w.scene);
+    splitLeaves(elements, w.scene, every++);
+    const std::vector<ElementId> surfaces = transfer.follow(w.particles, u, elements, w.scene);
+    Elements named = elements;
+    std::vector<Rgb> B;
+    for (const ElementLight& l : named.radiometry) B.push_back(l.B);
+    std::vector<char> marks(named.size(), 0);
+    transfer.apply(surfaces, named, {B, w.scene}, 1e-5f, marks);
     const std::vector<Rgb> E = irradiances(transfer, elements, w.scene);
     const std::vector<Rgb> fresh = irradiances(ParticleTransfer(w.particles, elements, w.scene), elements, w.scene);
     EXPECT_NE(E, before);
-    for (std::size_t i = 0; i < E.size(); ++i) EXPECT_NEAR(gray(E[i]), gray(fresh[i]), 1e-5 * (1 + gray(fresh[i])));
+    before.resize(E.size(), Rgb(0.0f));
+    for (std::size_t i = 0; i < E.size(); ++i) {
+      EXPECT_NEAR(gray(E[i]), gray(fresh[i]), 1e-5 * (1 + gray(fresh[i])));
+      if (!elements.isLeaf(ElementId(i))) continue;
+      EXPECT_EQ(named.radiometry[i].particle, E[i]);
+      EXPECT_EQ(marks[i] != 0,
+                maxChannel(glm::abs(E[i] - before[i])) > 1e-5f * std::max(maxChannel(E[i]), maxChannel(before[i])));
+    }
+    before = E;
   }
 }
 

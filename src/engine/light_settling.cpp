@@ -1,0 +1,267 @@
+#include "engine/light_settling.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+#include "base/parallel.hpp"
+#include "radiosity/push_pull.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr float kSame = 1e-5f;     // relative difference of light that is none
+constexpr double kTold = 1e-4;     // of what a region sends: changes that are told at once
+constexpr float kMatters = 4e-3f;  // of the irradiance of a leaf: that it does not miss
+constexpr double kDark = 1e-3;     // of the mean radiosity: irradiance that is nothing to speak of
+constexpr double kLeft = 0.5;      // of what may be missed: what is left when it was more
+constexpr double kMost = 0.4;      // of all rows: when it matters to more, all are gathered
+constexpr double kWithheld = 0.1;  // the same of what is not told
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+bool differ(const Rgb& a, const Rgb& b) {
+  return maxChannel(glm::abs(a - b)) > kSame * std::max(maxChannel(a), maxChannel(b));
+}
+
+ElementId surfaceOf(const Elements& elements, ElementId e) {
+  while (elements.at(e).depth > 0) e = elements.at(e).parent;
+  return e;
+}
+
+void addLeaves(const Elements& elements, ElementId top, std::vector<ElementId>& leaves) {
+  PatchTree tree;
+  tree.list(elements, top);
+  for (const PatchTree::Place& p : tree.places)
+    if (elements.isLeaf(p.element)) leaves.push_back(p.element);
+}
+
+template <class Marks>
+void addMarked(const Marks& marks, std::vector<ElementId>& to) {
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    if (marks[i]) to.emplace_back(i);
+}
+
+/// Takes the largest of `amounts` until what is left is no more than `most`; take(index).
+template <class Take>
+void takeLargest(const std::vector<double>& amounts, double sum, double most, const Take& take) {
+  std::vector<std::uint32_t> order(amounts.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto larger = [&](std::uint32_t a, std::uint32_t b) {
+    return amounts[a] != amounts[b] ? amounts[a] > amounts[b] : a < b;
+  };
+  std::sort(order.begin(), order.end(), larger);
+  for (std::size_t i = 0; i < order.size() && sum > most; ++i) take(order[i]), sum -= amounts[order[i]];
+}
+
+}  // namespace
+
+LightSettling::LightSettling(const Parts& parts, const Elements& elements) : regions_(elements) {
+  follow(parts, elements);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (!elements.isReceivingLeaf(ElementId(i))) continue;
+    const int r = regions_.of(ElementId(i));
+    area_[r] += elements.geometry[i].litArea();
+    power_[r] += double(elements.geometry[i].litArea()) * double(gray(seen_[i]));
+  }
+  const auto rows = parts.rows.rows();
+  parallelFor(rows.size(), 256, [&](std::size_t i) { learn(rows[i]); });
+  const std::vector<ElementId>& surfaces = parts.particles.surfaces();
+  parallelFor(surfaces.size(), 64, [&](std::size_t i) { learn(surfaces[i], parts, elements); });
+}
+
+void LightSettling::follow(const Parts& parts, const Elements& elements) {
+  regions_.follow(elements);
+  for (std::size_t i = seen_.size(); i < elements.size(); ++i) seen_.push_back(elements.radiometry[i].B);
+  from_.resize(elements.size(), 0), factors_.resize(elements.size()), misses_.resize(elements.size(), 0.0f);
+  particlesFrom_.resize(elements.size(), 0), read_.resize(elements.size(), 0), listed_.resize(elements.size(), 0);
+  rowOf_.assign(elements.size(), kNone);
+  const auto rows = parts.rows.rows();
+  for (std::size_t i = 0; i < rows.size(); ++i) rowOf_[rows[i].leaf.index()] = static_cast<std::uint32_t>(i);
+}
+
+void LightSettling::learn(const LeafRow& row) {
+  std::array<float, kRegions> factor{};
+  SceneRegions::Set regions = 0;
+  for (const LeafTransfer& t : row.indirect.transfers) {
+    factor[regions_.of(t.leaf)] += gray(t.T);
+    regions |= regions_.setOf(t.leaf);
+    std::atomic_ref(read_[t.leaf.index()]).store(1, std::memory_order_relaxed);
+  }
+  const std::size_t e = row.leaf.index();
+  from_[e] = regions;
+  for (int r = 0; r < kRegions; ++r)
+    factors_[e][r] = static_cast<std::uint8_t>(std::min(255.0f, std::ceil(255 * factor[r])));
+}
+
+void LightSettling::learn(ElementId surface, const Parts& parts, const Elements& elements) {
+  SceneRegions::Set regions = 0;
+  parts.particles.visitSenders(surface, elements, [&](ElementId sender) {
+    regions |= regions_.setOf(sender);
+    std::atomic_ref(read_[sender.index()]).store(1, std::memory_order_relaxed);
+  });
+  particlesFrom_[surface.index()] = regions;
+}
+
+/// Fills the direct light of all leaves; adds those where it is another.
+void LightSettling::addRelit(const Parts& parts, Elements& elements, std::vector<ElementId>& leaves) const {
+  const auto rows = parts.rows.rows();
+  std::vector<char> relit(elements.size(), 0);
+  parallelFor(rows.size(), 256, [&](std::size_t i) {
+    const std::size_t e = rows[i].leaf.index();
+    const Rgb before = elements.radiometry[e].direct;
+    parts.rows.gatherDirect(rows[i], elements);
+    relit[e] = differ(before, elements.radiometry[e].direct);
+  });
+  addMarked(relit, leaves);
+}
+
+LightSettling::Work LightSettling::firstWork(const Parts& parts, Elements& elements, const LightChanges& changes) {
+  follow(parts, elements);
+  Work work;
+  std::vector<char> marked(elements.size(), 0);
+  for (const ElementId e : changes.rows)
+    if (rowOf_[e.index()] != kNone)
+      marked[e.index()] = 1;
+    else
+      from_[e.index()] = 0, misses_[e.index()] = 0;
+  addMarked(marked, work.rows);
+
+  const std::vector<ElementId>& surfaces = parts.particles.surfaces();
+  const std::vector<ElementId>& placed = changes.allParticles ? surfaces : changes.surfaces;
+  parallelFor(placed.size(), 16, [&](std::size_t i) { learn(placed[i], parts, elements); });
+  std::vector<char> under(elements.size(), 0);
+  for (const ElementId e : changes.lights ? surfaces : placed) under[e.index()] = 1;
+  // Another part of a leaf may be covered than before: the same particles are spread over what is not.
+  for (const ElementId e : changes.rows)
+    if (const ElementId s = surfaceOf(elements, e); !under[s.index()])
+      under[s.index()] = std::binary_search(surfaces.begin(), surfaces.end(), s);
+  addMarked(under, work.surfaces);
+
+  work.leaves = changes.rows;
+  if (changes.lights) addRelit(parts, elements, work.leaves);
+  for (const ElementId e : changes.painted) addLeaves(elements, e, work.leaves);
+  if (changes.allParticles)
+    for (std::size_t i = 0; i < elements.size(); ++i) {  // where none land any more
+      const ElementId e(i);
+      if (!elements.isReceivingLeaf(e) || isBlack(elements.radiometry[i].particle)) continue;
+      if (std::binary_search(surfaces.begin(), surfaces.end(), surfaceOf(elements, e))) continue;
+      elements.radiometry[i].particle = Rgb(0.0f);
+      work.leaves.push_back(e);
+    }
+  return work;
+}
+
+/// Adds the leaves where what is gathered is another. `anew`: the rows are others than they were.
+void LightSettling::gather(const Parts& parts, Elements& elements, Work& work, bool anew) {
+  std::vector<char> marks(elements.size(), 0);
+  parallelFor(work.rows.size(), 64, [&](std::size_t i) {
+    const std::size_t e = work.rows[i].index();
+    const Rgb before = elements.radiometry[e].indirect;
+    const LeafRow& row = rowOf(work.rows[i], parts);
+    if (anew) learn(row);
+    parts.rows.gatherIndirect(row, elements, seen_);
+    misses_[e] = 0;
+    marks[e] = differ(before, elements.radiometry[e].indirect);
+  });
+  parts.particles.apply(work.surfaces, elements, {seen_, parts.scene}, kSame, marks);
+  for (const ElementId e : work.leaves) marks[e.index()] = 1;
+  work.leaves.clear();
+  addMarked(marks, work.leaves);
+  addOtherSides(elements, work.leaves);
+}
+
+/// Leaves that may send otherwise; and patches that were leaves when they were taken for senders.
+void LightSettling::listen(const Elements& elements, std::span<const ElementId> leaves) {
+  const auto add = [&](ElementId e) {
+    if (!std::exchange(listed_[e.index()], 1)) unheard_.push_back(e);
+  };
+  for (const ElementId leaf : leaves) {
+    add(leaf);
+    for (ElementId e = leaf; elements.at(e).depth > 0;) {
+      e = elements.at(e).parent;
+      if (read_[e.index()]) add(e);
+    }
+  }
+}
+
+LightSettling::News LightSettling::publish(const Elements& elements, double tolerated) {
+  std::vector<double> change(kRegions, 0.0), squares(kRegions, 0.0);
+  const auto difference = [&](ElementId e) { return elements.radiometry[e.index()].B - seen_[e.index()]; };
+  for (const ElementId e : unheard_) {
+    const double A = elements.shape(e).litArea(), dB = gray(glm::abs(difference(e)));
+    change[regions_.of(e)] += A * dB, squares[regions_.of(e)] += A * dB * dB;
+  }
+  News news;
+  news.withheld = std::accumulate(change.begin(), change.end(), 0.0);
+  const auto tell = [&](std::size_t r) {
+    news.regions |= SceneRegions::Set(1) << r;
+    news.change[r] = static_cast<float>(std::sqrt(squares[r] / std::max(area_[r], 1e-30)));
+    news.withheld -= change[r], change[r] = 0;
+  };
+  for (std::size_t r = 0; r < kRegions; ++r)
+    if (change[r] > kTold * power_[r]) tell(r);
+  takeLargest(change, news.withheld, kWithheld * tolerated, tell);
+  std::erase_if(unheard_, [&](ElementId e) {
+    if (!(news.regions & regions_.setOf(e))) return false;
+    if (elements.isLeaf(e)) power_[regions_.of(e)] += elements.shape(e).litArea() * gray(difference(e));
+    seen_[e.index()] = elements.radiometry[e.index()].B;
+    listed_[e.index()] = 0;
+    return true;
+  });
+  return news;
+}
+
+LightSettling::Work LightSettling::readersOf(const News& news, const Parts& parts, const Elements& elements,
+                                             double tolerated, double& missed) {
+  std::vector<char> matters(elements.size(), 0);
+  std::vector<double> amount(elements.size(), 0.0);  // that is not reflected
+  const double area = std::accumulate(area_.begin(), area_.end(), 1e-30);
+  const auto dark = static_cast<float>(kDark * std::accumulate(power_.begin(), power_.end(), 0.0) / area);
+  parallelFor(elements.size(), 1024, [&](std::size_t e) {
+    if (rowOf_[e] == kNone) return;
+    if (from_[e] & news.regions) {
+      float change = 0;
+      for (int r = 0; r < kRegions; ++r) change += static_cast<float>(factors_[e][r]) * news.change[r];
+      misses_[e] += change / 255;
+    }
+    if (!(misses_[e] > 0)) return;
+    const ElementLight& light = elements.radiometry[e];
+    matters[e] = misses_[e] > kMatters * (dark + gray(light.direct + light.indirect + light.particle));
+    if (!matters[e])
+      amount[e] = double(elements.geometry[e].litArea()) * double(gray(light.rho + light.tau) * misses_[e]);
+  });
+  missed = std::accumulate(amount.begin(), amount.end(), 0.0);
+  if (missed > tolerated)
+    takeLargest(amount, missed, kLeft * tolerated, [&](std::size_t e) { matters[e] = 1, missed -= amount[e]; });
+  Work work;
+  addMarked(matters, work.rows);
+  if (static_cast<double>(work.rows.size()) > kMost * static_cast<double>(parts.rows.rows().size())) {
+    work.rows.clear();
+    for (const LeafRow& row : parts.rows.rows()) work.rows.push_back(row.leaf);
+    missed = 0;
+  }
+  for (const ElementId e : parts.particles.surfaces())
+    if (particlesFrom_[e.index()] & news.regions) work.surfaces.push_back(e);
+  return work;
+}
+
+double LightSettling::settle(const Parts& parts, Elements& elements, const LightChanges& changes, double tolerated,
+                             int most, std::uint64_t& passes) {
+  double missed = 0;
+  Work work = firstWork(parts, elements, changes);
+  for (int pass = 0; pass < most; ++pass) {
+    gather(parts, elements, work, pass == 0);
+    pull(elements, work.leaves);
+    listen(elements, work.leaves);
+    ++passes;
+    const News news = publish(elements, tolerated);
+    work = readersOf(news, parts, elements, tolerated, missed);
+    missed += news.withheld;
+    if (work.rows.empty() && work.surfaces.empty()) break;
+  }
+  return missed;
+}
+
+}  // namespace deltalux

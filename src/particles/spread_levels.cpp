@@ -1,0 +1,76 @@
+#include "particles/spread_levels.hpp"
+
+#include <algorithm>
+
+#include "base/parallel.hpp"
+
+namespace deltalux {
+
+namespace {
+constexpr double kMostGain = 1;  // E of a patch if all surfaces had B = 1: no more is possible, but for noise
+constexpr std::size_t kBlock = 64;
+}  // namespace
+
+void PatchTree::list(const Elements& elements, ElementId top) {
+  places.assign(1, {top, 0});
+  if (elements.isLeaf(top)) return;
+  places.clear();
+  std::vector<Place> stack{{top, 0}};
+  while (!stack.empty()) {
+    const auto here = static_cast<std::uint32_t>(places.size());
+    places.push_back(stack.back());
+    stack.pop_back();
+    const ElementId e = places[here].element;
+    for (std::size_t i = elements.at(e).childCount; i-- > 0;) stack.push_back({elements.child(e, i), here});
+  }
+}
+
+/// Of a patch, from all that lies on it and below it.
+struct SpreadLevels::Cut {
+  LandingSums sums;
+  double parts = 0;      // least error of what is below
+  bool whole = true;     // its particles are spread over all of it
+  bool tooMuch = false;  // for so small a patch, or one below
+};
+
+void SpreadLevels::choose(std::span<const ElementId> surfaces, const Elements& elements,
+                          const std::vector<LandingSums>& sums) {
+  of_.resize(elements.size(), kNone);
+  damping_.resize(elements.size(), 1.0f);
+  parallelBlocks(surfaces.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    PatchTree tree;
+    std::vector<Cut> cuts;
+    for (std::size_t i = begin; i < end; ++i) {
+      tree.list(elements, surfaces[i]);
+      choose(elements, sums, tree, cuts);
+    }
+  });
+}
+
+void SpreadLevels::choose(const Elements& elements, const std::vector<LandingSums>& sums, const PatchTree& tree,
+                          std::vector<Cut>& cuts) {
+  cuts.assign(tree.places.size(), {});
+  for (std::size_t i = cuts.size(); i-- > 0;) {
+    const ElementId e = tree.places[i].element;
+    Cut& cut = cuts[i];
+    const bool split = !elements.isLeaf(e) && sums[e.index()].count == 0;
+    cut.sums += sums[e.index()];
+    const double A = std::max<double>(elements.shape(e).area, 1e-30);
+    const double J = (2 * cut.sums.squares - cut.sums.weight * cut.sums.weight) / A;  // [Rudemo82 (2.8)]
+    cut.whole = !split || cut.tooMuch || J <= cut.parts;
+    cut.tooMuch = cut.sums.gain > kMostGain * A;
+    // Counts where not even the whole surface is enough to spread it on.
+    damping_[e.index()] = cut.tooMuch ? static_cast<float>(kMostGain * A / cut.sums.gain) : 1.0f;
+    if (i == 0) continue;
+    Cut& up = cuts[tree.places[i].parent];
+    up.sums += cut.sums, up.parts += cut.whole ? J : cut.parts, up.tooMuch |= cut.tooMuch;
+  }
+  // From above: once a patch is whole, so is everything in it.
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const ElementId e = tree.places[i].element;
+    const std::uint32_t above = i == 0 ? kNone : of_[tree.places[tree.places[i].parent].element.index()];
+    of_[e.index()] = above != kNone ? above : cuts[i].whole ? e.value : kNone;
+  }
+}
+
+}  // namespace deltalux

@@ -1,0 +1,60 @@
+#pragma once
+// The level at which the particles of a leaf are spread, chosen per input-level surface by the least estimated error:
+// the tree of patches is cut where the sum of
+//
+//   J = (2 sum w^2 - (sum w)^2) / A
+//
+// over the cut is least, w being the particles' fluxes and A a patch's area: the cross-validated squared error of a
+// histogram [Rudemo82]. No threshold, and much light on few particles is not mistaken for detail. A patch that would
+// receive more than surfaces of radiosity 1 all around could give it is too small for its particles, too: light sent
+// round between such patches would grow without end. Energy is kept, except where a whole surface is that small.
+// Cost: 20 nanoseconds a patch of the surface.
+#include <span>
+#include <vector>
+
+#include "hierarchy/element.hpp"
+
+namespace deltalux {
+
+/// Of the impacts on an element itself.
+struct LandingSums {
+  double weight = 0, squares = 0;  // by nominal senders
+  double gain = 0;                 // flux per radiosity of surfaces, brightest channels
+  std::uint32_t count = 0;         // of impacts
+
+  void operator+=(const LandingSums& o) { weight += o.weight, squares += o.squares, gain += o.gain, count += o.count; }
+};
+
+/// A patch and all below it, in an order in which everything below a patch stands right behind it.
+struct PatchTree {
+  struct Place {
+    ElementId element;
+    std::uint32_t parent;  // place
+  };
+  std::vector<Place> places;
+
+  void list(const Elements&, ElementId top);
+};
+
+class SpreadLevels {
+ public:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  /// Cuts the trees of these input-level patches, each listed once. `sums`: by element.
+  void choose(std::span<const ElementId> surfaces, const Elements&, const std::vector<LandingSums>& sums);
+
+  /// The element that the particles of `e` are spread over; none for what stands above one.
+  std::uint32_t of(ElementId e) const { return of_[e.index()]; }
+  /// Share that is taken of what surfaces send to such an element.
+  double damping(std::uint32_t level) const { return damping_[level]; }
+  std::size_t memoryBytes() const { return 4 * (of_.capacity() + damping_.capacity()); }
+
+ private:
+  struct Cut;
+  void choose(const Elements&, const std::vector<LandingSums>&, const PatchTree&, std::vector<Cut>&);
+
+  std::vector<std::uint32_t> of_;  // by element
+  std::vector<float> damping_;     // by element
+};
+
+}  // namespace deltalux
