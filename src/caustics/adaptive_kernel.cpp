@@ -1,11 +1,12 @@
 #include "caustics/adaptive_kernel.hpp"
 
 #include "caustics/walls.hpp"
+#include "caustics/wide_flow.hpp"
 
 namespace deltalux {
 
 namespace {
-constexpr double kPrecision = 1e-4;  // of light that only shows where edges are
+constexpr double kPrecision = 1e-3;  // of light that only shows where edges are
 constexpr double kMatters = 0.5;     // of what most of the light looks like: differences that are an edge
 }  // namespace
 
@@ -16,9 +17,14 @@ std::vector<Rgb> reconstructAdaptive(const CellGrid& grid, const CellLight& ligh
 
   const double darkness = rule.error * (kMatters * medianOfFlux(grid, first) + rule.darkest);
   const std::vector<float> openness = sharpWalls(grid, first, darkness);
-  std::vector<Rgb> E = light.E;
-  HeatFlow(grid, chooseBandwidths(grid, light, openness, rule), openness).apply(E, 1.0);
-  for (Rgb& value : E) value = glm::max(value, Rgb(0.0f));  // the series' last digits
+  CellPyramid pyramid(grid, openness);
+  Channels channels(3, std::vector<float>(grid.size()));
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    for (int c = 0; c < 3; ++c) channels[c][i] = light.E[i][c];
+  flowWidely(pyramid, channels, chooseBandwidths(pyramid, light, rule));
+  std::vector<Rgb> E(grid.size());
+  for (std::size_t i = 0; i < grid.size(); ++i)  // the series' last digits may be negative
+    for (int c = 0; c < 3; ++c) E[i][c] = std::max(channels[c][i], 0.0f);
   return E;
 }
 

@@ -34,7 +34,7 @@ bool contradicted(const std::vector<ScaleLevel>& levels, std::size_t cell, const
     const double overlap = overlaps.narrow[k];
     if (seen < overlap) continue;  // it expects too few particles to be asked
     const double variance = squares * (overlap + wide.overlap - 2 * overlaps.both[k]);
-    const double difference = E - levels[k].light[cell].x;
+    const double difference = E - levels[k].light[0][cell];
     if (difference * difference > kConfidence * kConfidence * variance) return true;
   }
   return false;
@@ -43,7 +43,7 @@ bool contradicted(const std::vector<ScaleLevel>& levels, std::size_t cell, const
 /// Widths are looked for level by level; few cells that want yet another are left with what there is.
 class WidthSearch {
  public:
-  WidthSearch(const CellGrid& grid, const BandwidthRule& rule)
+  WidthSearch(const CellGraph& grid, const BandwidthRule& rule)
       : grid_(grid), rule_(rule), width_(grid.size(), 0.0), around_(grid.size(), -1.0) {
     for (std::uint32_t i = 0; i < grid.size(); ++i) open_.push_back(i);
   }
@@ -76,7 +76,7 @@ class WidthSearch {
     return around_[cell] >= 0 && std::max(last.squares(cell), around_[cell]) * last.overlap <= allowed * allowed;
   }
 
-  const CellGrid& grid_;
+  const CellGraph& grid_;
   const BandwidthRule& rule_;
   std::vector<double> width_;   // by cell
   std::vector<double> around_;  // by cell: density of squares; negative while nothing tells
@@ -85,17 +85,17 @@ class WidthSearch {
 
 }  // namespace
 
-std::vector<float> chooseBandwidths(const CellGrid& grid, const CellLight& light, Openness open,
-                                    const BandwidthRule& rule) {
-  ScaleSpace space(grid, light, open, kWidest);
-  WidthSearch search(grid, rule);
+std::vector<float> chooseBandwidths(CellPyramid& pyramid, const CellLight& light, const BandwidthRule& rule) {
+  const CellGraph& graph = pyramid.graph(0);
+  ScaleSpace space(pyramid, light, kWidest);
+  WidthSearch search(graph, rule);
   while (space.widen() && !search.judge(space.levels())) {
   }
-  const double area = grid.meanArea(), narrowest = kNarrowest * std::sqrt(area);
+  const double area = graph.meanArea(), narrowest = kNarrowest * std::sqrt(area);
   std::vector<float> logs;
   for (const double width : search.widths()) logs.push_back(static_cast<float>(std::log(std::max(width, narrowest))));
   // Choices are noisy too: their logarithms blend with their neighbours'.
-  HeatFlow(grid, std::vector<float>(grid.size(), 1.0f), open).apply(logs, 0.5 * kBlend * kBlend * area);
+  pyramid.evenFlow(0).apply(logs, 0.5 * kBlend * kBlend * area);
   for (float& l : logs) l = 0.5f * std::exp(2 * l);
   return logs;
 }

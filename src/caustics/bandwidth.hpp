@@ -21,6 +21,6 @@ struct BandwidthRule {
 };
 
 /// Half the variance of the kernel of every cell [unit^2]: the conductivity that HeatFlow takes for a time of 1.
-std::vector<float> chooseBandwidths(const CellGrid&, const CellLight&, Openness, const BandwidthRule&);
+std::vector<float> chooseBandwidths(CellPyramid&, const CellLight&, const BandwidthRule&);
 
 }  // namespace deltalux

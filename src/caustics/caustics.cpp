@@ -15,19 +15,20 @@ constexpr double kDarkest = 0.1;  // of a side's area
 
 std::size_t sideOf(PrimitiveId primitive, bool front) { return 2 * primitive.index() + (front ? 0 : 1); }
 
-/// Runs of impacts on one side.
+/// Sorts the impacts by side, in the order that they are in; runs of impacts on one side.
 std::vector<std::span<const Impact>> bySide(std::vector<Impact>& impacts) {
-  std::stable_sort(impacts.begin(), impacts.end(), [](const Impact& a, const Impact& b) {
-    return sideOf(a.primitive, a.front) < sideOf(b.primitive, b.front);
-  });
+  std::size_t count = 0;
+  for (const Impact& i : impacts) count = std::max(count, sideOf(i.primitive, i.front) + 1);
+  std::vector<std::size_t> first(count + 1, 0);
+  for (const Impact& i : impacts) ++first[sideOf(i.primitive, i.front) + 1];
+  for (std::size_t s = 0; s < count; ++s) first[s + 1] += first[s];
+  std::vector<std::size_t> next(first.begin(), first.end());
+  std::vector<Impact> sorted(impacts.size());
+  for (const Impact& i : impacts) sorted[next[sideOf(i.primitive, i.front)]++] = i;
+  impacts = std::move(sorted);
   std::vector<std::span<const Impact>> sides;
-  for (std::size_t begin = 0; begin < impacts.size();) {
-    std::size_t end = begin;
-    const std::size_t side = sideOf(impacts[begin].primitive, impacts[begin].front);
-    while (end < impacts.size() && sideOf(impacts[end].primitive, impacts[end].front) == side) ++end;
-    sides.emplace_back(impacts.data() + begin, end - begin);
-    begin = end;
-  }
+  for (std::size_t s = 0; s < count; ++s)
+    if (first[s] < first[s + 1]) sides.emplace_back(impacts.data() + first[s], first[s + 1] - first[s]);
   return sides;
 }
 

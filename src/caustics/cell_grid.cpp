@@ -12,6 +12,12 @@ constexpr double kThin = 0.5;        // width over height from which texels stan
 constexpr double kWholeTurn = 1e-9;  // of the chart's width
 }  // namespace
 
+/// Area and first texel of each.
+struct CellGrid::Cells {
+  std::vector<float> areas;
+  std::vector<glm::ivec2> places;
+};
+
 CellGrid::CellGrid(const Chart& chart, const Region& region, int width, int height, std::span<const float> areas)
     : region_(region), width_(width), height_(height) {
   DELTALUX_CHECK(areas.size() == static_cast<std::size_t>(width) * height, "one area per texel");
@@ -25,8 +31,7 @@ CellGrid::CellGrid(const Chart& chart, const Region& region, int width, int heig
     joinTowardsPoles(chart, areas);
   else
     joinSlivers(areas);
-  numberCells(areas);
-  findBorders(chart, areas);
+  CellGraph::operator=(findBorders(chart, areas, numberCells(areas)));
 }
 
 /// Texels of a row that make one cell.
@@ -64,7 +69,7 @@ void CellGrid::joinSlivers(std::span<const float> areas) {
     }
 }
 
-void CellGrid::numberCells(std::span<const float> areas) {
+CellGrid::Cells CellGrid::numberCells(std::span<const float> areas) {
   const auto rootOf = [&](std::uint32_t i) {
     while (cellOf_[i] != i) i = cellOf_[i];
     return i;
@@ -72,17 +77,19 @@ void CellGrid::numberCells(std::span<const float> areas) {
   std::vector<std::uint32_t> root(cellOf_.size(), kNone), number(cellOf_.size(), kNone);
   for (std::size_t i = 0; i < cellOf_.size(); ++i)
     if (cellOf_[i] != kNone) root[i] = rootOf(static_cast<std::uint32_t>(i));
+  Cells cells;
   for (std::size_t i = 0; i < root.size(); ++i) {
     if (root[i] == kNone) continue;
     std::uint32_t& n = number[root[i]];
     if (n == kNone) {
-      n = static_cast<std::uint32_t>(area_.size());
-      area_.push_back(0.0f);
+      n = static_cast<std::uint32_t>(cells.areas.size());
+      cells.areas.push_back(0.0f);
+      cells.places.emplace_back(static_cast<int>(i) % width_, static_cast<int>(i) / width_);
     }
     cellOf_[i] = n;
-    area_[n] += areas[i];
+    cells.areas[n] += areas[i];
   }
-  for (const float a : area_) totalArea_ += a;
+  return cells;
 }
 
 /// What texels share with the one to the right, above, above to the right, and above to the left.
@@ -90,30 +97,47 @@ struct CellGrid::Shares {
   std::vector<float> right, above, aboveRight, aboveLeft;
 };
 
-void CellGrid::findBorders(const Chart& chart, std::span<const float> areas) {
+namespace {
+
+/// One border for each of the cells, ascending.
+void addMerged(std::vector<CellGraph::Border>& found, std::vector<CellGraph::Border>& borders) {
+  const auto earlier = [](const auto& a, const auto& b) { return a.cell < b.cell; };
+  if (!std::is_sorted(found.begin(), found.end(), earlier)) std::stable_sort(found.begin(), found.end(), earlier);
+  const std::size_t first = borders.size();
+  for (const CellGraph::Border& b : found)
+    if (borders.size() > first && borders.back().cell == b.cell)
+      borders.back().share += b.share;
+    else
+      borders.push_back(b);
+}
+
+}  // namespace
+
+CellGraph CellGrid::findBorders(const Chart& chart, std::span<const float> areas, Cells cells) const {
   Shares shares;
   for (auto* s : {&shares.right, &shares.above, &shares.aboveRight, &shares.aboveLeft}) s->assign(areas.size(), 0.0f);
   shareSides(chart, areas, shares);
-  shareDiagonals(chart, areas, shares);
+  shareDiagonals(chart, areas, cells, shares);
 
   // The texels of each cell.
-  std::vector<std::uint32_t> first(area_.size() + 1, 0), texels(areas.size());
+  std::vector<std::uint32_t> first(cells.areas.size() + 1, 0), texels(areas.size());
   for (const std::uint32_t cell : cellOf_)
     if (cell != kNone) ++first[cell + 1];
-  for (std::size_t c = 0; c < area_.size(); ++c) first[c + 1] += first[c];
+  for (std::size_t c = 0; c + 1 < first.size(); ++c) first[c + 1] += first[c];
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
   for (std::uint32_t i = 0; i < cellOf_.size(); ++i)
     if (cellOf_[i] != kNone) texels[next[cellOf_[i]]++] = i;
 
-  borders_.reserve(8 * area_.size());
-  firstBorder_.assign(1, 0);
-  std::vector<Border> found;
-  for (std::size_t c = 0; c < area_.size(); ++c) {
+  std::vector<Border> borders, found;
+  borders.reserve(kMostNeighbours * cells.areas.size());
+  std::vector<std::uint32_t> firstBorder(1, 0);
+  for (std::size_t c = 0; c + 1 < first.size(); ++c) {
     found.clear();
     for (std::uint32_t k = first[c]; k < first[c + 1]; ++k) addNeighbours(texels[k], shares, found);
-    addMerged(found);
-    firstBorder_.push_back(static_cast<std::uint32_t>(borders_.size()));
+    addMerged(found, borders);
+    firstBorder.push_back(static_cast<std::uint32_t>(borders.size()));
   }
+  return CellGraph(std::move(cells.areas), std::move(cells.places), firstBorder, borders);
 }
 
 void CellGrid::shareSides(const Chart& chart, std::span<const float> areas, Shares& shares) const {
@@ -139,13 +163,14 @@ void CellGrid::shareSides(const Chart& chart, std::span<const float> areas, Shar
 
 /// The nine-point form of the flow in squares of four whole cells: each diagonal takes over as much as the four sides
 /// give, which leaves the flow of smooth light as it is and lets it run along slanting edges.
-void CellGrid::shareDiagonals(const Chart& chart, std::span<const float> areas, Shares& shares) const {
+void CellGrid::shareDiagonals(const Chart& chart, std::span<const float> areas, const Cells& cells,
+                              Shares& shares) const {
   if (width_ < 3) return;
   const Vec2 texel = region_.size() / Vec2(width_, height_);
   const float whole = areas.empty() ? 0.0f : *std::max_element(areas.begin(), areas.end());
   const auto isWhole = [&](std::size_t i) {
     const std::uint32_t cell = cellOf_[i];
-    return cell != kNone && area_[cell] < 1.01f * areas[i] && (chart.closed() || areas[i] > 0.99f * whole);
+    return cell != kNone && cells.areas[cell] < 1.01f * areas[i] && (chart.closed() || areas[i] > 0.99f * whole);
   };
   for (int y = 0; y + 1 < height_; ++y) {
     const double across = texel.x * chart.stretch(region_.lower.y + (y + 1) * texel.y);
@@ -181,17 +206,6 @@ void CellGrid::addNeighbours(std::size_t texel, const Shares& shares, std::vecto
     add(x, y + 1, shares.above, texel, false);
     if (right >= 0) add(right, y + 1, shares.aboveRight, texel, true);
   }
-}
-
-/// One border for each of the cells, ascending.
-void CellGrid::addMerged(std::vector<Border>& found) {
-  std::stable_sort(found.begin(), found.end(), [](const Border& a, const Border& b) { return a.cell < b.cell; });
-  const std::size_t first = borders_.size();
-  for (const Border& b : found)
-    if (borders_.size() > first && borders_.back().cell == b.cell)
-      borders_.back().share += b.share;
-    else
-      borders_.push_back(b);
 }
 
 std::uint32_t CellGrid::texelNear(const Vec2& st) const {

@@ -41,16 +41,27 @@ double typicalIrradiance(std::span<const double> flux, std::span<const double> s
 }
 
 double medianOfFlux(const CellGrid& grid, const std::vector<float>& E) {
-  std::vector<std::pair<double, double>> cells;  // E, flux
-  double total = 0, below = 0;
-  for (std::size_t i = 0; i < E.size(); ++i) {
-    cells.emplace_back(E[i], double(E[i]) * grid.area(i));
-    total += cells.back().second;
+  struct Cell {
+    float E;
+    double flux;
+  };
+  std::vector<Cell> cells(E.size());
+  double wanted = 0;
+  for (std::size_t i = 0; i < E.size(); ++i) cells[i] = {E[i], double(E[i]) * grid.area(i)}, wanted += cells[i].flux;
+  wanted *= 0.5;
+  // As when sorting, but only the part that holds the median is looked at again.
+  auto begin = cells.begin(), end = cells.end();
+  while (end - begin > 1) {
+    const auto middle = begin + (end - begin) / 2;
+    std::nth_element(begin, middle, end, [](const Cell& a, const Cell& b) { return a.E < b.E; });
+    double below = 0;
+    for (auto c = begin; c != middle; ++c) below += c->flux;
+    if (below >= wanted)
+      end = middle;
+    else
+      wanted -= below, begin = middle;
   }
-  std::sort(cells.begin(), cells.end());
-  for (const auto& [e, flux] : cells)
-    if ((below += flux) >= 0.5 * total) return e;
-  return 0;
+  return cells.empty() ? 0.0 : double(begin->E);
 }
 
 std::vector<float> grayOf(const std::vector<Rgb>& E) {

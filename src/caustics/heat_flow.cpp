@@ -34,62 +34,35 @@ std::vector<double> scaledBessel(double z, double negligible) {
 
 }  // namespace
 
-HeatFlow::HeatFlow(const CellGrid& grid, std::span<const float> conductivity, Openness open) : own_(grid.size()) {
-  std::vector<double> leaving(grid.size(), 0.0);
-  std::vector<float> edgeWeights;
-  for (std::size_t i = 0; i < grid.size(); ++i)
-    for (const CellGrid::Border& b : grid.bordersOf(i)) {
-      const double a = conductivity[i], c = conductivity[b.cell];
-      const double D = a + c > 0 ? 2 * a * c / (a + c) : 0.0;
-      const double openness = open.empty() ? 1.0 : double(open[edgeWeights.size()]);
-      const double weight = openness * D * b.share / grid.area(i);
-      edgeWeights.push_back(static_cast<float>(weight));
-      leaving[i] += weight;
+HeatFlow::HeatFlow(const CellGraph& graph, std::span<const float> conductivity, Openness open)
+    : runs_(graph.runs()), weights_(graph.borders()), own_(graph.size(), 0.0f) {
+  constexpr float tiny = 1e-30f;
+  for (const CellGraph::Run& run : runs_)
+    for (std::uint32_t k = 0; k < run.neighbours; ++k) {
+      const std::uint32_t n = run.count, border = run.borders + k * n;
+      const float *share = graph.shares().data() + border, *area = graph.areas().data() + run.first,
+                  *here = conductivity.data() + run.first, *there = here + run.offset[k];
+      float* __restrict const weight = weights_.data() + border;
+      float* __restrict const leaving = own_.data() + run.first;
+      for (std::uint32_t i = 0; i < n; ++i)
+        weight[i] = 2 * here[i] * there[i] * share[i] / (std::max(here[i] + there[i], tiny) * area[i]);
+      if (!open.empty())
+        for (std::uint32_t i = 0; i < n; ++i) weight[i] *= open[border + i];
+      for (std::uint32_t i = 0; i < n; ++i) leaving[i] += weight[i];
     }
-  for (const double l : leaving) largest_ = std::max(largest_, 2 * l);  // Gershgorin's circles
+  float most = 0;
+  for (const float leaving : own_) most = std::max(most, leaving);
+  largest_ = 2.0 * most;  // Gershgorin's circles
   if (!(largest_ > 0)) return;
-  for (float& w : edgeWeights) w = static_cast<float>(2 * w / largest_);
-  for (std::size_t i = 0; i < own_.size(); ++i) own_[i] = static_cast<float>(2 * leaving[i] / largest_ - 1);
-  addRuns(grid, edgeWeights);
-}
-
-void HeatFlow::addRuns(const CellGrid& grid, const std::vector<float>& edgeWeights) {
-  const auto distance = [&](std::size_t cell, std::size_t k) {
-    return static_cast<std::int32_t>(std::int64_t(grid.bordersOf(cell)[k].cell) - std::int64_t(cell));
-  };
-  const auto alike = [&](std::size_t a, std::size_t b) {
-    const std::size_t count = grid.bordersOf(a).size();
-    if (grid.bordersOf(b).size() != count || count > kMostNeighbours) return false;
-    for (std::size_t k = 0; k < count; ++k)
-      if (distance(a, k) != distance(b, k)) return false;
-    return true;
-  };
-  std::size_t edge = 0;  // of the run's first cell
-  for (std::size_t first = 0, end = 0; first < grid.size(); first = end) {
-    for (end = first + 1; end < grid.size() && alike(first, end);) ++end;
-    const std::size_t all = grid.bordersOf(first).size();
-    for (std::size_t done = 0; done < all; done += kMostNeighbours) {
-      Run run{static_cast<std::uint32_t>(first),
-              static_cast<std::uint32_t>(end - first),
-              static_cast<std::uint32_t>(weights_.size()),
-              static_cast<std::uint32_t>(std::min(kMostNeighbours, all - done)),
-              {}};
-      for (std::size_t k = 0; k < run.neighbours; ++k) {
-        run.offset[k] = distance(first, done + k);
-        for (std::size_t i = 0; i < run.count; ++i) weights_.push_back(edgeWeights[edge + i * all + done + k]);
-      }
-      runs_.push_back(run);
-    }
-    if (all == 0)
-      runs_.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first), 0, 0, {}});
-    edge += (end - first) * all;
-  }
+  const auto scale = static_cast<float>(2 / largest_);
+  for (float& w : weights_) w *= scale;
+  for (float& o : own_) o = scale * o - 1;
 }
 
 /// sums[i] -= what flows to cell begin + i from its neighbours in the run.
-void HeatFlow::addChunk(const Run& run, std::uint32_t begin, std::uint32_t count, const float* light,
+void HeatFlow::addChunk(const CellGraph::Run& run, std::uint32_t begin, std::uint32_t count, const float* light,
                         float* __restrict sums) const {
-  const float* w = weights_.data() + run.weights + (begin - run.first);
+  const float* w = weights_.data() + run.borders + (begin - run.first);
   const float* const here = light + begin;
   if (run.neighbours == 8) {
     const std::size_t n = run.count;
@@ -109,12 +82,14 @@ void HeatFlow::addChunk(const Run& run, std::uint32_t begin, std::uint32_t count
 
 namespace {
 
-/// A step of the recurrence of T_k, and its term of the series.
-void recur(std::uint32_t count, const float* x, float factor, float* __restrict before, float* __restrict sum) {
-  for (std::uint32_t i = 0; i < count; ++i) {
-    before[i] = 2.0f * x[i] - before[i];
-    sum[i] += factor * before[i];
-  }
+/// A step of the recurrence of T_k.
+void recur(std::uint32_t count, const float* x, float* __restrict before) {
+  for (std::uint32_t i = 0; i < count; ++i) before[i] = 2.0f * x[i] - before[i];
+}
+
+/// A term of a series.
+void addTerm(std::uint32_t count, float factor, const float* term, float* __restrict sum) {
+  for (std::uint32_t i = 0; i < count; ++i) sum[i] += factor * term[i];
 }
 
 }  // namespace
@@ -140,46 +115,71 @@ void HeatFlow::step(const Channels& from, const Out& out) const {
   }
 }
 
-void HeatFlow::run(Channels& E, double time, double negligible) const {
-  const double z = 0.5 * largest_ * time;
-  if (!(z > 0)) return;
+std::vector<Channels> HeatFlow::after(Channels E, std::span<const double> times, double negligible) const {
   // exp(-z (x + 1)) = sum over k of (-1)^k (2 - [k = 0]) exp(-z) I_k(z) T_k(x)
-  const std::vector<double> c = scaledBessel(z, negligible);
-  Channels before = E, now = E;
-  const auto zeroth = static_cast<float>(c[0]), first = static_cast<float>(-2 * c[1]);
-  step(before, [&](std::size_t channel, std::uint32_t begin, std::uint32_t count, const float* x) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      now[channel][begin + i] = x[i];
-      E[channel][begin + i] = zeroth * before[channel][begin + i] + first * x[i];
+  std::vector<std::vector<float>> factors;
+  std::vector<Channels> sums;
+  for (const double time : times) {
+    const double z = 0.5 * largest_ * time;
+    sums.push_back(E);
+    factors.emplace_back();
+    if (!(z > 0)) continue;
+    for (const double c : scaledBessel(z, negligible)) {
+      const std::size_t k = factors.back().size();
+      factors.back().push_back(static_cast<float>(k == 0 ? c : k % 2 == 0 ? 2 * c : -2 * c));
+    }
+  }
+  std::size_t terms = 0;
+  for (const auto& f : factors) terms = std::max(terms, f.size());
+  if (terms == 0) return sums;
+
+  const auto add = [&](std::size_t k, std::size_t channel, std::uint32_t begin, std::uint32_t count, const float* T) {
+    for (std::size_t t = 0; t < sums.size(); ++t)
+      if (k < factors[t].size()) addTerm(count, factors[t][k], T, sums[t][channel].data() + begin);
+  };
+  Channels now = E;
+  step(E, [&](std::size_t channel, std::uint32_t begin, std::uint32_t count, const float* x) {
+    std::copy_n(x, count, now[channel].data() + begin);
+    for (std::size_t t = 0; t < sums.size(); ++t) {
+      if (factors[t].empty()) continue;
+      float* const sum = sums[t][channel].data() + begin;
+      for (std::uint32_t i = 0; i < count; ++i) sum[i] = factors[t][0] * sum[i] + factors[t][1] * x[i];
     }
   });
-  for (std::size_t k = 2; k < c.size(); ++k) {
-    const auto factor = static_cast<float>(k % 2 == 0 ? 2 * c[k] : -2 * c[k]);
+  Channels& before = E;
+  for (std::size_t k = 2; k < terms; ++k) {
     step(now, [&](std::size_t channel, std::uint32_t begin, std::uint32_t count, const float* x) {
-      recur(count, x, factor, before[channel].data() + begin, E[channel].data() + begin);
+      float* const T = before[channel].data() + begin;
+      recur(count, x, T);
+      add(k, channel, begin, count, T);
     });
     std::swap(before, now);
   }
+  return sums;
+}
+
+void HeatFlow::apply(Channels& E, double time, double negligible) const {
+  E = std::move(after(std::move(E), std::span(&time, 1), negligible).front());
 }
 
 void HeatFlow::apply(std::vector<float>& E, double time, double negligible) const {
   Channels channels(1);
   std::swap(channels[0], E);
-  run(channels, time, negligible);
+  apply(channels, time, negligible);
   std::swap(channels[0], E);
 }
 
-template <class Value>
-void HeatFlow::applyTo(std::vector<Value>& E, double time, double negligible) const {
-  Channels channels(static_cast<std::size_t>(Value::length()), std::vector<float>(E.size()));
-  for (std::size_t i = 0; i < E.size(); ++i)
-    for (int c = 0; c < Value::length(); ++c) channels[c][i] = E[i][c];
-  run(channels, time, negligible);
-  for (std::size_t i = 0; i < E.size(); ++i)
-    for (int c = 0; c < Value::length(); ++c) E[i][c] = channels[c][i];
+void HeatFlow::relax(Channels& E, double time) const {
+  const Channels before = E;
+  step(before, [&](std::size_t channel, std::uint32_t begin, std::uint32_t count, const float* x) {
+    const float *own = own_.data() + begin, *was = before[channel].data() + begin;
+    float* const is = E[channel].data() + begin;
+    const auto half = static_cast<float>(0.5 * largest_), most = static_cast<float>(time);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const float leaving = half * (own[i] + 1), flow = half * (x[i] + was[i]);
+      is[i] = was[i] - (most * leaving <= 1 ? most : 1 / leaving) * flow;
+    }
+  });
 }
-
-void HeatFlow::apply(std::vector<glm::vec2>& E, double time, double negligible) const { applyTo(E, time, negligible); }
-void HeatFlow::apply(std::vector<Rgb>& E, double time, double negligible) const { applyTo(E, time, negligible); }
 
 }  // namespace deltalux

@@ -15,13 +15,13 @@
 namespace deltalux {
 
 struct Walls {
-  std::vector<float> openness;   // of each border, in the grid's order
+  std::vector<float> openness;   // of each border
   std::vector<float> bandwidth;  // of each cell: half the variance of a kernel that holds kParticles [unit^2]
 };
 
-Walls blurredWalls(const CellGrid&, const CellLight&);
+Walls blurredWalls(const CellGraph&, const CellLight&);
 
 /// `darkness`: differences below it do not matter [W/m2].
-std::vector<float> sharpWalls(const CellGrid&, const std::vector<float>& E, double darkness);
+std::vector<float> sharpWalls(const CellGraph&, const std::vector<float>& E, double darkness);
 
 }  // namespace deltalux
