@@ -11,6 +11,7 @@
 #include "particles/mesh_for_particles.hpp"
 #include "particles/reached_sides.hpp"
 #include "radiosity/coarse_solution.hpp"
+#include "radiosity/direct_senders.hpp"
 #include "radiosity/gather.hpp"
 #include "radiosity/push_pull.hpp"
 
@@ -183,6 +184,7 @@ void Engine::State::solveAfresh(Progress* progress) {
 bool Engine::State::resolve(const LeafTransferSettings& settings, Progress* progress) {
   Solution& s = *solution;
   transfer.reset();
+  creditLights(s.elements);
   const LeafTransferReport r = s.transfers.build(s.elements, s.links, s.scene, *s.tracer, settings);
   s.report.counts.raysVisibility += r.rays;
   s.sampledScale.clear();

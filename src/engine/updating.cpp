@@ -8,14 +8,14 @@
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
 #include "particles/mesh_for_particles.hpp"
+#include "radiosity/direct_senders.hpp"
 #include "radiosity/push_pull.hpp"
 
 namespace deltalux {
 
 namespace {
 
-constexpr double kMissed = 3e-5;   // power that leaves may fail to send, relative to emitted
-constexpr float kBrighter = 8.0f;  // times as bright as when it was solved for, a light is solved for anew
+constexpr double kMissed = 3e-5;  // power that leaves may fail to send, relative to emitted
 
 }  // namespace
 
@@ -184,7 +184,9 @@ std::vector<ElementId> Engine::State::relight(const SceneUpdate& edits) {
   Solution& s = *solution;
   std::vector<ElementId> reflecting;
   for (const ElementId e : elementsOf(s.elements, edits.dimmed)) setEmission(s.elements, s.scene, e);
-  for (const LightId light : edits.movedLights) s.sampledScale[light.index()] = s.scene[light].scale;
+  for (const LightId light : edits.movedLights)
+    if (Rgb& sampled = s.sampledScale[light.index()]; gray(s.scene[light].scale) > gray(sampled))
+      sampled = s.scene[light].scale;
   std::vector<PrimitiveId> repainted;
   for (std::size_t i = 0; i < s.scene.primitives.size(); ++i)
     if (std::find(edits.materials.begin(), edits.materials.end(), s.scene.primitives[i].material) !=
@@ -220,6 +222,7 @@ Engine::State::Motion Engine::State::leave(const SceneUpdate& edits, StepReport&
   if (primitives.empty() && motion.inputs.empty()) return motion;
   motion.marks = LineSpace(s.links, s.elements, s.scene, motion.all, before, after).visit();
   reshape(s.elements, s.scene, motion.inputs);
+  if (!lights.empty()) creditLights(s.elements);
   step.times.visibility = time.seconds();
   return motion;
 }

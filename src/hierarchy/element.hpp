@@ -82,7 +82,7 @@ struct ElementLight {
   Rgb rho{0.0f};                                     // diffuse reflectance of this side
   Rgb tau{0.0f};                                     // diffuse transmittance to the other side
   float tolerance = 0.0f;                            // gray irradiance that errors are measured against
-  float typical = 0.0f;                              // first estimate of it (builder); bounds later ones
+  float typical = 0.0f;  // first estimate of it (builder); bounds later ones. Emitters: what rows credit them with
 };
 
 /// What a cluster sends and receives as functions of direction.

@@ -55,7 +55,9 @@ class Search {
         elements_(elements),
         estimator_(scene, tracer),
         state_(estimator_.sides().size(), State::Dark),
-        moves_(scene.primitives.size(), 0) {
+        moves_(scene.primitives.size(), 0),
+        openSky_(std::any_of(scene.lights.begin(), scene.lights.end(),
+                             [](const Light& light) { return std::holds_alternative<DomeLight>(light.emitter); })) {
     for (const PrimitiveId id : moved) moves_[id.index()] = 1;
     for (std::size_t i = 0; i < elements.size(); ++i)
       if (const ElementId e(i); isSide(e) && !isAsleep(e)) state_[indexOf(e)] = State::Lit;
@@ -158,9 +160,12 @@ class Search {
     return estimator_.indexOf(d.primitive, d.triangle, elements_.at(e).front);
   }
   static bool holds(const Box& box, const Box& inner) { return box.contains(inner.lower) && box.contains(inner.upper); }
+  /// Those that meet nothing are of sides that lie upon others, or of a scene that is open: no light comes from there
+  /// without a sky.
   bool noRayLeaves(const Box& box, std::size_t side) const {
     const auto met = estimator_.firstMet(side, kLooks);
-    return std::all_of(met.begin(), met.end(), [&](const Hit& hit) { return hit && box.contains(Vec3(hit.position)); });
+    return std::all_of(met.begin(), met.end(),
+                       [&](const Hit& hit) { return hit ? box.contains(Vec3(hit.position)) : !openSky_; });
   }
   void add(std::size_t side) {
     if (state_[side] == State::Dark) candidates_.push_back(side);
@@ -175,6 +180,7 @@ class Search {
   SideEstimator estimator_;
   std::vector<State> state_;
   std::vector<char> moves_;  // by primitive
+  bool openSky_;
   std::vector<std::size_t> candidates_;
 };
 

@@ -52,9 +52,12 @@ DirectRowsReport sampleDirectRows(std::vector<ElementId> leaves, Elements& eleme
   return report;
 }
 
-bool mayVary(const Elements& elements, ElementId leaf, double change, const LeafTransferSettings& settings) {
+bool mayVary(const Elements& elements, ElementId leaf, const DirectUpdate& update,
+             const LeafTransferSettings& settings) {
   constexpr double kOneOfFour = 1.7320508;  // standard deviation over quadrants, per mean, of what one of them has
-  return change > 0 && exceeds(kOneOfFour * change, 0.0, elements, leaf, settings);
+  constexpr double kBesides = 2;            // the lights that are what they were vary, too
+  const double most = kOneOfFour * update.change + kBesides * update.variation;
+  return most > 0 && exceeds(most / elements.shape(leaf).exposed, 0.0, elements, leaf, settings);
 }
 
 }  // namespace deltalux

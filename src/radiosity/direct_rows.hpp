@@ -17,7 +17,7 @@ DirectRowsReport sampleDirectRows(std::vector<ElementId> leaves, Elements& eleme
                                   const RayTracer&, const LeafTransferSettings&,
                                   const std::function<void(ElementId, TransferRow)>& keep);
 
-/// Whether a change of the leaf's direct light, each light's counted positive, may be worth a split.
-bool mayVary(const Elements&, ElementId leaf, double change, const LeafTransferSettings&);
+/// Whether what an update has found of the leaf's direct light may be worth a split.
+bool mayVary(const Elements&, ElementId leaf, const DirectUpdate&, const LeafTransferSettings&);
 
 }  // namespace deltalux

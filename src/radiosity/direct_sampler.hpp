@@ -8,7 +8,11 @@
 //
 // Rays go where light may come from, as for indirect light; what no ray of the links saw takes no more of them than
 // what was seen. The four quadrants of the leaf are kept apart: how much they differ says whether to split it. Cost:
-// five kernels a light, about `rays` rays.
+// five kernels a light, about `rays` rays. After a move only lights are sampled anew whose links are others
+// (direct_update.cpp).
+#include <array>
+#include <span>
+
 #include "base/random.hpp"
 #include "radiosity/direct_senders.hpp"
 #include "radiosity/exposure.hpp"
@@ -30,9 +34,10 @@ struct DirectRow {
 
 /// What a move has done to the direct row of a leaf.
 struct DirectUpdate {
-  bool anew = false;  // nothing was done: a link is another, or a light moved; the row must be sampled anew
-  bool any = false;   // terms were
-  double change = 0;  // of irradiance, gray, each term's counted positive
+  bool anew = false;     // nothing was done: the row must be sampled anew
+  bool any = false;      // terms were
+  double change = 0;     // of irradiance, gray, each term's counted positive, where rays met what moved
+  double variation = 0;  // over the quadrants, of what lights bring whose links are others
 };
 
 class DirectSampler {
@@ -42,27 +47,70 @@ class DirectSampler {
 
   /// By about `rays` shadow rays.
   DirectRow at(ElementId leaf, int rays) const;
-  /// Traces those terms of the leaf's row again whose rays meet what has moved.
-  DirectUpdate update(ElementId leaf, const LinkChanges&, const SpaceChange&, TransferRow&,
-                      std::uint64_t& traced) const;
+  /// Traces those terms of the leaf's row again whose rays meet what has moved, and samples lights anew whose links are
+  /// others by now; rays are dealt to them as the row has dealt them, `rays` in all. `changed`: the topmost changed
+  /// links of lights that arrive at the leaf or above it.
+  DirectUpdate update(ElementId leaf, int rays, const LinkChanges&, std::span<const LinkId> changed, const SpaceChange&,
+                      TransferRow&, std::uint64_t& traced) const;
 
  private:
-  struct Term;
-  struct Quadrants;
+  static constexpr int kFacingTries = 8;  // more points of a light when some face away
+  struct Term {
+    LinkId link;
+    ElementId sender;
+    bool curved = false, clear = false, seen = false;
+    float K = 0;
+    std::array<float, 4> at{};  // K at the leaf's nodes
+    float open = 0, weight = 0;
+
+    bool known() const { return clear && !curved; }  // takes no ray
+  };
+  /// What the shadow rays of a light find.
+  struct Passage {
+    Rgb T{0.0f};
+    double weights = 0;
+    std::array<double, 4> seen{}, all{};  // by quadrant of the leaf
+    std::array<int, 4> count{};
+    int used = 0;
+  };
+  /// A row in the making: irradiance by quadrant, and the variance that chance gives it.
+  struct Sampled {
+    TransferRow row;
+    std::array<double, 4> E{}, chance{};
+    std::uint64_t rays = 0;
+  };
+  /// One shadow ray. A light that is sampled by solid angle brings its radiance, as it was read, times cosine over
+  /// density.
+  struct Shot {
+    Ray ray;
+    double weight = 0;  // not above 0: light and place do not face each other
+    Rgb radiance{0.0f};
+    std::size_t quadrant = 0;
+  };
+
+  std::vector<Term> terms(ElementId leaf, const std::vector<PossibleSender>&) const;
   Term term(ElementId leaf, const PossibleSender&) const;
   void setKernel(ElementId leaf, Term&) const;
   std::uint64_t rayKey(ElementId leaf, ElementId sender) const;
-  struct Shot;
-  struct Passage;
   bool curved(ElementId sender) const;
   bool sampledByAngle(ElementId sender) const;
+  Rgb wholeB(ElementId sender) const;
   Shot shoot(ElementId leaf, ElementId sender, std::uint64_t key, int i) const;
   bool meets(ElementId leaf, const RowTerm&, const SpaceChange&) const;
   Passage pass(ElementId leaf, const Term&, int rays, std::uint64_t key, std::uint64_t& traced) const;
-  void sample(ElementId leaf, const Term&, int rays, float gain, std::uint64_t key, DirectRow&, Quadrants&) const;
+  /// Deals rays out over terms, one for `step` of weight.
+  void deal(ElementId leaf, const std::vector<Term>&, float step, Sampled&) const;
+  void sample(ElementId leaf, const Term&, int rays, float gain, std::uint64_t key, Sampled&) const;
+  double mean(ElementId leaf, const Sampled&) const;
+  double variation(ElementId leaf, const Sampled&) const;
+  Rgb tracedAgain(ElementId leaf, const RowTerm&, std::uint64_t& traced) const;
+  bool sampleChanged(ElementId leaf, int rays, std::span<const LinkId> changed, float gone, TransferRow&, DirectUpdate&,
+                     std::uint64_t& traced) const;
+  bool dealtOver(const LinkChanges&, std::span<const LinkId> changed, const SpaceChange&, const RowTerm&) const;
 
   const Scene& scene_;
   const Elements& elements_;
+  const Links& links_;
   const RayTracer& tracer_;
   Exposure exposure_;
   DirectSenders senders_;

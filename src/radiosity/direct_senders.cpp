@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "radiosity/kernel.hpp"
+#include "radiosity/links_below.hpp"
 
 namespace deltalux {
 
@@ -21,8 +22,22 @@ float leastKernel(const Elements& elements, const Vec3f& x, ElementId sender) {
 }
 }  // namespace
 
-DirectSenders::DirectSenders(const Elements& elements, const Links& links, const Scene& scene)
-    : elements_(elements), links_(links), scene_(scene) {
+float shownStrength(const Elements& elements, ElementId e) { return gray(elements.radiometry[e.index()].B); }
+
+float creditedStrength(const Elements& elements, ElementId e) {
+  return std::max(shownStrength(elements, e), elements.radiometry[e.index()].typical);
+}
+
+void creditLights(Elements& elements) {
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    if (const ElementId e(i); elements.light[i].valid() && !elements.isCluster(e)) {
+      float& credit = elements.radiometry[i].typical;
+      credit = std::max(credit, shownStrength(elements, e) / kBrighter);
+    }
+}
+
+DirectSenders::DirectSenders(const Elements& elements, const Links& links, const Scene& scene, Strength strengthOf)
+    : elements_(elements), links_(links), scene_(scene), strengthOf_(strengthOf) {
   lightCount_.assign(elements.size(), 0);
   for (std::size_t i = elements.size(); i-- > 0;) {
     const ElementTopology& t = elements.topology[i];
@@ -46,41 +61,70 @@ void DirectSenders::addLights(ElementId e, ElementId leaf, const PossibleSender&
 }
 
 float DirectSenders::strength(ElementId receiver, ElementId sender) const {
-  if (!elements_.isCluster(sender)) return gray(elements_.radiometry[sender.index()].B);
+  if (!elements_.isCluster(sender)) return strengthOf_(elements_, sender);
   const Vec3f between = elements_.shape(receiver).center - elements_.shape(sender).center;
   const float distance = glm::length(between);
   const DirectionalRgb& intensity = elements_.cluster(sender).intensity;
   return gray(intensity.at(distance > 0 ? between / distance : Vec3f(0, 0, 1)));
 }
 
+void DirectSenders::addLink(LinkId id, ElementId leaf, std::vector<PossibleSender>& out) const {
+  const Link& l = links_[id];
+  const ElementId e = l.receiver;
+  const ElementGeometry& g = elements_.shape(leaf);
+  const bool sampled = l.visibility == Visibility::Sampled;
+  PossibleSender a{id, l.sender, 0.0f, sampled ? maxChannel(l.V) : 1.0f, sampled ? l.samples : std::uint8_t{0}};
+  if (elements_.isCluster(l.sender) && lightCount_[l.sender.index()] <= kFewLights)
+    return addLights(l.sender, leaf, a, out);
+  a.potential = std::max(l.K, leastKernel(elements_, elements_.shape(e).center, l.sender)) * strength(e, l.sender);
+  if (elements_.isCluster(e)) {
+    const ElementGeometry& s = elements_.shape(l.sender);
+    const bool distant = elements_.isDistant(l.sender);
+    const Vec3f between = distant ? s.center : s.center - g.center;
+    const float distance = std::max(glm::length(between), 1e-20f);
+    // How far the sender and the patch's own curvature reach above the horizon.
+    const float extent = std::min(1.0f, distant ? s.radius : (s.radius + g.radius) / distance);
+    const float bend = g.normalCone > 0 ? std::sqrt(1 - g.normalCone * g.normalCone) : 1.0f;
+    const float cosine = glm::dot(g.normal, between) / distance;
+    if (cosine + extent + bend <= 0) return;
+    a.potential *= std::max(cosine, kLeastCosine);
+  }
+  if (a.potential > 0) out.push_back(a);
+}
+
 std::vector<PossibleSender> DirectSenders::at(ElementId leaf) const {
   std::vector<PossibleSender> out;
-  const ElementGeometry& g = elements_.shape(leaf);
-  for (ElementId e = leaf; e.valid(); e = elements_.at(e).parent) {
-    const bool cluster = elements_.isCluster(e);
-    for (LinkId id = links_.first(e, true); id.valid(); id = links_[id].nextArriving) {
-      const Link& l = links_[id];
-      const bool sampled = l.visibility == Visibility::Sampled;
-      PossibleSender a{id, l.sender, 0.0f, sampled ? maxChannel(l.V) : 1.0f, sampled ? l.samples : std::uint8_t{0}};
-      if (elements_.isCluster(l.sender) && lightCount_[l.sender.index()] <= kFewLights) {
-        addLights(l.sender, leaf, a, out);
-        continue;
-      }
-      a.potential = std::max(l.K, leastKernel(elements_, elements_.shape(e).center, l.sender)) * strength(e, l.sender);
-      if (cluster) {
-        const ElementGeometry& s = elements_.shape(l.sender);
-        const bool distant = elements_.isDistant(l.sender);
-        const Vec3f between = distant ? s.center : s.center - g.center;
-        const float distance = std::max(glm::length(between), 1e-20f);
-        // How far the sender and the patch's own curvature reach above the horizon.
-        const float extent = std::min(1.0f, distant ? s.radius : (s.radius + g.radius) / distance);
-        const float bend = g.normalCone > 0 ? std::sqrt(1 - g.normalCone * g.normalCone) : 1.0f;
-        const float cosine = glm::dot(g.normal, between) / distance;
-        if (cosine + extent + bend <= 0) continue;
-        a.potential *= std::max(cosine, kLeastCosine);
-      }
-      if (a.potential > 0) out.push_back(a);
+  for (ElementId e = leaf; e.valid(); e = elements_.at(e).parent)
+    for (LinkId id = links_.first(e, true); id.valid(); id = links_[id].nextArriving) addLink(id, leaf, out);
+  return joined(out);
+}
+
+std::vector<PossibleSender> DirectSenders::over(std::span<const LinkId> links, ElementId leaf) const {
+  std::vector<PossibleSender> out;
+  for (const LinkId id : links)
+    if (links_[id].carries()) addLink(id, leaf, out);
+  return joined(out);
+}
+
+std::vector<PossibleSender> DirectSenders::joined(const std::vector<PossibleSender>& parts) const {
+  std::vector<PossibleSender> out;
+  for (PossibleSender s : parts) {
+    if (!isPartOfCurved(elements_, s.sender)) {
+      out.push_back(s);
+      continue;
     }
+    s.link = toWholeLight(links_, elements_, s.link);
+    s.sender = links_[s.link].sender;
+    s.rays = std::max<std::uint8_t>(s.rays, 1);  // other parts may be hidden: rays will tell
+    const auto at = std::find_if(out.begin(), out.end(), [&](const PossibleSender& o) { return o.sender == s.sender; });
+    if (at == out.end()) {
+      out.push_back(s);
+      continue;
+    }
+    const float potential = at->potential + s.potential;
+    at->open = (at->open * at->potential + s.open * s.potential) / potential;
+    at->potential = potential;
+    at->rays = static_cast<std::uint8_t>(std::min(255, at->rays + s.rays));
   }
   return out;
 }
@@ -102,7 +146,7 @@ void DirectSenders::collectAll(ElementId e, const Vec3f& x, const Vec3f& normal,
   const ElementGeometry& g = elements_.shape(e);
   const bool above = elements_.isDistant(e) || glm::dot(g.center - x, normal) + g.radius > 0;
   if (above) K = std::max(K, double(leastKernel(elements_, x, e)));
-  const float potential = static_cast<float>(K) * gray(elements_.radiometry[e.index()].B);
+  const float potential = static_cast<float>(K) * strengthOf_(elements_, e);
   if (potential > 0) out.push_back({{}, e, potential, 1.0f, 0});
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/random.hpp"
 #include "radiosity/kernel.hpp"
+#include "radiosity/links_below.hpp"
 #include "radiosity/sender_sampling.hpp"
 
 namespace deltalux {
@@ -30,12 +31,6 @@ float leastKernel(const Elements& elements, const Vec3f& x, ElementId sender) {
   return kLeastKernel * (elements.isCluster(sender) ? 1.0f : g.area / float(kPi)) / squared;
 }
 
-/// Whether `leaf` is `e` or below it.
-bool holds(const Elements& elements, ElementId e, ElementId leaf) {
-  while (leaf.valid() && leaf != e) leaf = elements.at(leaf).parent;
-  return leaf.valid();
-}
-
 /// Chance that light passes, as the link's rays leave it: one that saw nothing may still be open. 1: it surely passes.
 float openness(const Link& l) {
   if (l.visibility == Visibility::Clear) return 1.0f;
@@ -49,9 +44,19 @@ IndirectSampler::IndirectSampler(const Scene& scene, const Elements& elements, c
                                  const RayTracer& tracer)
     : scene_(scene), elements_(elements), tracer_(tracer), links_(links), grid_(elements) {}
 
-float IndirectSampler::strength(ElementId receiver, ElementId sender) const {
+float IndirectSampler::faintest(ElementId receiver) const {
   const ElementLight& here = elements_.radiometry[receiver.index()];
-  const float faint = kFaint * std::max(gray(here.indirect), here.tolerance);
+  return kFaint * std::max(gray(here.indirect), here.tolerance);
+}
+
+/// What all around the place together are worth at present: rays dealt out later go by weights of their own time.
+float IndirectSampler::level(ElementId receiver) const {
+  constexpr float kLeast = 1e-20f;
+  return std::max(gray(elements_.radiometry[receiver.index()].indirect) + faintest(receiver), kLeast);
+}
+
+float IndirectSampler::strength(ElementId receiver, ElementId sender) const {
+  const float faint = faintest(receiver);
   if (!elements_.isCluster(sender)) {
     const ElementLight& there = elements_.radiometry[sender.index()];
     return isBlack(there.rho + there.tau) ? 0.0f : gray(there.B) + faint;
@@ -232,9 +237,10 @@ TransferRow IndirectSampler::atLeaf(ElementId leaf, int rays, std::uint64_t& tra
   double total = 0;
   for (const Term& t : terms) total += known(t) ? 0.0f : t.weight;
   TransferRow row;
-  row.weightPerRay = static_cast<float>((total > 0 ? total : sum) / rays);
+  const double step = (total > 0 ? total : sum) / rays;
+  row.weightPerRay = static_cast<float>(step / level(leaf));
   const PatchPoint center{elements_.shape(leaf).center, elements_.shape(leaf).normal};
-  deal(leaf, center, terms, row.weightPerRay, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, row, traced); });
+  deal(leaf, center, terms, step, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, row, traced); });
   row.terms.shrink_to_fit();
   row.transfers.shrink_to_fit();
   return row;
@@ -318,33 +324,23 @@ void IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> change
                                   std::uint64_t& traced) const {
   const auto kernelOf = [&](ElementId s, bool clear) { return kernelAtLeaf(leaf, s, clear); };
   std::vector<LinkId> active;
-  for (const LinkId top : changed) collect(top, leaf, active);
+  for (const LinkId top : changed) activeBelow(links_, elements_, top, leaf, active);
   std::vector<Term> whole;
   for (const LinkId id : active) add(leaf, id, kernelOf, whole);
   const PatchPoint center{elements_.shape(leaf).center, elements_.shape(leaf).normal};
   // As many rays for a weight as the row has, and no more than a row has.
   float sum = 0;
   for (const Term& t : whole) sum += t.weight;
-  const float step = std::max(row.weightPerRay, sum / kMostRays);
+  const float step = std::max(row.weightPerRay * level(leaf), sum / kMostRays);
   if (!(step > 0)) return;
   const auto terms = apart(leaf, std::move(whole), step, kernelOf);
   double unknown = 0;
   for (const Term& t : terms) unknown += known(t) ? 0.0f : t.weight;
-  // What is left over is a ray by chance, by the key of the place.
-  const int rays = static_cast<int>(unknown / step + toUnit(mix64(elements_.key[leaf.index()])));
+  // What is left over is a ray by chance, by the key of the place and of what has changed: another one each time.
+  std::uint64_t key = elements_.key[leaf.index()];
+  for (const Term& t : terms) key = combineKeys(key, elements_.key[t.sender.index()]);
+  const int rays = static_cast<int>(unknown / step + toUnit(mix64(key)));
   deal(leaf, center, terms, step, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, row, traced); });
-}
-
-void IndirectSampler::collect(LinkId link, ElementId leaf, std::vector<LinkId>& out) const {
-  const Link& l = links_[link];
-  if (l.state != LinkState::Interior) {
-    out.push_back(link);
-    return;
-  }
-  for (std::size_t i = 0; i < l.childCount; ++i) {
-    const LinkId child = links_.child(link, i);
-    if (holds(elements_, links_[child].receiver, leaf)) collect(child, leaf, out);
-  }
 }
 
 Rgb IndirectSampler::atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const {

@@ -89,13 +89,13 @@ class IndirectSampler {
   bool retrace(ElementId leaf, std::span<const std::uint32_t> terms, TransferRow&, std::uint64_t& traced) const;
   /// Appends the terms over changed links.
   void dealChanged(ElementId leaf, std::span<const LinkId> changed, TransferRow&, std::uint64_t& traced) const;
-  /// Active links below `link` that arrive at the leaf or above it.
-  void collect(LinkId link, ElementId leaf, std::vector<LinkId>& out) const;
   bool meets(ElementId leaf, const RowTerm&, const SpaceChange&) const;
   float kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const;
   bool exact(ElementId sender) const;
   /// Whether a term needs no ray.
   bool known(const Term& t) const { return t.open >= 1.0f && exact(t.sender); }
+  float faintest(ElementId receiver) const;
+  float level(ElementId receiver) const;
   float strength(ElementId receiver, ElementId sender) const;
 
   const Scene& scene_;

@@ -28,7 +28,8 @@ struct RowTerm {
 struct TransferRow {
   std::vector<RowTerm> terms;
   std::vector<LeafTransfer> transfers;
-  float weightPerRay = 0;  // how rays are shared out: by what a term may bring [W/m2]
+  float weightPerRay = 0;  // how rays are shared out: by what a term may bring [W/m2]; indirect: relative to the level
+                           // of light around the leaf
 };
 
 struct LeafTransferSettings {

@@ -119,10 +119,11 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
     const DirectSampler sampler(scene, elements, links, tracer);
     parallelFor(anew.size(), kBlock, [&](std::size_t i) {
       const ElementId leaf = leaves.byLights[i];
-      anew[i] = isNew(leaf) || changed.any(leaf, true) || uncovers(elements, leaf, space);
+      anew[i] = isNew(leaf) || uncovers(elements, leaf, space);
       if (anew[i]) return;
-      renewed[i] = sampler.update(leaf, marks.changes, space, rows_[rowOf[leaf.index()]].direct, rays[i]);
-      anew[i] = renewed[i].anew || mayVary(elements, leaf, renewed[i].change, settings);
+      renewed[i] = sampler.update(leaf, settings.shadowRays, marks.changes, changed.at(leaf, true), space,
+                                  rows_[rowOf[leaf.index()]].direct, rays[i]);
+      anew[i] = renewed[i].anew || mayVary(elements, leaf, renewed[i], settings);
     });
   }
   std::vector<ElementId> fresh, grown;

@@ -49,7 +49,9 @@ Rgb emittedRadiance(const Emission& emission, const Vec3& direction, double dist
   return emission.radiance * static_cast<float>(factor * factor);
 }
 
-LightSampler::LightSampler(const Scene& scene) : scene_(scene), lightOf_(scene.primitives.size()) {
+LightSampler::LightSampler(const Scene& scene, std::vector<Rgb> scales)
+    : scene_(scene), scales_(std::move(scales)), lightOf_(scene.primitives.size()) {
+  DELTALUX_CHECK(scales_.empty() || scales_.size() == scene.lights.size(), "a scale for every light");
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     Prepared prepared;
     const auto& emitter = scene.lights[i].emitter;
@@ -103,7 +105,7 @@ Vec3 LightSampler::position(LightId id) const {
 
 Rgb LightSampler::intensity(LightId id, const Vec3& direction) const {
   const Light& light = scene_[id];
-  return light.scale * std::visit(
+  return scaleOf(id) * std::visit(
                            [&](const auto& e) {
                              if constexpr (kPointLike<decltype(e)>) return radiantIntensity(e, direction);
                              return Rgb(0.0f);
@@ -132,7 +134,7 @@ std::optional<LightSample> LightSampler::sample(LightId id, const Vec3& from, co
   const Light& light = scene_[id];
   if (const auto* sun = std::get_if<SunLight>(&light.emitter)) {
     const Vec3 direction = sampleCap(sun->direction, sunDepth(*sun), u);
-    return LightSample{direction, kInfinity, Vec3(0), sun->radiance * light.scale, 1.0 / solidAngle(*sun)};
+    return LightSample{direction, kInfinity, Vec3(0), sun->radiance * scaleOf(id), 1.0 / solidAngle(*sun)};
   }
   return isPointLike(id) ? samplePointLike(id, from) : std::nullopt;
 }
@@ -249,16 +251,16 @@ double LightSampler::pdf(LightId id, const Vec3& from, const Vec3& direction, do
 
 Rgb LightSampler::emittedRadiance(LightId id, const Vec3& direction, double distance, bool front) const {
   const Emission& emission = *emissionOf(scene_, std::get<AreaLight>(scene_[id].emitter).primitive);
-  return scene_[id].scale * deltalux::emittedRadiance(emission, direction, distance, front);
+  return scaleOf(id) * deltalux::emittedRadiance(emission, direction, distance, front);
 }
 
 Rgb LightSampler::radianceFrom(LightId id, const Vec3& towards) const {
   const Light& light = scene_[id];
-  if (const auto* dome = std::get_if<DomeLight>(&light.emitter)) return skyRadiance(*dome, towards) * light.scale;
+  if (const auto* dome = std::get_if<DomeLight>(&light.emitter)) return skyRadiance(*dome, towards) * scaleOf(id);
   const auto& sun = std::get<SunLight>(light.emitter);
   // |a - b|^2 = 2 (1 - cos) keeps the digits that the cosine of a small angle loses.
   const Vec3 d = towards - sun.direction;
-  return 0.5 * glm::dot(d, d) <= sunDepth(sun) ? sun.radiance * light.scale : Rgb(0.0f);
+  return 0.5 * glm::dot(d, d) <= sunDepth(sun) ? sun.radiance * scaleOf(id) : Rgb(0.0f);
 }
 
 }  // namespace deltalux

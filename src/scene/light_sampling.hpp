@@ -31,7 +31,8 @@ Rgb emittedRadiance(const Emission&, const Vec3& direction, double distance, boo
 class LightSampler {
  public:
   /// Prepares every light of the scene, which must outlive this. Lights whose primitive does not emit are dark.
-  explicit LightSampler(const Scene&);
+  /// `scales`, one a light, stand for those that the lights have at present.
+  explicit LightSampler(const Scene&, std::vector<Rgb> scales = {});
 
   std::size_t size() const { return prepared_.size(); }
   /// The light that a primitive is, if it emits.
@@ -76,6 +77,7 @@ class LightSampler {
     std::optional<DomeTable> dome;
   };
 
+  Rgb scaleOf(LightId id) const { return scales_.empty() ? scene_[id].scale : scales_[id.index()]; }
   AreaData prepareArea(PrimitiveId) const;
   bool bySolidAngle(const AreaData&, const Vec3& from, double& solidAngle) const;
   std::optional<LightSample> samplePointLike(LightId, const Vec3& from) const;
@@ -84,6 +86,7 @@ class LightSampler {
                                         const Vec3& normal, double solidAngle) const;
 
   const Scene& scene_;
+  std::vector<Rgb> scales_;
   std::vector<Prepared> prepared_;
   std::vector<LightId> lightOf_;
   std::vector<LightId> atInfinity_;

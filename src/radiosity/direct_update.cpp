@@ -1,0 +1,115 @@
+// How the direct row of a leaf follows a move: lights whose links are others are sampled anew, by as many rays for a
+// weight as the row has; of the others only those whose rays meet what moved.
+#include <algorithm>
+
+#include "radiosity/direct_sampler.hpp"
+#include "radiosity/links_below.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr float kSamePlan = 2.0f;  // factor within which a row's weight stands, for its rays to be shared out well
+
+/// Weight that a term was dealt its rays for, in rays.
+float raysOf(const RowTerm& t) { return static_cast<float>(t.index) / t.gain; }
+
+}  // namespace
+
+bool DirectSampler::meets(ElementId leaf, const RowTerm& t, const SpaceChange& space) const {
+  const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(t.sender);
+  if (elements_.isDistant(t.sender) ? !space.meetsBeam(r.center, r.radius, s.center, s.radius)
+                                    : !space.meets(r.center, r.radius, s.center, s.radius))
+    return false;
+  const std::uint64_t key = rayKey(leaf, t.sender);
+  const bool byAngle = sampledByAngle(t.sender);
+  int used = 0;
+  for (int i = 0; i < t.index + (byAngle ? 0 : kFacingTries) && used < t.index; ++i) {
+    const Shot shot = shoot(leaf, t.sender, key, i);
+    if (shot.weight > 0 && space.meets(shot.ray)) return true;
+    used += byAngle || shot.weight > 0;
+  }
+  return false;
+}
+
+/// Whether changed links cover the term by now.
+bool DirectSampler::dealtOver(const LinkChanges& links, std::span<const LinkId> changed, const SpaceChange& space,
+                              const RowTerm& t) const {
+  if (changeOf(links, t.link) == LinkChange::Changed || space.moved(t.sender)) return true;
+  return links_[t.link].state == LinkState::Interior && std::any_of(changed.begin(), changed.end(), [&](LinkId id) {
+           return holds(elements_, links_[toWholeLight(links_, elements_, id)].sender, t.sender);
+         });
+}
+
+Rgb DirectSampler::tracedAgain(ElementId leaf, const RowTerm& t, std::uint64_t& traced) const {
+  Term same;
+  same.sender = t.sender, same.curved = curved(t.sender);
+  setKernel(leaf, same);
+  return t.gain * pass(leaf, same, t.index, rayKey(leaf, t.sender), traced).T;
+}
+
+DirectUpdate DirectSampler::update(ElementId leaf, int rays, const LinkChanges& links, std::span<const LinkId> changed,
+                                   const SpaceChange& space, TransferRow& row, std::uint64_t& traced) const {
+  DirectUpdate update;
+  update.any = !changed.empty();
+  TransferRow next;
+  float gone = 0;
+  auto at = row.transfers.begin();
+  for (const RowTerm& t : row.terms) {
+    const auto begin = at;
+    at += t.count;
+    if (!changed.empty() && dealtOver(links, changed, space, t)) {
+      gone += raysOf(t);
+      continue;
+    }
+    next.terms.push_back(t);
+    if (t.clear || changeOf(links, t.link) == LinkChange::None || !meets(leaf, t, space)) {
+      next.transfers.insert(next.transfers.end(), begin, at);
+      continue;
+    }
+    update.any = true;
+    const Rgb T = tracedAgain(leaf, t, traced), before = t.count > 0 ? begin->T : Rgb(0.0f);
+    update.change += std::abs(gray((T - before) * elements_.radiometry[t.sender.index()].B));
+    next.terms.back().count = !isBlack(T);
+    if (!isBlack(T)) next.transfers.push_back({t.sender, T});
+  }
+  if (!update.any) return update;
+  next.weightPerRay = row.weightPerRay;
+  if (!changed.empty() && !sampleChanged(leaf, rays, changed, gone, next, update, traced)) {
+    update.anew = true;
+    return update;
+  }
+  row = std::move(next);
+  return update;
+}
+
+/// Appends terms over changed links; false when the row should rather be sampled anew as a whole. `gone`: the rays of
+/// the terms that were taken out.
+bool DirectSampler::sampleChanged(ElementId leaf, int rays, std::span<const LinkId> changed, float gone,
+                                  TransferRow& row, DirectUpdate& update, std::uint64_t& traced) const {
+  std::vector<LinkId> active;
+  std::vector<LinkId> tops;
+  for (const LinkId id : changed) tops.push_back(toWholeLight(links_, elements_, id));
+  std::sort(tops.begin(), tops.end());
+  tops.erase(std::unique(tops.begin(), tops.end()), tops.end());
+  for (const LinkId top : tops) activeBelow(links_, elements_, top, leaf, active);
+  const std::vector<Term> fresh = terms(leaf, senders_.over(active, leaf));
+  float weight = 0;
+  for (const Term& t : fresh) weight += t.known() ? 0.0f : t.weight;
+  const float all = static_cast<float>(rays);
+  if (row.weightPerRay > 0) {
+    const float now = all - gone + weight / row.weightPerRay;
+    if (now > kSamePlan * all || kSamePlan * now < all) return false;
+  } else {
+    row.weightPerRay = weight / all;
+  }
+  Sampled sampled;
+  deal(leaf, fresh, row.weightPerRay, sampled);
+  traced += sampled.rays;
+  update.variation = variation(leaf, sampled);
+  row.terms.insert(row.terms.end(), sampled.row.terms.begin(), sampled.row.terms.end());
+  row.transfers.insert(row.transfers.end(), sampled.row.transfers.begin(), sampled.row.transfers.end());
+  return true;
+}
+
+}  // namespace deltalux
