@@ -26,9 +26,14 @@ StepReport Engine::State::frame(double seconds) {
   takeIn(step, true);
   backlog.frames = true;
   if (!backlog.afresh) {
-    if (tracing && !tracing->allWait() && !tracing->waiting().empty()) followInPart(left, step);
-    const bool links = backlog.linksWait() && backlog.follow.seconds() < left();
+    if (tracing && !tracing->allWait() && !tracing->waiting().empty()) {  // rows get half of the time
+      const double share = backlog.rows.empty() ? 0.0 : 0.5 * left();
+      followInPart([&] { return left() - share; }, step);
+    }
+    ++backlog.framesSinceLinks;
+    const bool links = backlog.linksWait() && (backlog.follow.seconds() < left() || backlog.linksAreDue());
     if (links) followWithLinks(step);
+    if (!backlog.rows.empty()) followWithRows(left, step);
     if (links || relit) s.transfers.gatherDirect(s.elements);
     iterate(left, step);
   }
@@ -41,7 +46,8 @@ StepReport Engine::State::frame(double seconds) {
 void Engine::State::countWaiting(StepReport& step) const {
   const Solution& s = *solution;
   step.deferred = backlog.links.moved.size() + backlog.links.movedLights.size();
-  double stale = backlog.linksWait() ? lightOn(s, backlog.links) : 0.0;
+  step.deferred += backlog.rows.size();
+  double stale = (backlog.linksWait() ? lightOn(s, backlog.links) : 0.0) + backlog.rows.stale();
   if (tracing && tracing->allWait()) {
     step.deferred += s.particles.paths();
     for (std::size_t path = 0; path < s.particles.paths(); ++path) stale += deposited(s, *transfer, path);
@@ -55,10 +61,30 @@ void Engine::State::countWaiting(StepReport& step) const {
 void Engine::State::followWithLinks(StepReport& step) {
   const Clock time;
   const SceneUpdate edits = std::exchange(backlog.links, {});
+  Solution& s = *solution;
+  const double stale = lightOn(s, edits);
   Motion motion = leave(edits, step);
-  arriveInLight(edits, motion, false, step);
-  transfer.emplace(solution->particles, solution->elements, solution->scene);
+  RowWork work = arriveInLight(edits, motion, false, step);
+  backlog.rows.add(std::move(work), s.transfers, s.elements, s.links, stale);
+  renewRows(backlog.rows.work(), backlog.rows.urgent(), step);
+  transfer.emplace(s.particles, s.elements, s.scene);
+  backlog.framesSinceLinks = 0, backlog.linksFollowed = std::chrono::steady_clock::now();
   backlog.follow.learn(time.seconds());
+}
+
+void Engine::State::followWithRows(const SecondsLeft& left, StepReport& step) {
+  constexpr std::size_t kFewest = 32;  // so that every frame gets on
+  Solution& s = *solution;
+  const Clock time;
+  const double seconds = left() - backlog.deposit.seconds();
+  const auto fit = static_cast<std::size_t>(std::max(0.0, seconds) / backlog.row.seconds());
+  const std::size_t before = backlog.rows.size(), elements = s.elements.size();
+  const ConcernedLeaves leaves = backlog.rows.take(std::max(kFewest, fit), s.elements);
+  renewRows(backlog.rows.work(), leaves, step);
+  if (backlog.rows.empty()) backlog.rows = {};
+  backlog.addSeen(s.scene);
+  if (s.elements.size() != elements) transfer->follow(s.particles, {}, s.elements, s.scene);
+  backlog.row.learn(time.seconds(), static_cast<double>(before - backlog.rows.size()));
 }
 
 void Engine::State::followInPart(const SecondsLeft& left, StepReport& step) {

@@ -20,6 +20,17 @@ void Backlog::add(const SceneUpdate& more) {
   join(links.movedLights, more.movedLights);
 }
 
+bool Backlog::linksAreDue() const {
+  const std::chrono::duration<double> since = std::chrono::steady_clock::now() - linksFollowed;
+  return linksWait() && rows.moves() < kMostMoves && framesSinceLinks >= kFramesBetween &&
+         follow.seconds() < kLinksShare * since.count();
+}
+
+void Backlog::addSeen(const Scene& scene) {
+  for (SceneChange::Moved& m : links.moved)
+    if (const Box now = bounds(scene[m.primitive].shape); !now.empty()) m.before.extend(now);
+}
+
 void Backlog::add(const ParticleUpdate& more) {
   if (more.all) landed = {};
   landed.all |= more.all;

@@ -95,7 +95,7 @@ struct Engine::State {
   /// What a fresh solve would make of the edited scene, from the solution there is. [GD01 5]
   StepReport update(Progress* progress);
   /// What moves, and sides that come into the light by it.
-  void arriveInLight(const SceneUpdate& edits, Motion& motion, bool split, StepReport& step);
+  RowWork arriveInLight(const SceneUpdate& edits, Motion& motion, bool split, StepReport& step);
   /// Edits reach the scene's emission, the tracer, and the lists of what has to follow.
   void takeIn(StepReport& step, bool inMotion = false);
   /// Whether a light is so much brighter than when links were refined and rows sampled that it needs its own.
@@ -121,8 +121,12 @@ struct Engine::State {
   std::vector<ElementId> relight(const SceneUpdate& edits);
   /// What moves leaves its place: the links that it touches there, and the shapes of its elements.
   Motion leave(const SceneUpdate& edits, StepReport& step);
-  /// It comes to its new place, and what has grown in the light with it: links and rows follow.
-  void arrive(Motion& motion, const Growth& growth, StepReport& step);
+  /// It comes to its new place, and what has grown in the light with it: links follow. Returns what rows have to do.
+  RowWork arrive(Motion& motion, const Growth& growth, StepReport& step);
+  /// Makes rows of these leaves anew. Returns the leaves whose rows are others.
+  std::vector<ElementId> renewRows(const RowWork& work, const ConcernedLeaves& leaves, StepReport& step);
+  /// Rows that wait from before follow all at once.
+  std::vector<ElementId> renewWaitingRows(StepReport& step);
   static std::vector<char> subtrees(const Elements& elements, const std::vector<ElementId>& tops);
   /// Hands on what has changed, where light was settled before; all light otherwise.
   void settleAfter(const LightChanges&, Progress* progress);
@@ -134,8 +138,10 @@ struct Engine::State {
   /// As much of an update as fits. [GD01 4.3]
   StepReport frame(double seconds);
   void countWaiting(StepReport& step) const;
-  /// Links and rows, to where things are now, and particles onto the mesh that there is then.
+  /// Links, to where things are now, and particles onto the mesh that there is then; rows wait.
   void followWithLinks(StepReport& step);
+  /// Rows that wait, as many as there is time for.
+  void followWithRows(const SecondsLeft& left, StepReport& step);
   /// Traces those that deposit the most anew, as many as there is time for, and carries their light along.
   void followInPart(const SecondsLeft& left, StepReport& step);
   void carryTextures(TextureFlux& textures, const ParticleUpdate& followed);

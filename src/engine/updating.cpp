@@ -28,12 +28,15 @@ StepReport Engine::State::update(Progress* progress) {
     step.times.total = time.seconds();
     return step;
   }
+  const std::vector<ElementId> waited = renewWaitingRows(step);
   const SceneUpdate edits = std::exchange(backlog.links, {});
   Motion motion = leave(edits, step);
   ParticleUpdate followed;
   if (tracing) followed = followWithParticles(tracing->waiting().size(), step);
   const bool split = subdivideWhereParticlesLanded(step);
-  arriveInLight(edits, motion, split, step);
+  const RowWork work = arriveInLight(edits, motion, split, step);
+  for (const auto& rows : {renewRows(work, work.leaves, step), waited})
+    motion.light.rows.insert(motion.light.rows.end(), rows.begin(), rows.end());
   // Frames may have found origins on what had moved where its elements did not stand yet.
   if (std::exchange(backlog.frames, false)) transfer.reset();
   placeParticles(followed, motion.light, step);
@@ -49,12 +52,13 @@ StepReport Engine::State::update(Progress* progress) {
   return step;
 }
 
-void Engine::State::arriveInLight(const SceneUpdate& edits, Motion& motion, bool split, StepReport& step) {
+RowWork Engine::State::arriveInLight(const SceneUpdate& edits, Motion& motion, bool split, StepReport& step) {
   Growth growth = grow(edits, backlog.landed, step);
   const std::vector<ElementId> reflecting = std::exchange(backlog.reflecting, {});
   growth.woken.insert(growth.woken.end(), reflecting.begin(), reflecting.end());
   motion.light.rows = leavesBelow(solution->elements, growth);
-  if (split || !motion.marks.changes.empty() || !growth.empty()) arrive(motion, growth, step);
+  if (!split && motion.marks.changes.empty() && growth.empty()) return {};
+  return arrive(motion, growth, step);
 }
 
 void Engine::State::takeIn(StepReport& step, bool inMotion) {
@@ -227,7 +231,7 @@ Engine::State::Motion Engine::State::leave(const SceneUpdate& edits, StepReport&
   return motion;
 }
 
-void Engine::State::arrive(Motion& motion, const Growth& growth, StepReport& step) {
+RowWork Engine::State::arrive(Motion& motion, const Growth& growth, StepReport& step) {
   Solution& s = *solution;
   const Clock time;
   LinkMarks& marks = motion.marks;
@@ -245,21 +249,37 @@ void Engine::State::arrive(Motion& motion, const Growth& growth, StepReport& ste
   const Clock refining;
   OracleSettings oracle;
   oracle.error = s.settings.error * kLastError;
-  std::vector<LinkId> changed;
-  const RefineReport refined = rejudge(s.links, s.elements, s.scene, *s.tracer, oracle, motion.all, marks, changed);
+  RowWork work;
+  const RefineReport refined =
+      rejudge(s.links, s.elements, s.scene, *s.tracer, oracle, motion.all, marks, work.changed);
   DELTALUX_VALIDATED(validate(s.links, s.elements));
-  step.linksChanged = changed.size();
+  s.report.counts.raysVisibility += refined.rays;
+  step.linksChanged = work.changed.size();
   step.times.refine = refining.seconds();
   const Clock gathering;
-  const ConcernedLeaves leaves = s.transfers.concerned(s.elements, s.links, marks, changed, motion.all);
-  const LeafUpdateReport rows =
-      s.transfers.update(s.elements, s.links, s.scene, *s.tracer, leafSettings(), marks, changed, motion.all, leaves);
+  work.leaves = s.transfers.concerned(s.elements, s.links, marks, work.changed, motion.all);
+  work.marks = std::move(marks), work.space = std::move(motion.all);
+  step.leavesExamined = std::max(work.leaves.byLights.size(), work.leaves.byLeaves.size());
+  step.times.gather += gathering.seconds();
+  return work;
+}
+
+std::vector<ElementId> Engine::State::renewRows(const RowWork& work, const ConcernedLeaves& leaves, StepReport& step) {
+  if (leaves.byLights.empty() && leaves.byLeaves.empty()) return {};
+  Solution& s = *solution;
+  const Clock time;
+  LeafUpdateReport rows = s.transfers.update(s.elements, s.links, s.scene, *s.tracer, leafSettings(), work.marks,
+                                             work.changed, work.space, leaves);
   DELTALUX_VALIDATED(s.transfers.validate(s.elements, s.links));
-  s.report.counts.raysVisibility += refined.rays + rows.rays;
-  step.leavesExamined = std::max(leaves.byLights.size(), leaves.byLeaves.size());
-  step.leavesRenewed = std::max(rows.direct, rows.indirect);
-  step.times.gather = gathering.seconds();
-  motion.light.rows.insert(motion.light.rows.end(), rows.leaves.begin(), rows.leaves.end());
+  s.report.counts.raysVisibility += rows.rays;
+  step.leavesRenewed += std::max(rows.direct, rows.indirect);
+  step.times.gather += time.seconds();
+  return std::move(rows.leaves);
+}
+
+std::vector<ElementId> Engine::State::renewWaitingRows(StepReport& step) {
+  RowQueue waiting = std::exchange(backlog.rows, {});
+  return renewRows(waiting.work(), waiting.take(waiting.size(), solution->elements), step);
 }
 
 std::vector<char> Engine::State::subtrees(const Elements& elements, const std::vector<ElementId>& tops) {

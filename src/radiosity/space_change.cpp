@@ -35,6 +35,24 @@ void SpaceChange::add(const Box& box) {
   all_.upper = glm::max(all_.upper, parts_.back().upper);
 }
 
+void SpaceChange::add(const SpaceChange& more) {
+  parts_.insert(parts_.end(), more.parts_.begin(), more.parts_.end());
+  all_.lower = glm::min(all_.lower, more.all_.lower);
+  all_.upper = glm::max(all_.upper, more.all_.upper);
+  moved_.resize(std::max(moved_.size(), more.moved_.size()), 0);
+  for (std::size_t i = 0; i < more.moved_.size(); ++i) moved_[i] |= more.moved_[i];
+}
+
+float SpaceChange::nearness(const Vec3f& center, float radius) const {
+  float most = 0;
+  for (const Part& p : parts_) {
+    const Vec3f d = center - 0.5f * (p.lower + p.upper), half = 0.5f * (p.upper - p.lower) + radius;
+    const float size = glm::dot(half, half);
+    most = std::max(most, size / std::max(glm::dot(d, d), size));
+  }
+  return most;
+}
+
 bool SpaceChange::meets(const Shaft& shaft) const {
   if (parts_.empty() || !shaft.meets(all_.lower, all_.upper)) return false;
   return std::any_of(parts_.begin(), parts_.end(), [&](const Part& p) { return shaft.meets(p.lower, p.upper); });

@@ -14,12 +14,16 @@ namespace deltalux {
 class SpaceChange {
  public:
   void add(const Box&);
+  /// What another change moved too.
+  void add(const SpaceChange&);
   /// By element: whether it is what moved, or part of it.
   void setMoved(std::vector<char> moved) { moved_ = std::move(moved); }
 
   bool moved(ElementId e) const { return e.index() < moved_.size() && moved_[e.index()]; }
 
   bool empty() const { return parts_.empty(); }
+  /// The largest share that the bounds of one thing take of the hemisphere around a ball, about; 1 for those near by.
+  float nearness(const Vec3f& center, float radius) const;
   /// Conservative: never false when what moved is met.
   bool meets(const Shaft&) const;
   bool meets(const Ray&) const;

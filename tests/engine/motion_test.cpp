@@ -5,6 +5,7 @@
 #include <deltalux/io.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "engine/motion.hpp"
 #include "particles/transfer.hpp"
 #include "support/solved.hpp"
 
@@ -106,6 +107,65 @@ TEST(Motion, FramesDrainWhatWaits) {
   EXPECT_EQ(last.deferred, 0u);
   EXPECT_EQ(*last.staleW, 0.0);
   expectEachPathOnce(engine.solution().get());
+}
+
+void expectSame(const Engine& a, const Engine& b) {
+  EXPECT_NO_THROW(a.solution().get().transfers.validate(a.solution().get().elements, a.solution().get().links));
+  EXPECT_EQ(a.solution().get().particles.hash(), b.solution().get().particles.hash());
+  // Rows are dealt out by the light there is, which the frames had already moved.
+  const CheckReport check = compareSolutions(a.solution(), b.solution());
+  EXPECT_LT(check.medianRelDiff, 0.005);
+  EXPECT_LT(check.p95RelDiff, 0.03);
+}
+
+/// In a drag that goes on and on, links follow now and then, and rows in between, slice by slice.
+TEST(Motion, LinksFollowNowAndThenAndRowsInSlices) {
+  Engine dragged = cornell(), at_once = cornell();
+  dragged.select("ball");
+  int withLinks = 0, withRows = 0;
+  for (int i = 0; i < 3 * kFramesBetween; ++i) {
+    const Edit e = shift("ball", {0.001, 0, 0.001});
+    dragged.apply(e), at_once.apply(e);
+    const StepReport step = dragged.frame(kNoTime);
+    const bool links = step.linksVisited > 0;
+    withLinks += links, withRows += !links && step.leavesExamined == 0 && step.deferred > 1;
+    ASSERT_TRUE(step.staleW);
+    const Solution& now = dragged.solution().get();
+    ASSERT_NO_THROW(now.transfers.validate(now.elements, now.links));
+    if (links) expectEachPathOnce(now);
+  }
+  EXPECT_GE(withLinks, 1);
+  EXPECT_LE(withLinks, 3);
+  EXPECT_GT(withRows, kFramesBetween);
+  EXPECT_EQ(dragged.update().deferred, 0u);
+  at_once.update();
+  expectSame(dragged, at_once);
+}
+
+/// When motion stops, frames alone come to what an update gives, and what is stale goes down all the way.
+TEST(Motion, FramesAloneGetThere) {
+  Engine dragged = cornell(), at_once = cornell();
+  const Edit e = shift("short_block", {0.03, 0, 0.01});
+  dragged.apply(e), at_once.apply(e);
+  StepReport step = dragged.frame(kNoTime);
+  std::size_t slices = 0;
+  double stale = *step.staleW;
+  for (int i = 0; i < 2000 && step.deferred > 0; ++i) {
+    step = dragged.frame(kNoTime);
+    slices += step.linksVisited == 0 && step.leavesRenewed > 0;
+    EXPECT_LE(*step.staleW, 1.01 * stale);
+    stale = *step.staleW;
+  }
+  EXPECT_EQ(step.deferred, 0u);
+  EXPECT_EQ(stale, 0.0);
+  EXPECT_GT(slices, 5u);
+  at_once.update();
+  dragged.frame(kAllTime);  // settles
+  EXPECT_EQ(dragged.solution().get().particles.hash(), at_once.solution().get().particles.hash());
+  // Only updates split the mesh where particles have landed.
+  EXPECT_LT(compareSolutions(dragged.solution(), at_once.solution()).p95RelDiff, 0.1);
+  dragged.update();
+  expectSame(dragged, at_once);
 }
 
 /// What deposits the most goes first.
