@@ -36,7 +36,6 @@ std::vector<double> scaledBessel(double z, double negligible) {
 
 HeatFlow::HeatFlow(const CellGraph& graph, std::span<const float> conductivity, Openness open)
     : runs_(graph.runs()), weights_(graph.borders()), own_(graph.size(), 0.0f) {
-  constexpr float tiny = 1e-30f;
   for (const CellGraph::Run& run : runs_)
     for (std::uint32_t k = 0; k < run.neighbours; ++k) {
       const std::uint32_t n = run.count, border = run.borders + k * n;
@@ -44,8 +43,10 @@ HeatFlow::HeatFlow(const CellGraph& graph, std::span<const float> conductivity, 
                   *here = conductivity.data() + run.first, *there = here + run.offset[k];
       float* __restrict const weight = weights_.data() + border;
       float* __restrict const leaving = own_.data() + run.first;
-      for (std::uint32_t i = 0; i < n; ++i)
-        weight[i] = 2 * here[i] * there[i] * share[i] / (std::max(here[i] + there[i], tiny) * area[i]);
+      for (std::uint32_t i = 0; i < n; ++i) {
+        const float both = here[i] + there[i];
+        weight[i] = both > 0 ? 2 * (here[i] / both) * (there[i] / area[i]) * share[i] : 0.0f;
+      }
       if (!open.empty())
         for (std::uint32_t i = 0; i < n; ++i) weight[i] *= open[border + i];
       for (std::uint32_t i = 0; i < n; ++i) leaving[i] += weight[i];

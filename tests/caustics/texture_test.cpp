@@ -139,6 +139,29 @@ TEST(CausticTextures, AreRestrictedToTheFigure) {
   EXPECT_LT(r.size().x * r.size().y, 0.2);
 }
 
+TEST(CausticTextures, AreTheSameInAllUnits) {
+  const auto impacts = test::drawImpacts(4000, 1, test::discInVeil);
+  const auto unit = makeCausticTextures(test::unitSquare(), impacts, {0.05, 0});
+  ASSERT_TRUE(unit);
+  for (const double size : {1e-6, 1e5}) {
+    const Shape square = *makePolygon({{0, 0, 0}, {size, 0, 0}, {size, size, 0}, {0, size, 0}});
+    const auto scaled = makeCausticTextures(square, impacts, {0.05, 0});
+    ASSERT_TRUE(scaled);
+    EXPECT_NO_THROW(validate(*scaled));
+    ASSERT_EQ(scaled->textures.size(), unit->textures.size());
+    double difference = 0, light = 0;
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x) {
+        const double u = (x + 0.5) / 64, v = (y + 0.5) / 64;
+        SurfacePoint p = test::inSquare(u, v);
+        const double E = unit->irradianceAt(p).r;
+        p.position *= size;
+        difference += std::abs(size * size * scaled->irradianceAt(p).r - E), light += E;
+      }
+    EXPECT_LT(difference, 0.02 * light) << size;
+  }
+}
+
 TEST(CausticTextures, FewParticlesAreLeftToTheMesh) {
   EXPECT_FALSE(makeCausticTextures(test::unitSquare(), test::drawImpacts(3, 1, test::discInVeil), {0.05, 0}));
   EXPECT_FALSE(makeCausticTextures(test::unitSquare(), {}, {0.05, 0}));
