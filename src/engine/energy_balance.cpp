@@ -6,14 +6,13 @@
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
 #include "hierarchy/patch.hpp"
-#include "hierarchy/side_locator.hpp"
 #include "particles/bounce.hpp"
 
 namespace deltalux {
 
 namespace {
 
-constexpr std::size_t kRays = 1 << 16;
+constexpr std::size_t kRays = 1 << 18;
 constexpr std::size_t kBlock = 1024;
 constexpr int kPanes = 64;
 constexpr std::uint64_t kKey = 0x62616c616e63657aull;
@@ -96,22 +95,14 @@ struct Specular {
   }
 };
 
-Specular specularLight(const Solution& s) {
+Specular specularLight(const Solution& s, const ParticleTransfer& transfer) {
   const Particles& p = s.particles;
-  const SideLocator locator(s.elements, s.scene);
   return parallelSum<Specular>(p.paths(), kBlock, [&](std::size_t path) {
     Specular sum;
     if (!(p.fate[path] & kArrived)) return sum;
     const SenderCell& cell = p.senderCells[p.sender[path]];
-    RgbSum power(p.links[p.link[path]].scale);
-    if (cell.kind == SenderKind::Side) {
-      const ElementId side = locator.side(cell.primitive, p.originTriangle[path], cell.front);
-      if (!side.valid()) return sum;
-      power *= RgbSum(s.elements.radiometry[locator.locate(side, Vec3(p.verticesOf(path)[0])).leaf.index()].B);
-    } else {
-      power *= RgbSum(s.scene[cell.light].scale);
-      sum.ofLights = power * RgbSum(p.account[path].entered.value());
-    }
+    const RgbSum power = double(p.links[p.link[path]].scale) * RgbSum(transfer.power(path, s.elements, s.scene));
+    if (cell.kind != SenderKind::Side) sum.ofLights = power * RgbSum(p.account[path].entered.value());
     sum.passed = power * RgbSum(p.account[path].passed.value());
     sum.absorbed = power * RgbSum(p.account[path].absorbed.value());
     if (!(p.fate[path] & kCut)) sum.escaped = power * RgbSum(p.account[path].left.value());
@@ -121,10 +112,10 @@ Specular specularLight(const Solution& s) {
 
 }  // namespace
 
-EnergyLedger energyBalance(const Solution& s, const RgbSum& unsettled) {
+EnergyLedger energyBalance(const Solution& s, const ParticleTransfer& transfer, const RgbSum& unsettled) {
   const Surfaces surfaces = surfacesOf(s);
   const Outcome diffuse = diffuseLight(s);
-  const Specular specular = specularLight(s);
+  const Specular specular = specularLight(s, transfer);
   const double unit = s.scene.metresPerUnit * s.scene.metresPerUnit;
   EnergyLedger ledger;
   ledger.emittedW = unit * gray(surfaces.direct + specular.ofLights);

@@ -7,14 +7,15 @@
 //   escaped   of what diffuse surfaces send: by rays from them in all directions; of what particles carry: theirs
 //
 // Light that panes keep from lights' own light is not emitted: it reaches no surface.
-// Cost: 65,000 rays, 20 nanoseconds a path.
+// Cost: 262,000 rays (standard error below 0.03 % of what is emitted), 20 nanoseconds a path.
 #include <deltalux/report.hpp>
 
+#include "particles/transfer.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux {
 
 /// Of a settled solution; `unsettled`: what its last iteration still changed [W].
-EnergyLedger energyBalance(const Solution&, const RgbSum& unsettled);
+EnergyLedger energyBalance(const Solution&, const ParticleTransfer&, const RgbSum& unsettled);
 
 }  // namespace deltalux

@@ -4,6 +4,7 @@
 
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
+#include "hierarchy/side_locator.hpp"
 #include "particles/reached_sides.hpp"
 #include "radiosity/covered_sides.hpp"
 #include "radiosity/push_pull.hpp"
@@ -25,12 +26,14 @@ std::vector<Box> newlyLit(const SceneUpdate& edits, const Scene& scene) {
   return boxes;
 }
 
-void addLanding(std::vector<SurfaceSide>& sides, const Particles& particles, const ParticleUpdate& update,
-                const Scene& scene) {
-  if (update.all) return addReachedSides(sides, particles, scene);
-  std::vector<std::uint32_t> paths;
-  for (const RetracedPath& r : update.paths) paths.push_back(r.path);
-  addReachedSides(sides, particles, paths, scene);
+void addLanding(std::vector<SurfaceSide>& sides, const Solution& s, const ParticleUpdate& update) {
+  std::vector<std::uint32_t> paths(update.all ? s.particles.paths() : update.paths.size());
+  for (std::uint32_t i = 0; i < paths.size(); ++i) paths[i] = update.all ? i : update.paths[i].path;
+  const SideLocator locator(s.elements, s.scene);
+  addReachedSides(sides, s.particles, paths, s.scene, *s.tracer,
+                  [&](PrimitiveId primitive, std::uint32_t triangle, bool front) {
+                    return locator.side(primitive, triangle, front).valid();
+                  });
 }
 
 }  // namespace
@@ -54,7 +57,7 @@ Growth growInLight(Solution& s, const SceneUpdate& edits, const ParticleUpdate& 
     for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
     sides = coveredSides(s.scene, *s.tracer, s.elements, moved, newlyLit(edits, s.scene));
   }
-  addLanding(sides.uncovered, s.particles, particles, s.scene);
+  addLanding(sides.uncovered, s, particles);
   dropReachedSides(sides.covered, s.particles);
   Growth growth;
   std::vector<SurfaceSide> fresh;

@@ -45,7 +45,7 @@ void Engine::State::prepare(Progress* progress) {
   CoarseReport coarse;
   auto sides = coarseSolution(s.scene, *s.tracer, &coarse);
   trace();
-  addReachedSides(sides, s.particles, s.scene);
+  addReachedSides(sides, s.particles, s.scene, *s.tracer);
   s.elements = buildElements(s.scene, sides);
   pull(s.elements);
   DELTALUX_VALIDATED(validate(s.elements));
@@ -220,7 +220,10 @@ RgbSum Engine::State::directPower() const {
 
 void Engine::State::count() {
   Solution& s = *solution;
-  if (finished) s.report.energy = energyBalance(s, unsettled);
+  if (finished) {
+    if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
+    s.report.energy = energyBalance(s, *transfer, unsettled);
+  }
   WorkCounts& c = s.report.counts;
   c.elements = s.elements.size();
   c.leafElements = 0;

@@ -6,6 +6,9 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/random.hpp"
+#include "particles/surface_normal.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -22,29 +25,90 @@ double areaOf(const Scene& scene, const SurfaceSide& s) {
   return mesh->cumulativeArea[s.triangle] - (s.triangle > 0 ? mesh->cumulativeArea[s.triangle - 1] : 0.0);
 }
 
+constexpr std::size_t kAsked = 16;  // paths of a side
+constexpr int kRays = 16;           // from where a path starts
+
+bool stopsLight(const Material& m) {
+  return std::holds_alternative<Opaque>(m.surface) || std::holds_alternative<Mirror>(m.surface);
+}
+
+struct Landed {
+  RgbSum flux{0.0};
+  std::vector<std::uint32_t> paths;  // some of them
+};
+
+/// Looks round from points of surfaces for light.
+class Lookout {
+ public:
+  Lookout(const Scene& scene, const RayTracer& tracer, const IsLit& lit) : scene_(scene), tracer_(tracer), lit_(lit) {}
+
+  /// Whether anything is seen from here but sides that are dark. A lit side may be dark just there, in a hollow that it
+  /// closes: so it must see light itself.
+  bool sees(const Vec3f& p, const Vec3f& normal, Rng& rng, bool again = true) const {
+    const Frame frame{Vec3(normal)};
+    for (int k = 0; k < kRays; ++k) {
+      const double u = rng.uniform(), r = std::sqrt(u), phi = 2 * kPi * rng.uniform();
+      Ray ray;
+      ray.direction = Vec3f(frame.toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)}));
+      ray.origin = offsetOrigin(p, normal, ray.direction);
+      const Hit hit = tracer_.closestHit(ray);
+      if (!hit || !stopsLight(scene_.materialOf(hit.primitive))) return true;
+      if (!lit_(hit.primitive, hit.triangle, hit.front)) continue;
+      if (!again || sees(hit.position, hit.front ? hit.normal : -hit.normal, rng, false)) return true;
+    }
+    return false;
+  }
+
+ private:
+  const Scene& scene_;
+  const RayTracer& tracer_;
+  const IsLit& lit_;
+};
+
+/// Whether a path starts at a light, or at a point that sees light.
+bool startsInLight(const Particles& p, std::uint32_t path, const Scene& scene, const Lookout& lookout) {
+  const SenderCell& cell = p.senderCells[p.sender[path]];
+  if (cell.kind != SenderKind::Side) return true;
+  const Vec3f origin = p.verticesOf(path)[0];
+  const Vec3 up = normalAt(scene[cell.primitive].shape, Vec3(origin), p.originTriangle[path]);
+  Rng rng(path, 0x6c69u);
+  return lookout.sees(origin, Vec3f(cell.front ? up : -up), rng);
+}
+
 }  // namespace
 
-void addReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles, const Scene& scene) {
+void addReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles, const Scene& scene,
+                     const RayTracer& tracer) {
   std::vector<std::uint32_t> all(particles.paths());
   std::iota(all.begin(), all.end(), 0u);
-  addReachedSides(sides, particles, all, scene);
+  const std::vector<SurfaceSide> known = sides;
+  addReachedSides(sides, particles, all, scene, tracer, [&](PrimitiveId primitive, std::uint32_t triangle, bool front) {
+    const SurfaceSide s{primitive, triangle, front, 0, Rgb(0.0f), 0};
+    return std::binary_search(known.begin(), known.end(), s, before);
+  });
 }
 
 void addReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles, std::span<const std::uint32_t> paths,
-                     const Scene& scene) {
-  std::map<std::pair<PrimitiveId, std::uint32_t>, RgbSum> flux;  // by primitive, triangle and side
+                     const Scene& scene, const RayTracer& tracer, const IsLit& lit) {
+  const Lookout lookout(scene, tracer, lit);
+  std::map<std::pair<PrimitiveId, std::uint32_t>, Landed> landed;  // by primitive, triangle and side
   for (const std::uint32_t path : paths) {
     const double power =
         double(particles.links[particles.link[path]].scale) * particles.nominal[particles.sender[path]];
-    for (std::uint32_t i = particles.firstImpact(path); i < particles.endImpact(path); ++i)
-      flux[{particles.primitive[i], particles.triangleAndSide[i]}] += power * RgbSum(particles.throughput[i]);
+    for (std::uint32_t i = particles.firstImpact(path); i < particles.endImpact(path); ++i) {
+      Landed& l = landed[{particles.primitive[i], particles.triangleAndSide[i]}];
+      l.flux += power * RgbSum(particles.throughput[i]);
+      if (l.paths.size() < kAsked) l.paths.push_back(path);
+    }
   }
   std::vector<SurfaceSide> added;
-  for (const auto& [where, power] : flux) {
+  for (const auto& [where, l] : landed) {
     SurfaceSide s{where.first, where.second >> 1, (where.second & 1) == 0, 0, Rgb(0.0f), 0};
     if (std::binary_search(sides.begin(), sides.end(), s, before)) continue;
+    const auto starts = [&](std::uint32_t path) { return startsInLight(particles, path, scene, lookout); };
+    if (!lit(s.primitive, s.triangle, s.front) && std::none_of(l.paths.begin(), l.paths.end(), starts)) continue;
     const double A = areaOf(scene, s);
-    s.irradiance = Rgb(power / A);
+    s.irradiance = Rgb(l.flux / A);
     s.typicalIrradiance = gray(s.irradiance);
     s.meanFreePath = static_cast<float>(std::sqrt(A));
     added.push_back(s);

@@ -6,6 +6,7 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "hierarchy/side_locator.hpp"
+#include "particles/surface_normal.hpp"
 
 namespace deltalux {
 
@@ -34,6 +35,19 @@ ElementId surfaceOf(const Elements& elements, ElementId e) {
 
 bool earlier(const RetracedPath& a, const RetracedPath& b) { return a.path < b.path; }
 
+/// Whether a path first meets a side that no light reaches: it starts under what stands there.
+bool startsInTheDark(const Particles& p, std::size_t path, const SideLocator& locator, const Scene& scene) {
+  const PrimitiveId met = p.metBy(path)[1];
+  if (!met.valid()) return false;
+  const Shape& shape = scene[met].shape;
+  if (std::holds_alternative<Mesh>(shape)) return false;  // its triangle is not known
+  if (!std::holds_alternative<Opaque>(scene.materialOf(met).surface)) return false;
+  const bool front = locator.side(met, 0, true).valid(), back = locator.side(met, 0, false).valid();
+  if (front == back) return !front;
+  const std::span<const Vec3f> v = p.verticesOf(path);
+  return (glm::dot(normalAt(shape, Vec3(v[1]), 0), Vec3(v[1] - v[0])) < 0) != front;
+}
+
 void sortUnique(std::vector<ElementId>& all) {
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -41,17 +55,18 @@ void sortUnique(std::vector<ElementId>& all) {
 
 }  // namespace
 
-std::uint32_t ParticleTransfer::locateSender(const Particles& p, std::size_t path, const SideLocator& locator) const {
+std::uint32_t ParticleTransfer::locateSender(const Particles& p, std::size_t path, const SideLocator& locator,
+                                             const Scene& scene) const {
   const SenderCell& cell = p.senderCells[p.sender[path]];
   if (cell.kind != SenderKind::Side) return cell.light.value;
   const ElementId side = locator.side(cell.primitive, p.originTriangle[path], cell.front);
-  if (!side.valid()) return kNone;
+  if (!side.valid() || startsInTheDark(p, path, locator, scene)) return kNone;
   return static_cast<std::uint32_t>(lights_) + locator.locate(side, Vec3(p.verticesOf(path)[0])).leaf.value;
 }
 
-void ParticleTransfer::locate(const Particles& p, std::size_t path, const SideLocator& locator) {
-  if (p.range[path].impacts == 0) return;
-  senderOf_[path] = locateSender(p, path, locator);
+void ParticleTransfer::locate(const Particles& p, std::size_t path, const SideLocator& locator, const Scene& scene) {
+  if (!(p.fate[path] & kArrived)) return;
+  senderOf_[path] = locateSender(p, path, locator, scene);
   for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
     const ElementId side = locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
     elementOf_[i] = side.valid() ? locator.leafAt(side, Vec2(p.uv[i])).value : kNone;
@@ -74,7 +89,7 @@ ParticleTransfer::ParticleTransfer(const Particles& p, const Elements& elements,
   entries_.resize(elements.size());
   sums_.resize(elements.size());
   const SideLocator locator(elements, scene);
-  parallelFor(p.paths(), kBlock, [&](std::size_t path) { locate(p, path, locator); });
+  parallelFor(p.paths(), kBlock, [&](std::size_t path) { locate(p, path, locator, scene); });
 
   // By element; each sums its own in the order of the particles.
   std::vector<std::uint32_t> first(elements.size() + 1, 0);
@@ -152,7 +167,7 @@ std::vector<ElementId> ParticleTransfer::follow(const Particles& p, const Partic
         remove(l), touched[l.element] = 1;
     });
   const SideLocator locator(elements, scene);
-  parallelFor(paths.size(), 64, [&](std::size_t i) { locate(p, paths[i].path, locator); });
+  parallelFor(paths.size(), 64, [&](std::size_t i) { locate(p, paths[i].path, locator, scene); });
   for (const RetracedPath& r : paths)
     visit(p, r.path, senderOf_[r.path], p.sender[r.path], p.range[r.path], [&](const Landing& l) {
       if (l.element == kNone)

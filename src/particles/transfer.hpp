@@ -66,8 +66,8 @@ class ParticleTransfer {
     float weight;
   };
 
-  std::uint32_t locateSender(const Particles&, std::size_t path, const SideLocator&) const;
-  void locate(const Particles&, std::size_t path, const SideLocator&);
+  std::uint32_t locateSender(const Particles&, std::size_t path, const SideLocator&, const Scene&) const;
+  void locate(const Particles&, std::size_t path, const SideLocator&, const Scene&);
   template <class Visit>
   void visit(const Particles&, std::size_t path, std::uint32_t sender, std::uint32_t cell, const PathRange&,
              const Visit&) const;
