@@ -8,7 +8,7 @@
 
 namespace deltalux {
 
-/// What a block of paths made; vertices and impacts in the order in which they happened, then by path.
+/// What a block of paths made; vertices and impacts in the order in which they happened.
 struct PathBlock {
   std::vector<std::uint32_t> vertexOf, impactOf;  // path within the block
   std::vector<Vec3f> vertices;
@@ -27,14 +27,21 @@ struct PathBlock {
   std::vector<std::uint8_t> fate;
   std::uint64_t rays = 0;
 
-  /// Room for what so many paths usually make.
-  void reserve(std::size_t paths) {
-    vertexOf.reserve(3 * paths), vertices.reserve(3 * paths), met.reserve(3 * paths);
+  /// Empty again, for so many paths; what was allocated stays.
+  void begin(std::size_t paths) {
+    vertexOf.clear(), vertices.clear(), met.clear();
+    impactOf.clear(), primitive.clear(), triangleAndSide.clear(), uv.clear(), throughput.clear();
+    vertexCount.assign(paths, 0), impactCount.assign(paths, 0);
+    accounts.assign(paths, {}), fate.assign(paths, 0);
+    rays = 0;
+    constexpr std::size_t kUsual = 3;  // vertices of a path
+    vertexOf.reserve(kUsual * paths), vertices.reserve(kUsual * paths), met.reserve(kUsual * paths);
     impactOf.reserve(paths), primitive.reserve(paths), triangleAndSide.reserve(paths), uv.reserve(paths);
     throughput.reserve(paths);
   }
   void addVertex(std::uint32_t path, const Vec3f& p, PrimitiveId there) {
     vertexOf.push_back(path), vertices.push_back(p), met.push_back(there);
+    ++vertexCount[path];
   }
   void addImpact(std::uint32_t path, const Hit& hit, const glm::vec2& at, const Rgb& flux) {
     impactOf.push_back(path);
@@ -42,24 +49,8 @@ struct PathBlock {
     triangleAndSide.push_back(2 * hit.triangle + (hit.front ? 0 : 1));
     uv.push_back(at);
     throughput.push_back(flux);
+    ++impactCount[path];
   }
 };
-
-/// Puts entries that belong to `of` in its order, keeping their own within.
-template <class... Arrays>
-std::vector<std::uint32_t> sortByPath(const std::vector<std::uint32_t>& of, std::size_t paths, Arrays&... arrays) {
-  std::vector<std::uint32_t> counts(paths, 0), place(of.size());
-  for (const std::uint32_t p : of) ++counts[p];
-  std::vector<std::uint32_t> next(paths, 0);
-  for (std::size_t p = 1; p < paths; ++p) next[p] = next[p - 1] + counts[p - 1];
-  for (std::size_t i = 0; i < of.size(); ++i) place[i] = next[of[i]]++;
-  const auto permute = [&](auto& array) {
-    auto sorted = array;
-    for (std::size_t i = 0; i < of.size(); ++i) sorted[place[i]] = array[i];
-    array = std::move(sorted);
-  };
-  (permute(arrays), ...);
-  return counts;
-}
 
 }  // namespace deltalux

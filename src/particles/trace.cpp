@@ -13,7 +13,7 @@ namespace deltalux {
 
 namespace {
 
-constexpr std::size_t kBlock = 2048;
+constexpr std::size_t kBlock = 512;
 
 class Tracing {
  public:
@@ -27,11 +27,8 @@ class Tracing {
         only_(only),
         far_(static_cast<float>(farDistance(scene))) {}
 
-  PathBlock trace(std::size_t begin, std::size_t end) const {
-    PathBlock r;
-    r.reserve(end - begin);
-    r.accounts.resize(end - begin);
-    r.fate.resize(end - begin);
+  void trace(std::size_t begin, std::size_t end, PathBlock& r) const {
+    r.begin(end - begin);
     std::vector<Walker> walkers = emit(begin, end, r);
     std::vector<Ray> rays;
     std::vector<Hit> hits;
@@ -53,10 +50,6 @@ class Tracing {
         if (meet(walkers[i], hits[i], r)) walkers[going++] = walkers[i];
       walkers.resize(going);
     }
-    const std::size_t paths = end - begin;
-    r.vertexCount = sortByPath(r.vertexOf, paths, r.vertices, r.met);
-    r.impactCount = sortByPath(r.impactOf, paths, r.primitive, r.triangleAndSide, r.uv, r.throughput);
-    return r;
   }
 
  private:
@@ -215,8 +208,28 @@ PathAccount closed(const PathBlock::Account& a, std::size_t path) {
   return {{a.entered, bits(0)}, {a.passed, bits(1)}, {a.absorbed, bits(2)}, {a.left, bits(3)}};
 }
 
-/// Puts what blocks made behind what is there.
-void append(std::vector<PathBlock>& blocks, std::span<const std::uint32_t> only, Particles& p) {
+/// Room for what `count` paths make when `done` of them have made what there is by now.
+template <class... Arrays>
+void reserveFor(std::size_t count, std::size_t done, std::size_t before, Arrays&... arrays) {
+  constexpr double kSpare = 1.05;
+  const auto reserve = [&](auto& array) {
+    const double more = kSpare * static_cast<double>(array.size() - before) * static_cast<double>(count - done) /
+                        static_cast<double>(done);
+    if (array.size() + static_cast<std::size_t>(more) > array.capacity())
+      array.reserve(array.size() + static_cast<std::size_t>(more));
+  };
+  (reserve(arrays), ...);
+}
+
+/// Where the entries of each path go, behind `first`, when those of all are put in the order of paths.
+std::vector<std::uint32_t> placesFrom(std::uint32_t first, std::span<const std::uint32_t> counts) {
+  std::vector<std::uint32_t> places(counts.size());
+  for (std::size_t k = 0; k < counts.size(); ++k) places[k] = first, first += counts[k];
+  return places;
+}
+
+/// Puts what blocks of the paths from `begin` on made behind what is there, by path.
+void append(std::span<const PathBlock> blocks, std::size_t begin, std::span<const std::uint32_t> only, Particles& p) {
   std::vector<std::size_t> vertex{p.vertices.size()}, impact{p.impactSlots()};
   for (const PathBlock& b : blocks) {
     vertex.push_back(vertex.back() + b.vertices.size());
@@ -231,37 +244,44 @@ void append(std::vector<PathBlock>& blocks, std::span<const std::uint32_t> only,
   p.uv.resize(impact.back());
   p.throughput.resize(impact.back());
   parallelFor(blocks.size(), 1, [&](std::size_t b) {
-    PathBlock& r = blocks[b];
-    auto v = static_cast<std::uint32_t>(vertex[b]), i = static_cast<std::uint32_t>(impact[b]);
+    const PathBlock& r = blocks[b];
+    auto nextVertex = placesFrom(static_cast<std::uint32_t>(vertex[b]), r.vertexCount);
+    auto nextImpact = placesFrom(static_cast<std::uint32_t>(impact[b]), r.impactCount);
     for (std::size_t k = 0; k < r.vertexCount.size(); ++k) {
-      const std::size_t path = only.empty() ? b * kBlock + k : only[b * kBlock + k];
-      p.range[path] = {v, i, static_cast<std::uint16_t>(r.vertexCount[k]),
+      const std::size_t at = begin + b * kBlock + k, path = only.empty() ? at : only[at];
+      p.range[path] = {nextVertex[k], nextImpact[k], static_cast<std::uint16_t>(r.vertexCount[k]),
                        static_cast<std::uint16_t>(r.impactCount[k])};
       p.fate[path] = r.fate[k];
       p.account[path] = closed(r.accounts[k], path);
-      v += r.vertexCount[k], i += r.impactCount[k];
     }
-    const auto put = [](const auto& from, auto& to, std::size_t at) {
-      std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(at));
-    };
-    put(r.vertices, p.vertices, vertex[b]);
-    put(r.met, p.met, vertex[b]);
-    put(r.primitive, p.primitive, impact[b]);
-    put(r.triangleAndSide, p.triangleAndSide, impact[b]);
-    put(r.uv, p.uv, impact[b]);
-    put(r.throughput, p.throughput, impact[b]);
-    r = {};
+    for (std::size_t i = 0; i < r.vertexOf.size(); ++i) {
+      const std::uint32_t to = nextVertex[r.vertexOf[i]]++;
+      p.vertices[to] = r.vertices[i], p.met[to] = r.met[i];
+    }
+    for (std::size_t i = 0; i < r.impactOf.size(); ++i) {
+      const std::uint32_t to = nextImpact[r.impactOf[i]]++;
+      p.primitive[to] = r.primitive[i], p.triangleAndSide[to] = r.triangleAndSide[i];
+      p.uv[to] = r.uv[i], p.throughput[to] = r.throughput[i];
+    }
   });
 }
 
 void trace(const Scene& scene, const RayTracer& tracer, const ParticleEmission& emission, int maxDepth, Particles& p,
            std::span<const std::uint32_t> only, std::size_t count) {
   DELTALUX_CHECK(maxDepth < 0xffff, "at most 65534 events");
+  constexpr std::size_t kTogether = 512;  // blocks whose memory is used again by the next
   const Tracing tracing(scene, tracer, emission, p, maxDepth, only);
-  std::vector<PathBlock> blocks((count + kBlock - 1) / kBlock);
-  parallelBlocks(count, kBlock,
-                 [&](std::size_t begin, std::size_t end) { blocks[begin / kBlock] = tracing.trace(begin, end); });
-  append(blocks, only, p);
+  std::vector<PathBlock> blocks(std::min(kTogether, (count + kBlock - 1) / kBlock));
+  const std::size_t vertices = p.vertices.size(), impacts = p.impactSlots();
+  for (std::size_t first = 0; first < count; first += kTogether * kBlock) {
+    const std::size_t some = std::min(kTogether * kBlock, count - first);
+    parallelBlocks(some, kBlock, [&](std::size_t begin, std::size_t end) {
+      tracing.trace(first + begin, first + end, blocks[begin / kBlock]);
+    });
+    append(std::span(blocks).first((some + kBlock - 1) / kBlock), first, only, p);
+    reserveFor(count, first + some, vertices, p.vertices, p.met);
+    reserveFor(count, first + some, impacts, p.primitive, p.triangleAndSide, p.uv, p.throughput);
+  }
 }
 
 }  // namespace
