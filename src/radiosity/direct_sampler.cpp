@@ -87,11 +87,13 @@ DirectRow DirectSampler::at(ElementId leaf, int rays) const {
 
 void DirectSampler::deal(ElementId leaf, const std::vector<Term>& terms, float step, Sampled& sampled) const {
   sampled.row.weightPerRay = step;
+  sampled.row.reach.add(elements_.shape(leaf));
   for (const Term& t : terms) {
     const std::uint64_t key = rayKey(leaf, t.sender);
     if (t.known()) {
       sampled.row.terms.push_back({t.link, t.sender, 1.0f, 0, 1, true});
       sampled.row.transfers.push_back({t.sender, Rgb(t.K)});
+      remember(t.sender, {}, sampled.row);
       const double B = gray(elements_.radiometry[t.sender.index()].B);
       for (std::size_t q = 0; q < 4; ++q) sampled.E[q] += B * t.at[q];
       continue;
@@ -161,6 +163,24 @@ DirectSampler::Shot DirectSampler::shoot(ElementId leaf, ElementId sender, std::
   return shot;
 }
 
+/// Where a ray ends, or leaves the scene's box.
+Vec3f DirectSampler::endOf(const Ray& ray) const {
+  const Vec3f lower(elements_.sceneBox.lower), upper(elements_.sceneBox.upper);
+  float far = ray.tFar;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (ray.direction[axis] == 0) continue;
+    const float exit = ((ray.direction[axis] > 0 ? upper : lower)[axis] - ray.origin[axis]) / ray.direction[axis];
+    far = std::min(far, std::max(exit, 0.0f));
+  }
+  return ray.origin + far * ray.direction;
+}
+
+/// Notes where the rays of a row's term go.
+void DirectSampler::remember(ElementId sender, const Passage& p, TransferRow& row) const {
+  if (p.weights > 0) row.reach.add(p.reach.lower), row.reach.add(p.reach.upper);
+  if (!elements_.isDistant(sender)) row.reach.add(elements_.shape(sender));
+}
+
 DirectSampler::Passage DirectSampler::pass(ElementId leaf, const Term& t, int rays, std::uint64_t key,
                                            std::uint64_t& traced) const {
   const bool byAngle = sampledByAngle(t.sender);
@@ -174,6 +194,7 @@ DirectSampler::Passage DirectSampler::pass(ElementId leaf, const Term& t, int ra
     if (!t.clear) V = tracer_.transmittance(shot.ray), ++traced;
     if (byAngle) V *= shot.radiance;
     passed += shot.weight * RgbSum(V);
+    p.reach.add(endOf(shot.ray));
     p.weights += shot.weight;
     p.seen[shot.quadrant] += shot.weight * gray(V), p.all[shot.quadrant] += shot.weight;
     ++p.count[shot.quadrant];
@@ -190,6 +211,7 @@ void DirectSampler::sample(ElementId leaf, const Term& t, int rays, float gain, 
   const Rgb B = elements_.radiometry[t.sender.index()].B;
   const Passage s = pass(leaf, t, rays, key, out.rays);
   out.row.terms.push_back({t.link, t.sender, gain, static_cast<std::uint8_t>(rays), 0, t.clear});
+  remember(t.sender, s, out.row);
   if (!(s.weights > 0)) return;
   const bool byAngle = sampledByAngle(t.sender);
   const double n = s.used;

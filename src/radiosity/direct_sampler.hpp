@@ -72,6 +72,7 @@ class DirectSampler {
     std::array<double, 4> seen{}, all{};  // by quadrant of the leaf
     std::array<int, 4> count{};
     int used = 0;
+    RowReach reach;  // of the rays
   };
   /// A row in the making: irradiance by quadrant, and the variance that chance gives it.
   struct Sampled {
@@ -95,15 +96,18 @@ class DirectSampler {
   bool curved(ElementId sender) const;
   bool sampledByAngle(ElementId sender) const;
   Rgb wholeB(ElementId sender) const;
+  Vec3f endOf(const Ray&) const;
+  void remember(ElementId sender, const Passage&, TransferRow&) const;
   Shot shoot(ElementId leaf, ElementId sender, std::uint64_t key, int i) const;
   bool meets(ElementId leaf, const RowTerm&, const SpaceChange&) const;
+  std::vector<std::uint32_t> meeting(ElementId leaf, const LinkChanges&, const SpaceChange&, const TransferRow&) const;
   Passage pass(ElementId leaf, const Term&, int rays, std::uint64_t key, std::uint64_t& traced) const;
   /// Deals rays out over terms, one for `step` of weight.
   void deal(ElementId leaf, const std::vector<Term>&, float step, Sampled&) const;
   void sample(ElementId leaf, const Term&, int rays, float gain, std::uint64_t key, Sampled&) const;
   double mean(ElementId leaf, const Sampled&) const;
   double variation(ElementId leaf, const Sampled&) const;
-  Rgb tracedAgain(ElementId leaf, const RowTerm&, std::uint64_t& traced) const;
+  Passage tracedAgain(ElementId leaf, const RowTerm&, std::uint64_t& traced) const;
   bool sampleChanged(ElementId leaf, int rays, std::span<const LinkId> changed, float gone, TransferRow&, DirectUpdate&,
                      std::uint64_t& traced) const;
   bool dealtOver(const LinkChanges&, std::span<const LinkId> changed, const SpaceChange&, const RowTerm&) const;

@@ -41,40 +41,60 @@ bool DirectSampler::dealtOver(const LinkChanges& links, std::span<const LinkId> 
          });
 }
 
-Rgb DirectSampler::tracedAgain(ElementId leaf, const RowTerm& t, std::uint64_t& traced) const {
+DirectSampler::Passage DirectSampler::tracedAgain(ElementId leaf, const RowTerm& t, std::uint64_t& traced) const {
   Term same;
   same.sender = t.sender, same.curved = curved(t.sender);
   setKernel(leaf, same);
-  return t.gain * pass(leaf, same, t.index, rayKey(leaf, t.sender), traced).T;
+  return pass(leaf, same, t.index, rayKey(leaf, t.sender), traced);
+}
+
+/// Terms whose rays meet what moved, in ascending order.
+std::vector<std::uint32_t> DirectSampler::meeting(ElementId leaf, const LinkChanges& links, const SpaceChange& space,
+                                                  const TransferRow& row) const {
+  std::vector<std::uint32_t> out;
+  const ElementGeometry& g = elements_.shape(leaf);
+  if (elements_.at(leaf).flat && space.behind(g.center, g.normal)) return out;
+  for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
+    const RowTerm& t = row.terms[i];
+    if (!t.clear && changeOf(links, t.link) != LinkChange::None && meets(leaf, t, space)) out.push_back(i);
+  }
+  return out;
 }
 
 DirectUpdate DirectSampler::update(ElementId leaf, int rays, const LinkChanges& links, std::span<const LinkId> changed,
                                    const SpaceChange& space, TransferRow& row, std::uint64_t& traced) const {
   DirectUpdate update;
-  update.any = !changed.empty();
+  const std::vector<std::uint32_t> again = meeting(leaf, links, space, row);
+  update.any = !again.empty() || !changed.empty();
+  if (!update.any) return update;
   TransferRow next;
+  next.weightPerRay = row.weightPerRay, next.reach = row.reach;
+  next.terms.reserve(row.terms.size()), next.transfers.reserve(row.transfers.size());
   float gone = 0;
   auto at = row.transfers.begin();
-  for (const RowTerm& t : row.terms) {
+  auto a = again.begin();
+  for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
+    const RowTerm& t = row.terms[i];
     const auto begin = at;
     at += t.count;
+    const bool retraced = a != again.end() && *a == i;
+    a += retraced;
     if (!changed.empty() && dealtOver(links, changed, space, t)) {
       gone += raysOf(t);
       continue;
     }
     next.terms.push_back(t);
-    if (t.clear || changeOf(links, t.link) == LinkChange::None || !meets(leaf, t, space)) {
+    if (!retraced) {
       next.transfers.insert(next.transfers.end(), begin, at);
       continue;
     }
-    update.any = true;
-    const Rgb T = tracedAgain(leaf, t, traced), before = t.count > 0 ? begin->T : Rgb(0.0f);
+    const Passage found = tracedAgain(leaf, t, traced);
+    remember(t.sender, found, next);
+    const Rgb T = t.gain * found.T, before = t.count > 0 ? begin->T : Rgb(0.0f);
     update.change += std::abs(gray((T - before) * elements_.radiometry[t.sender.index()].B));
     next.terms.back().count = !isBlack(T);
     if (!isBlack(T)) next.transfers.push_back({t.sender, T});
   }
-  if (!update.any) return update;
-  next.weightPerRay = row.weightPerRay;
   if (!changed.empty() && !sampleChanged(leaf, rays, changed, gone, next, update, traced)) {
     update.anew = true;
     return update;
@@ -107,6 +127,7 @@ bool DirectSampler::sampleChanged(ElementId leaf, int rays, std::span<const Link
   deal(leaf, fresh, row.weightPerRay, sampled);
   traced += sampled.rays;
   update.variation = variation(leaf, sampled);
+  row.reach.add(sampled.row.reach.lower), row.reach.add(sampled.row.reach.upper);
   row.terms.insert(row.terms.end(), sampled.row.terms.begin(), sampled.row.terms.end());
   row.transfers.insert(row.transfers.end(), sampled.row.transfers.begin(), sampled.row.transfers.end());
   return true;

@@ -190,16 +190,6 @@ SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index,
   return s;
 }
 
-template <class PointAt>
-Rgb IndirectSampler::transfer(ElementId leaf, const Dealt& d, const PointAt& pointAt, std::uint64_t& traced) const {
-  const SenderSample s = shoot(leaf, d.term.sender, d.index, pointAt);
-  if (!s.leaf.valid()) return Rgb(0.0f);
-  const float K = exact(d.term.sender) ? d.term.K : elements_.shape(d.term.sender).area * static_cast<float>(s.weight);
-  if (d.term.open >= 1.0f) return Rgb(d.gain * K);
-  ++traced;
-  return d.gain * K * tracer_.transmittance(s.ray);
-}
-
 /// What is in plain view has no noise that would hide an error of K: then at all nodes.
 float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const {
   const ElementGeometry& g = elements_.shape(leaf);
@@ -214,17 +204,37 @@ float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear
   return static_cast<float>(K);
 }
 
-Rgb IndirectSampler::transferOf(ElementId leaf, const Dealt& d, std::uint64_t& traced) const {
+Rgb IndirectSampler::transfer(const Dealt& d, const SenderSample& s, std::uint64_t& traced) const {
   if (known(d.term)) return Rgb(d.term.K);
-  return transfer(
-      leaf, d, [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); }, traced);
+  if (!s.leaf.valid()) return Rgb(0.0f);
+  const float K = exact(d.term.sender) ? d.term.K : elements_.shape(d.term.sender).area * static_cast<float>(s.weight);
+  if (d.term.open >= 1.0f) return Rgb(d.gain * K);
+  ++traced;
+  return d.gain * K * tracer_.transmittance(s.ray);
+}
+
+SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index) const {
+  return shoot(leaf, sender, index, [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); });
+}
+
+void IndirectSampler::remember(ElementId leaf, std::size_t term, const SenderSample& s, TransferRow& row) const {
+  const ElementGeometry& sender = elements_.shape(row.terms[term].sender);
+  const Vec3f d = s.leaf.valid() ? s.ray.direction : sender.center - elements_.shape(leaf).center;
+  row.directions.resize(row.terms.size());
+  row.directions[term] = glm::dot(d, d) > 0 ? directionCode(d) : DirectionCode{};
+  if (s.leaf.valid())
+    row.reach.add(s.ray.origin + s.ray.tFar * s.ray.direction);
+  else
+    row.reach.add(sender);
 }
 
 void IndirectSampler::append(ElementId leaf, const Dealt& d, TransferRow& row, std::uint64_t& traced) const {
-  const Rgb T = transferOf(leaf, d, traced);
+  const SenderSample s = known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index);
+  const Rgb T = transfer(d, s, traced);
   const bool some = !isBlack(T);
   row.terms.push_back(
       {d.term.link, d.term.sender, d.gain, static_cast<std::uint8_t>(d.index), some, d.term.open >= 1.0f});
+  remember(leaf, row.terms.size() - 1, s, row);
   if (some) row.transfers.push_back({d.term.sender, T});
 }
 
@@ -237,87 +247,15 @@ TransferRow IndirectSampler::atLeaf(ElementId leaf, int rays, std::uint64_t& tra
   double total = 0;
   for (const Term& t : terms) total += known(t) ? 0.0f : t.weight;
   TransferRow row;
+  row.reach.add(elements_.shape(leaf));
   const double step = (total > 0 ? total : sum) / rays;
   row.weightPerRay = static_cast<float>(step / level(leaf));
   const PatchPoint center{elements_.shape(leaf).center, elements_.shape(leaf).normal};
   deal(leaf, center, terms, step, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, row, traced); });
   row.terms.shrink_to_fit();
   row.transfers.shrink_to_fit();
+  row.directions.shrink_to_fit();
   return row;
-}
-
-bool IndirectSampler::meets(ElementId leaf, const RowTerm& t, const SpaceChange& space) const {
-  if (space.moved(t.sender)) return true;
-  if (t.clear) return false;
-  const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(t.sender);
-  if (!space.meets(r.center, r.radius, s.center, s.radius)) return false;
-  const SenderSample sample =
-      shoot(leaf, t.sender, t.index, [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); });
-  return sample.leaf.valid() && space.meets(sample.ray);
-}
-
-bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed,
-                             const SpaceChange& space, TransferRow& row, std::uint64_t& traced) const {
-  std::vector<std::uint32_t> anew;  // terms whose rays meet what moved
-  bool rebuild = !changed.empty();
-  for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
-    const LinkChange change = changeOf(links, row.terms[i].link);
-    if (change == LinkChange::None) continue;
-    rebuild |= change == LinkChange::Changed;
-    if (change == LinkChange::Touched && meets(leaf, row.terms[i], space)) anew.push_back(i);
-  }
-  if (!rebuild && anew.empty()) return false;
-  if (!rebuild) return retrace(leaf, anew, row, traced);
-
-  TransferRow next;
-  next.weightPerRay = row.weightPerRay;
-  next.terms.reserve(row.terms.size()), next.transfers.reserve(row.transfers.size());
-  auto at = row.transfers.begin();
-  auto again = anew.begin();
-  for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
-    const RowTerm& t = row.terms[i];
-    const auto begin = at;
-    at += t.count;
-    const bool retraced = again != anew.end() && *again == i;
-    again += retraced;
-    if (changeOf(links, t.link) == LinkChange::Changed || coveredBy(changed, t)) continue;
-    if (retraced) {
-      append(leaf, dealt(leaf, t), next, traced);
-      continue;
-    }
-    next.terms.push_back(t);
-    next.transfers.insert(next.transfers.end(), begin, at);
-  }
-  dealChanged(leaf, changed, next, traced);
-  row = std::move(next);
-  return true;
-}
-
-/// Whether a term that was dealt over a link now split is one of these links' by now.
-bool IndirectSampler::coveredBy(std::span<const LinkId> changed, const RowTerm& t) const {
-  if (links_[t.link].state != LinkState::Interior) return false;
-  return std::any_of(changed.begin(), changed.end(),
-                     [&](LinkId id) { return holds(elements_, links_[id].sender, t.sender); });
-}
-
-IndirectSampler::Dealt IndirectSampler::dealt(ElementId leaf, const RowTerm& t) const {
-  const float K = exact(t.sender) ? kernelAtLeaf(leaf, t.sender, t.clear) : 0.0f;
-  return {{t.link, t.sender, K, t.clear ? 1.0f : 0.0f, 0.0f}, t.gain, t.index};
-}
-
-bool IndirectSampler::retrace(ElementId leaf, std::span<const std::uint32_t> terms, TransferRow& row,
-                              std::uint64_t& traced) const {
-  std::size_t at = 0, i = 0;
-  for (const std::uint32_t k : terms) {
-    for (; i < k; ++i) at += row.terms[i].count;
-    RowTerm& t = row.terms[k];
-    const Rgb T = transferOf(leaf, dealt(leaf, t), traced);
-    if (t.count > 0)
-      row.transfers[at].T = T;  // also where it is black by now: the next move may lift it
-    else if (!isBlack(T))
-      row.transfers.insert(row.transfers.begin() + static_cast<std::ptrdiff_t>(at), {t.sender, T}), t.count = 1;
-  }
-  return true;
 }
 
 void IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> changed, TransferRow& row,
@@ -357,9 +295,9 @@ Rgb IndirectSampler::atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal
   RgbSum E(0.0);
   std::uint64_t traced = 0;
   deal(leaf, x, terms, total / rays, rays, kernelOf, [&](const Dealt& d) {
-    const Rgb T = known(d.term) ? Rgb(d.term.K)
-                                : transfer(
-                                      leaf, d, [&](double, double) { return x; }, traced);
+    const auto s =
+        known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index, [&](double, double) { return x; });
+    const Rgb T = transfer(d, s, traced);
     E += RgbSum(T * elements_.radiometry[d.term.sender.index()].B);
   });
   return Rgb(E);

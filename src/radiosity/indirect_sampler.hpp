@@ -77,19 +77,28 @@ class IndirectSampler {
   /// The ray of a dealt term; no leaf where its points do not face each other.
   template <class PointAt>
   SenderSample shoot(ElementId leaf, ElementId sender, int index, const PointAt&) const;
-  /// T of a dealt term; black where it brings nothing.
-  template <class PointAt>
-  Rgb transfer(ElementId leaf, const Dealt&, const PointAt&, std::uint64_t& traced) const;
-  Rgb transferOf(ElementId leaf, const Dealt&, std::uint64_t& traced) const;
+  SenderSample shoot(ElementId leaf, ElementId sender, int index) const;
+  /// T of a dealt term by its ray; black where it brings nothing.
+  Rgb transfer(const Dealt&, const SenderSample&, std::uint64_t& traced) const;
+  /// Notes where the ray of the row's last term goes, or of one of them.
+  void remember(ElementId leaf, std::size_t term, const SenderSample&, TransferRow&) const;
   void append(ElementId leaf, const Dealt&, TransferRow&, std::uint64_t& traced) const;
+  /// A term of a row that has to be traced again, and its ray.
+  struct Again {
+    std::uint32_t term;
+    SenderSample sample;
+  };
+  /// In ascending order.
+  std::vector<Again> meeting(ElementId leaf, const SpaceChange&, const TransferRow&) const;
   bool coveredBy(std::span<const LinkId> changed, const RowTerm&) const;
   /// What a term of a row was dealt, by today's kernel.
   Dealt dealt(ElementId leaf, const RowTerm&) const;
-  /// Traces these terms of a row again, in ascending order.
-  bool retrace(ElementId leaf, std::span<const std::uint32_t> terms, TransferRow&, std::uint64_t& traced) const;
+  void retrace(ElementId leaf, std::span<const Again>, TransferRow&, std::uint64_t& traced) const;
+  /// The row without terms over changed links.
+  TransferRow kept(ElementId leaf, const LinkChanges&, std::span<const LinkId> changed, std::span<const Again>,
+                   const TransferRow&, std::uint64_t& traced) const;
   /// Appends the terms over changed links.
   void dealChanged(ElementId leaf, std::span<const LinkId> changed, TransferRow&, std::uint64_t& traced) const;
-  bool meets(ElementId leaf, const RowTerm&, const SpaceChange&) const;
   float kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const;
   bool exact(ElementId sender) const;
   /// Whether a term needs no ray.

@@ -28,6 +28,7 @@ void validateRow(const TransferRow& row, bool ofEmitters, const Elements& elemen
     require(std::isfinite(t.gain) && t.gain > 0, "transfer: gain");
     count += t.count;
   }
+  require(row.directions.size() == (ofEmitters ? 0 : row.terms.size()), "transfers: a direction a term");
   require(count == row.transfers.size() && std::isfinite(row.weightPerRay), "transfers: by term");
   for (const LeafTransfer& t : row.transfers) {
     require(t.leaf.index() < elements.size(), "transfer: sender");
@@ -89,7 +90,8 @@ std::size_t LeafTransfers::memoryBytes() const {
   std::size_t bytes = rows_.capacity() * sizeof(LeafRow);
   for (const LeafRow& r : rows_)
     for (const TransferRow* row : {&r.direct, &r.indirect})
-      bytes += row->terms.capacity() * sizeof(RowTerm) + row->transfers.capacity() * sizeof(LeafTransfer);
+      bytes += row->terms.capacity() * sizeof(RowTerm) + row->transfers.capacity() * sizeof(LeafTransfer) +
+               row->directions.capacity() * sizeof(DirectionCode);
   return bytes;
 }
 

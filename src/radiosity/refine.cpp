@@ -56,7 +56,6 @@ class Judge {
   Verdict judge(Link link, int least, const ElementId* candidates, std::size_t count, Blockers& arena,
                 bool seen = false) const {
     Verdict v;
-    const bool leaf = link.state != LinkState::Interior;
     const Kernel k = kernel(elements_, scene_, link.receiver, link.sender);
     const ElementTopology& r = elements_.at(link.receiver);
     if (k.averted || r.blocker || !sends(link.sender)) {
@@ -72,11 +71,6 @@ class Judge {
       v.link = link;
       return v;
     }
-    if (!leaf) {
-      shrink(link, candidates, count, v, arena);
-      v.link = link;
-      return v;
-    }
     if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) {
       shrink(link, candidates, count, v, arena);
       if (v.blockers.count == 0 && solidEnds(link)) {
@@ -88,6 +82,14 @@ class Judge {
     if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) look(link, least, v);
     if (seen && link.visibility == Visibility::Sampled && isBlack(link.V)) proveBlocked(link, v, arena);
     v.split = choose(link);
+    v.link = link;
+    return v;
+  }
+
+  /// A link on the way to others.
+  Verdict pass(const Link& link, const ElementId* candidates, std::size_t count, Blockers& arena) const {
+    Verdict v;
+    shrink(link, candidates, count, v, arena);
     v.link = link;
     return v;
   }
@@ -395,6 +397,8 @@ class Descent {
   }
 
   Verdict judged(const Judge& judge, Link link, const Task& t, const ElementId* candidates, Blockers& arena) const {
+    if (t.mark == Mark::Path && link.state == LinkState::Interior)
+      return judge.pass(link, candidates, t.candidates.count, arena);
     if (t.mark == Mark::Between) return judge.judgeBetween(link, *change_, candidates, t.candidates.count, arena);
     const int least = t.mark == Mark::Ends ? link.samples : 0;
     const bool seen = t.mark == Mark::Ends && link.visibility == Visibility::Sampled && !isBlack(link.V);

@@ -90,14 +90,20 @@ ConcernedLeaves LeafTransfers::concerned(const Elements& elements, const Links& 
   for (const LinkId id : marks.touched)
     if (links[id].state != LinkState::Free)
       touched[elements.at(links[id].sender).emitter][links[id].receiver.index()] = 1;
+  const bool inScene = space.within(elements.sceneBox);  // else rays to lights at infinity may go on to it
   ConcernedLeaves out;
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const ElementId e(i), up = elements.at(e).parent;  // parents stand before their children
     for (auto& t : touched) t[i] |= up.valid() && t[up.index()];
     if (!elements.isReceivingLeaf(e)) continue;
     const bool anew = rowOf[i] == kNone || space.moved(e);
-    if (anew || touched[1][i] || changed.any(e, true) || uncovers(elements, e, space)) out.byLights.push_back(e);
-    if (anew || touched[0][i] || changed.any(e, false)) out.byLeaves.push_back(e);
+    const auto reached = [&](bool ofLights) {
+      const LeafRow& row = rows_[rowOf[i]];
+      const RowReach& r = ofLights ? row.direct.reach : row.indirect.reach;
+      return touched[ofLights][i] && ((ofLights && !inScene) || space.meets(r.lower, r.upper));
+    };
+    if (anew || reached(true) || changed.any(e, true) || uncovers(elements, e, space)) out.byLights.push_back(e);
+    if (anew || reached(false) || changed.any(e, false)) out.byLeaves.push_back(e);
   }
   return out;
 }

@@ -1,6 +1,7 @@
 #include "radiosity/space_change.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace deltalux {
@@ -9,15 +10,15 @@ namespace {
 
 constexpr float kSlack = 1e-5f;  // of the coordinates: boxes are grown by what single precision loses
 
-bool segmentMeets(const Vec3f& lower, const Vec3f& upper, const Ray& ray) {
+bool segmentMeets(const Vec3f& lower, const Vec3f& upper, const Ray& ray, float radius = 0.0f) {
   float near = ray.tNear, far = ray.tFar;
   for (int i = 0; i < 3; ++i) {
     if (std::abs(ray.direction[i]) < 1e-12f) {
-      if (ray.origin[i] < lower[i] || ray.origin[i] > upper[i]) return false;
+      if (ray.origin[i] < lower[i] - radius || ray.origin[i] > upper[i] + radius) return false;
       continue;
     }
     const float inverse = 1.0f / ray.direction[i];
-    const float a = (lower[i] - ray.origin[i]) * inverse, b = (upper[i] - ray.origin[i]) * inverse;
+    const float a = (lower[i] - radius - ray.origin[i]) * inverse, b = (upper[i] + radius - ray.origin[i]) * inverse;
     near = std::max(near, std::min(a, b));
     far = std::min(far, std::max(a, b));
   }
@@ -71,27 +72,62 @@ bool SpaceChange::meets(const Vec3f& lower, const Vec3f& upper) const {
 }
 
 bool SpaceChange::meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const {
+  // The hull lies within the larger radius of the axis: the axis must meet a box that is larger by that.
+  return meets(Ray{a, 0.0f, b - a, 1.0f}, std::max(radiusA, radiusB));
+}
+
+bool SpaceChange::meets(const Ray& axis, float radius) const {
+  if (parts_.empty() || !segmentMeets(all_.lower, all_.upper, axis, radius)) return false;
+  return parts_.size() == 1 || std::any_of(parts_.begin(), parts_.end(),
+                                           [&](const Part& p) { return segmentMeets(p.lower, p.upper, axis, radius); });
+}
+
+bool SpaceChange::within(const Box& box) const {
+  return glm::all(glm::lessThanEqual(Vec3f(box.lower), all_.lower)) &&
+         glm::all(glm::lessThanEqual(all_.upper, Vec3f(box.upper)));
+}
+
+bool SpaceChange::behind(const Vec3f& point, const Vec3f& normal) const {
   if (parts_.empty()) return false;
-  // The hull lies within the larger radius of the axis, and the box within its half diagonal of its centre.
-  const Vec3f center = 0.5f * (all_.lower + all_.upper), d = b - a;
-  const float reach = 0.5f * glm::length(all_.upper - all_.lower) + std::max(radiusA, radiusB);
-  const float squared = glm::dot(d, d);
-  const float t = squared > 0 ? std::clamp(glm::dot(center - a, d) / squared, 0.0f, 1.0f) : 0.0f;
-  const Vec3f off = center - (a + t * d);
-  return glm::dot(off, off) <= reach * reach;
+  const Vec3f middle = 0.5f * (all_.lower + all_.upper), half = 0.5f * (all_.upper - all_.lower);
+  return glm::dot(middle - point, normal) + glm::dot(half, glm::abs(normal)) < 0;
+}
+
+void SpaceChange::meetsRays(const Vec3f& center, float radius, std::span<const DirectionCode> directions,
+                            std::vector<std::uint32_t>& out) const {
+  if (parts_.empty()) return;
+  constexpr float kLeast = 1e-6f;  // of a coordinate of a direction
+  constexpr std::size_t kMost = 64;
+  // As far as a ray of the ball, or one whose direction is not quite the coded one, may be from that of its middle.
+  const Vec3f far = glm::max(glm::abs(all_.lower - center), glm::abs(all_.upper - center));
+  const Vec3f grown(radius + 1.05f * kDirectionCodeError * (glm::length(far) + radius));
+  const Vec3f lower = all_.lower - grown - center, upper = all_.upper + grown - center;
+  std::array<std::uint8_t, kMost> meets;
+  for (std::size_t begin = 0; begin < directions.size(); begin += kMost) {
+    const std::size_t count = std::min(kMost, directions.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3f d = direction(directions[begin + i]);
+      float nearest = 0, furthest = std::numeric_limits<float>::infinity();
+      for (int axis = 0; axis < 3; ++axis) {
+        const float inverse = 1.0f / std::copysign(std::max(std::abs(d[axis]), kLeast), d[axis]);
+        const float a = lower[axis] * inverse, b = upper[axis] * inverse;
+        nearest = std::max(nearest, std::min(a, b));
+        furthest = std::min(furthest, std::max(a, b));
+      }
+      meets[i] = nearest <= furthest;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      if (meets[i]) out.push_back(static_cast<std::uint32_t>(begin + i));
+  }
 }
 
 bool SpaceChange::meetsBeam(const Vec3f& center, float radius, const Vec3f& direction, float angle) const {
   if (parts_.empty()) return false;
-  const Vec3f middle = 0.5f * (all_.lower + all_.upper), d = middle - center;
-  const float reach = 0.5f * glm::length(all_.upper - all_.lower) + radius;
-  const float along = glm::dot(d, direction), squared = glm::dot(d, d);
-  if (squared <= reach * reach || angle > 1.0f) return true;
-  // Seen from the ball's centre: the angle to the middle, against that of the beam and that under which both balls
-  // show.
-  const float length = std::sqrt(squared);
-  const float between = std::acos(std::clamp(along / length, -1.0f, 1.0f));
-  return between <= angle + std::asin(std::min(1.0f, reach / length));
+  if (angle > 1.0f) return true;
+  // As wide as the beam is where the boxes end; the tangent from above.
+  const float furthest = glm::length(glm::max(glm::abs(all_.lower - center), glm::abs(all_.upper - center)));
+  const float wide = radius + furthest * angle / (1.0f - 0.36f * angle * angle);
+  return meets(Ray{center, 0.0f, direction, furthest + radius}, wide);
 }
 
 }  // namespace deltalux

@@ -1,10 +1,11 @@
 #pragma once
 // Where a scene has changed: the bounds of what moved, before and after, and what that does to the links.
 #include <deltalux/math.hpp>
-#include <unordered_map>
+#include <span>
 #include <vector>
 
 #include "hierarchy/link.hpp"
+#include "radiosity/direction_code.hpp"
 #include "radiosity/shaft.hpp"
 #include "tracing/ray.hpp"
 
@@ -31,10 +32,20 @@ class SpaceChange {
   bool meets(const Vec3f& lower, const Vec3f& upper) const;
   /// Of the convex hull of two balls.
   bool meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const;
+  /// Whether all lies in the box.
+  bool within(const Box&) const;
+  /// Whether there is something, all of it behind a plane (unit normal).
+  bool behind(const Vec3f& point, const Vec3f& normal) const;
+  /// Of each of many rays that leave a ball in these directions: appends the indices of those that may.
+  void meetsRays(const Vec3f& center, float radius, std::span<const DirectionCode>,
+                 std::vector<std::uint32_t>& out) const;
   /// Of what leaves a ball in directions within an angle of `direction` (unit; the angle in radians).
   bool meetsBeam(const Vec3f& center, float radius, const Vec3f& direction, float angle) const;
 
  private:
+  /// Of a ray with a radius.
+  bool meets(const Ray& axis, float radius) const;
+
   struct Part {
     Vec3f lower, upper;
   };

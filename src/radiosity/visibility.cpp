@@ -60,17 +60,25 @@ bool samplesMeet(const Elements& elements, const Scene& scene, const Link& link,
 
 namespace {
 
-/// Of what through(i, ray) says of each ray.
-template <class Through>
-VisibilityEstimate estimate(const Elements& elements, const Scene& scene, ElementId receiver, ElementId sender,
-                            int samples, const Through& passes) {
-  VisibilityEstimate result;
+using Samples = std::vector<Sample>;
+
+Samples samplesOf(const Elements& elements, const Scene& scene, ElementId receiver, ElementId sender, int count) {
   const std::uint64_t key = combineKeys(elements.key[receiver.index()], elements.key[sender.index()]);
+  Samples samples;
+  samples.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) samples.push_back(sampleOf(elements, scene, receiver, sender, key, i));
+  return samples;
+}
+
+/// Of what passes(i, ray) says of each ray.
+template <class Passes>
+VisibilityEstimate estimate(const Samples& samples, bool clusterReceiver, const Passes& passes) {
+  VisibilityEstimate result;
   RgbSum passed(0.0);
   double weights = 0, squares = 0, clearWeight = 0;
   std::array<double, 4> quadrantClear{}, quadrantWeight{};
-  for (int i = 0; i < samples; ++i) {
-    const auto [ray, weight, quadrant] = sampleOf(elements, scene, receiver, sender, key, i);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto& [ray, weight, quadrant] = samples[i];
     if (!(weight > 0)) continue;
     const Rgb through = passes(i, ray);
     const double seen = maxChannel(through) > 0 ? weight : 0.0;
@@ -83,7 +91,7 @@ VisibilityEstimate estimate(const Elements& elements, const Scene& scene, Elemen
     quadrantClear[quadrant] += seen;
     quadrantWeight[quadrant] += weight;
   }
-  result.samples = static_cast<std::uint8_t>(samples);
+  result.samples = static_cast<std::uint8_t>(samples.size());
   if (weights <= 0) {
     // No sampled pair faced each other: nothing is known.
     result.V = Rgb(1.0f);
@@ -95,7 +103,7 @@ VisibilityEstimate estimate(const Elements& elements, const Scene& scene, Elemen
   const double effective = weights * weights / squares;
   if (clear > 0 && clear < 1) {
     // The surfaces of a cluster are lit or not one by one: the mean over them speaks for none.
-    double spread = std::sqrt(clear * (1 - clear) / (elements.isCluster(receiver) ? 1.0 : effective));
+    double spread = std::sqrt(clear * (1 - clear) / (clusterReceiver ? 1.0 : effective));
     for (std::size_t q = 0; q < 4; ++q)
       if (quadrantWeight[q] > 0) spread = std::max(spread, std::abs(quadrantClear[q] / quadrantWeight[q] - clear));
     result.spread = static_cast<float>(spread);
@@ -110,17 +118,18 @@ VisibilityEstimate estimate(const Elements& elements, const Scene& scene, Elemen
 
 VisibilityEstimate sampleVisibility(const Elements& elements, const Scene& scene, const RayTracer& tracer,
                                     ElementId receiver, ElementId sender, int samples) {
-  return estimate(elements, scene, receiver, sender, samples,
-                  [&](int, const Ray& ray) { return tracer.transmittance(ray); });
+  return estimate(samplesOf(elements, scene, receiver, sender, samples), elements.isCluster(receiver),
+                  [&](std::size_t, const Ray& ray) { return tracer.transmittance(ray); });
 }
 
 VisibilityEstimate resampleVisibility(const Elements& elements, const Scene& scene, const RayTracer& tracer,
                                       const Link& link, const SpaceChange& space, int& rays) {
-  const auto passed = [&](int i) { return Rgb(link.sampleMask >> i & 1u ? 1.0f : 0.0f); };
-  const auto known =
-      estimate(elements, scene, link.receiver, link.sender, link.samples, [&](int i, const Ray&) { return passed(i); });
+  const Samples samples = samplesOf(elements, scene, link.receiver, link.sender, link.samples);
+  const bool clusterReceiver = elements.isCluster(link.receiver);
+  const auto passed = [&](std::size_t i) { return Rgb(link.sampleMask >> i & 1u ? 1.0f : 0.0f); };
+  const auto known = estimate(samples, clusterReceiver, [&](std::size_t i, const Ray&) { return passed(i); });
   const bool tinted = known.V != link.V;  // by glass: then the mask does not say what passed
-  return estimate(elements, scene, link.receiver, link.sender, link.samples, [&](int i, const Ray& ray) {
+  return estimate(samples, clusterReceiver, [&](std::size_t i, const Ray& ray) {
     if (!tinted && !space.meets(ray)) return passed(i);
     ++rays;
     return tracer.transmittance(ray);

@@ -39,8 +39,8 @@ void members(auto& archive, Is<Particles> auto& p) {
 }
 
 void members(auto& archive, Is<TransferRow> auto& r) {
-  auto& [terms, transfers, weightPerRay] = r;
-  transferAll(archive, terms, transfers, weightPerRay);
+  auto& [terms, transfers, directions, reach, weightPerRay] = r;
+  transferAll(archive, terms, transfers, directions, reach.lower, reach.upper, weightPerRay);
 }
 void members(auto& archive, Is<LeafRow> auto& r) {
   auto& [leaf, direct, indirect] = r;
