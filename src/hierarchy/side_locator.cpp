@@ -17,12 +17,14 @@ SideLocator::SideLocator(const Elements& elements, const Scene& scene) : element
     first_.push_back(static_cast<std::uint32_t>(total));
     total += 2 * surfacesOf(p.shape);
   }
+  first_.push_back(static_cast<std::uint32_t>(total));
   sides_.resize(total);
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const ElementTopology& t = elements.topology[i];
     if (t.kind != ElementKind::Patch || t.depth > 0 || t.emitter || t.blocker) continue;
     const PatchDomain& d = elements.domain[i];
-    sides_[first_[d.primitive.index()] + 2 * d.triangle + (t.front ? 0 : 1)] = ElementId(i);
+    const std::size_t at = indexOf(d.primitive, d.triangle, t.front);
+    if (at < sides_.size()) sides_[at] = ElementId(i);
   }
   for (const PlaneFrame& f : elements.frames) {
     const Vec3 n = glm::cross(f.edgeU, f.edgeV);
@@ -33,8 +35,15 @@ SideLocator::SideLocator(const Elements& elements, const Scene& scene) : element
   }
 }
 
+/// Beyond all sides for surfaces that were removed: their elements stay, without a shape.
+std::size_t SideLocator::indexOf(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
+  const std::size_t at = first_[primitive.index()] + 2 * std::size_t(triangle) + (front ? 0 : 1);
+  return at < first_[primitive.index() + 1] ? at : sides_.size();
+}
+
 ElementId SideLocator::side(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
-  return sides_[first_[primitive.index()] + 2 * triangle + (front ? 0 : 1)];
+  const std::size_t at = indexOf(primitive, triangle, front);
+  return at < sides_.size() ? sides_[at] : ElementId();
 }
 
 LeafPoint SideLocator::locate(ElementId side, const Vec3& p) const {

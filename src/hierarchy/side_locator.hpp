@@ -16,7 +16,7 @@ class SideLocator {
   /// Both must outlive this.
   SideLocator(const Elements&, const Scene&);
 
-  /// The input-level element of a side; invalid when light does not reach it, or when it is glass.
+  /// The input-level element of a side; invalid when light does not reach it, when it is glass, or was removed.
   ElementId side(PrimitiveId, std::uint32_t triangle, bool front) const;
   /// The leaf under `side` whose domain holds the surface point `p`, or is nearest to it.
   LeafPoint locate(ElementId side, const Vec3& p) const;
@@ -24,9 +24,11 @@ class SideLocator {
   ElementId leafAt(ElementId side, const Vec2& uv) const;
 
  private:
+  std::size_t indexOf(PrimitiveId, std::uint32_t triangle, bool front) const;
+
   const Elements& elements_;
   const Scene& scene_;
-  std::vector<std::uint32_t> first_;          // per primitive: its first entry in sides_
+  std::vector<std::uint32_t> first_;          // per primitive: its first entry in sides_; and the end
   std::vector<ElementId> sides_;              // front and back of every surface or triangle
   std::vector<Vec3> dualU_, dualV_, origin_;  // per frame: p -> (dot(p - origin, dualU), dot(p - origin, dualV))
 };

@@ -1,4 +1,4 @@
-// Long sessions: 160 edits of a room, out and back, and 200 of the lodge.
+// Long sessions: 160 edits of a room, 20 at a time out and back, 200 out and back at once, and 200 of the lodge.
 #include <deltalux/io.hpp>
 
 #include "support/furnished_room.hpp"
@@ -28,6 +28,22 @@ TEST(RandomEditsSlow, OutAndBackAgainAndAgainMemoryLevelsOff) {
   // Leaves that were split for a shadow stay split, until there are none to split any more.
   EXPECT_LT(static_cast<double>(held[3]), 1.1 * static_cast<double>(held[2]));
   EXPECT_LT(held[3], 3 * start);
+}
+
+TEST(RandomEditsSlow, TwoHundredOutAndBack) {
+  SolveSettings settings;
+  settings.error = 0.05, settings.particles = 20000;
+  Engine engine(test::furnishedRoom(), settings);
+  engine.solve();
+  test::RandomEdits edits(engine, test::editableOfFurnishedRoom(), 7);
+  for (int i = 0; i < 200; ++i) {
+    edits.step();
+    test::expectValid(engine, edits.last());
+    if (i == 159) test::expectAsSolved(engine, settings, 0.015, 0.05);  // with lights on
+  }
+  edits.undoAll();
+  test::expectValid(engine, "undo");
+  test::expectAsSolved(engine, settings, 0.01, 0.05);
 }
 
 TEST(RandomEditsSlow, TwoHundredOnTheLodge) {

@@ -1,0 +1,102 @@
+// Lights that edits move, dim and switch: rows follow them, and hold those that are off for now.
+#include <gtest/gtest.h>
+
+#include "support/furnished_room.hpp"
+#include "support/update_checks.hpp"
+
+namespace deltalux {
+namespace {
+
+SolveSettings diffuseOnly() {
+  SolveSettings settings;
+  settings.diffuseOnly = true;
+  return settings;
+}
+
+Engine solvedRoom() {
+  Engine engine(test::furnishedRoom(), diffuseOnly());
+  engine.solve();
+  return engine;
+}
+
+Edit move(const char* object, const Vec3& by) {
+  Mat4 matrix(1.0);
+  matrix[3] = glm::dvec4(by, 1.0);
+  return TransformObject{object, matrix};
+}
+
+TEST(LightEdits, ALightThatWasOffWhileThingsMovedIsThereWhenItIsOn) {
+  Engine engine = solvedRoom();
+  for (const char* light : {"globe", "spot"}) engine.apply(SwitchLight{light, false});
+  engine.update();
+  engine.apply(move("table", {0.1, 0.2, 0}));
+  engine.update();
+  engine.apply(move("box", {-0.1, 0.1, 0.1}));
+  engine.update();
+  for (const char* light : {"globe", "spot"}) engine.apply(SwitchLight{light, true});
+  const std::uint64_t rays = engine.solution().report().counts.raysVisibility;
+  engine.update();
+  EXPECT_EQ(engine.solution().report().counts.raysVisibility, rays);
+  test::expectValid(engine, "on");
+  test::expectAsSolved(engine, diffuseOnly(), 0.01, 0.03);
+}
+
+/// Sum over leaves of what a light brings them, and how many of its transfers there are. [W]
+double powerFrom(const Solution& s, const std::string& light, std::size_t& count) {
+  double sum = 0;
+  count = 0;
+  for (const LeafRow& row : s.transfers.rows())
+    for (const LeafTransfer& t : row.direct.transfers)
+      if (s.scene[s.elements.light[t.leaf.index()]].name == light) {
+        sum += double(s.elements.shape(row.leaf).area) * gray(t.T * s.elements.radiometry[t.leaf.index()].B);
+        ++count;
+      }
+  return sum;
+}
+
+TEST(LightEdits, ACurvedLampMayComeCloseToASurfaceThatItLights) {
+  Engine engine = solvedRoom();
+  for (int i = 0; i < 4; ++i) {  // up to 4 cm below the ceiling, where links split it
+    engine.apply(MoveLight{"globe", {-0.05, 0.02, 0.135}});
+    engine.update();
+  }
+  test::expectValid(engine, "close");
+  Engine fresh(engine.solution().scene(), diffuseOnly());
+  fresh.solve();
+  std::size_t count = 0;
+  const double expected = powerFrom(fresh.solution().get(), "globe", count);
+  EXPECT_NEAR(powerFrom(engine.solution().get(), "globe", count) / expected, 1.0, 0.02);
+}
+
+TEST(LightEdits, AMovedLampLeavesTheRowsOfOthersAlone) {
+  Engine engine = solvedRoom();
+  struct Known {
+    ElementId leaf;
+    std::vector<LeafTransfer> of;
+  };
+  const auto ofSpot = [&](const Solution& s, const LeafRow& row) {
+    std::vector<LeafTransfer> of;
+    for (const LeafTransfer& t : row.direct.transfers)
+      if (s.scene[s.elements.light[t.leaf.index()]].name == "spot") of.push_back(t);
+    return of;
+  };
+  std::vector<Known> before;
+  for (const LeafRow& row : engine.solution().get().transfers.rows())
+    if (auto of = ofSpot(engine.solution().get(), row); !of.empty()) before.push_back({row.leaf, std::move(of)});
+  ASSERT_GT(before.size(), 100u);
+  engine.apply(MoveLight{"globe", {0.05, -0.05, -0.05}});
+  engine.update();
+  const Solution& s = engine.solution().get();
+  std::size_t same = 0;
+  for (const LeafRow& row : s.transfers.rows())
+    for (const Known& k : before)
+      if (k.leaf == row.leaf) {
+        const auto of = ofSpot(s, row);
+        same += of.size() == k.of.size() && of[0].T == k.of[0].T;
+      }
+  EXPECT_GT(static_cast<double>(same), 0.9 * static_cast<double>(before.size()));
+  test::expectAsSolved(engine, diffuseOnly(), 0.01, 0.03);
+}
+
+}  // namespace
+}  // namespace deltalux
