@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/check.hpp"
 #include "base/random.hpp"
 #include "particles/surface_normal.hpp"
 
@@ -119,6 +120,7 @@ void addReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles
 
 void dropReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles) {
   if (sides.empty()) return;
+  DELTALUX_CHECK(std::is_sorted(sides.begin(), sides.end(), before), "in the order of surfaceSides()");
   const PrimitiveId last = sides.back().primitive;
   std::vector<char> asked(last.index() + 1, 0), reached(sides.size(), 0);
   for (const SurfaceSide& s : sides) asked[s.primitive.index()] = 1;

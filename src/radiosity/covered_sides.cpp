@@ -141,6 +141,7 @@ class Search {
           break;
         }
     }
+    std::sort(closed.begin(), closed.end());  // elements that have grown stand behind all others
     estimate(closed);
     std::vector<SurfaceSide> sides;
     for (const std::size_t i : closed)

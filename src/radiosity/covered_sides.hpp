@@ -16,6 +16,7 @@
 
 namespace deltalux {
 
+/// Both in the order of surfaceSides().
 struct CoveredSides {
   std::vector<SurfaceSide> uncovered;  // reached, without elements or with sleeping ones
   std::vector<SurfaceSide> covered;    // no longer reached, with elements
