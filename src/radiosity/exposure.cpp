@@ -10,10 +10,6 @@ namespace deltalux {
 
 namespace {
 
-bool stopsLight(const Material& m) {
-  return std::holds_alternative<Opaque>(m.surface) || std::holds_alternative<Mirror>(m.surface);
-}
-
 constexpr int kFewPoints = 16, kManyPoints = 64;  // of a leaf: at first, and when some are covered
 constexpr int kRays = 4;                          // of a point, all of which must meet sides without an element
 
@@ -48,7 +44,7 @@ bool Exposure::covered(const Vec3f& p, const Vec3f& normal, std::uint64_t key) c
     ray.origin = offsetOrigin(p, normal, w);
     ray.direction = w;
     const Hit hit = tracer_.closestHit(ray);
-    if (!hit || !stopsLight(scene_.materialOf(hit.primitive))) return false;
+    if (!hit || !std::holds_alternative<Opaque>(scene_.materialOf(hit.primitive).surface)) return false;
     if (locator_.side(hit.primitive, hit.triangle, hit.front).valid()) return false;
   }
   return true;

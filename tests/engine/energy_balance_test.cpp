@@ -48,8 +48,9 @@ TEST(EnergyBalance, OpenScenes) {
 }
 
 /// What solutions of our scenes lose or gain at the default error, in parts of all light. What is left is the noise of
-/// rows where there are few leaves, and K V where what is near is hidden in part (ring); single precision far from the
-/// origin (far_away), lengths over seven orders of magnitude (scales), surfaces in one place (coplanar).
+/// rows where there are few leaves, K V where what is near is hidden in part (ring), the floor under a mirror block
+/// that counts as lit (cornell-caustic); single precision far from the origin (far_away), lengths over seven orders of
+/// magnitude (scales), surfaces in one place (coplanar).
 struct Reached {
   const char* scene;
   double residue;
@@ -66,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Bundled, EnergyBalances,
                                          Reached{"nasty/mirror_corridor.rad", 1.5e-3},
                                          Reached{"nasty/sealed.rad", 1.5e-3}, Reached{"nasty/thin.rad", 1.5e-3},
                                          Reached{"plates/parallel.rad", 1.5e-3}, Reached{"cornell/cornell.rad", 3e-3},
-                                         Reached{"cornell-caustic/cornell-caustic.rad", 3e-3},
+                                         Reached{"cornell-caustic/cornell-caustic.rad", 4e-3},
                                          Reached{"ring/ring.rad", 3e-3}, Reached{"nasty/far_away.rad", 6e-3},
                                          Reached{"nasty/scales.rad", 8e-3}, Reached{"nasty/coplanar.rad", 15e-3}),
                          [](const auto& reached) {
