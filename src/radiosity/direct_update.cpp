@@ -9,6 +9,7 @@ namespace deltalux {
 
 namespace {
 
+constexpr float kMostGone = 0.5f;  // of a row's rays: with more to deal anew, all may be
 constexpr float kSamePlan = 2.0f;  // factor within which a row's weight stands, for its rays to be shared out well
 
 /// Weight that a term was dealt its rays for, in rays.
@@ -107,6 +108,8 @@ DirectUpdate DirectSampler::update(ElementId leaf, int rays, const LinkChanges& 
 /// the terms that were taken out.
 bool DirectSampler::sampleChanged(ElementId leaf, int rays, std::span<const LinkId> changed, float gone,
                                   TransferRow& row, DirectUpdate& update, std::uint64_t& traced) const {
+  const float all = static_cast<float>(rays);
+  if (gone > kMostGone * all) return false;
   std::vector<LinkId> active;
   std::vector<LinkId> tops;
   for (const LinkId id : changed) tops.push_back(toWholeLight(links_, elements_, id));
@@ -116,7 +119,6 @@ bool DirectSampler::sampleChanged(ElementId leaf, int rays, std::span<const Link
   const std::vector<Term> fresh = terms(leaf, senders_.over(active, leaf));
   float weight = 0;
   for (const Term& t : fresh) weight += t.known() ? 0.0f : t.weight;
-  const float all = static_cast<float>(rays);
   if (row.weightPerRay > 0) {
     const float now = all - gone + weight / row.weightPerRay;
     if (now > kSamePlan * all || kSamePlan * now < all) return false;
