@@ -1,6 +1,7 @@
 #include "caustics/caustics.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "base/check.hpp"
@@ -36,7 +37,12 @@ std::vector<std::span<const Impact>> bySide(std::vector<Impact>& impacts) {
 template <class Body>
 void forEachSide(const Scene& scene, const std::vector<std::span<const Impact>>& sides, const OtherLight& other,
                  double error, const Body& body) {
-  parallelFor(sides.size(), 1, [&](std::size_t i) {
+  std::vector<std::size_t> order(sides.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return sides[a].size() > sides[b].size(); });
+  parallelFor(sides.size(), 1, [&](std::size_t k) {  // those that take long come first
+    const std::size_t i = order[k];
     const Impact& first = sides[i].front();
     const std::size_t side = sideOf(first.primitive, first.front);
     body(i, scene[first.primitive].shape, CausticSettings{error, other.mean[side], other.darkest[side]});

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -36,6 +38,9 @@ std::vector<double> scaledBessel(double z, double negligible) {
 
 HeatFlow::HeatFlow(const CellGraph& graph, std::span<const float> conductivity, Openness open)
     : runs_(graph.runs()), weights_(graph.borders()), own_(graph.size(), 0.0f) {
+  for (std::uint32_t r = 0; r < runs_.size(); ++r)
+    if (r == 0 || runs_[r].first != runs_[r - 1].first) rows_.push_back(r);
+  rows_.push_back(static_cast<std::uint32_t>(runs_.size()));
   for (const CellGraph::Run& run : runs_)
     for (std::uint32_t k = 0; k < run.neighbours; ++k) {
       const std::uint32_t n = run.count, border = run.borders + k * n;
@@ -95,24 +100,29 @@ void addTerm(std::uint32_t count, float factor, const float* term, float* __rest
 
 }  // namespace
 
-/// out(channel, begin, count, X E of these cells) with X = 2 L / largest - 1, whose eigenvalues lie in [-1, 1].
+/// out(channel, begin, count, X E of these cells) with X = 2 L / largest - 1, whose eigenvalues lie in [-1, 1]; of
+/// several chunks at once.
 template <class Out>
 void HeatFlow::step(const Channels& from, const Out& out) const {
+  const std::size_t rows = rows_.size() - 1;
+  const std::size_t block = own_.size() < kWorth ? rows : rows * kWorth / (4 * own_.size()) + 1;
+  parallelFor(rows, std::max<std::size_t>(block, 1),
+              [&](std::size_t r) { stepRow(rows_[r], rows_[r + 1], from, out); });
+}
+
+/// Of runs of the same cells.
+template <class Out>
+void HeatFlow::stepRow(std::uint32_t first, std::uint32_t end, const Channels& from, const Out& out) const {
   float sums[kChunk];
-  for (std::size_t r = 0; r < runs_.size();) {
-    std::size_t next = r + 1;
-    while (next < runs_.size() && runs_[next].first == runs_[r].first) ++next;
-    const std::uint32_t end = runs_[r].first + runs_[r].count;
-    for (std::uint32_t begin = runs_[r].first; begin < end; begin += kChunk) {
-      const std::uint32_t count = std::min<std::uint32_t>(kChunk, end - begin);
-      for (std::size_t c = 0; c < from.size(); ++c) {
-        const float* const light = from[c].data();
-        for (std::uint32_t i = 0; i < count; ++i) sums[i] = own_[begin + i] * light[begin + i];
-        for (std::size_t k = r; k < next; ++k) addChunk(runs_[k], begin, count, light, sums);
-        out(c, begin, count, sums);
-      }
+  const std::uint32_t last = runs_[first].first + runs_[first].count;
+  for (std::uint32_t begin = runs_[first].first; begin < last; begin += kChunk) {
+    const std::uint32_t count = std::min<std::uint32_t>(kChunk, last - begin);
+    for (std::size_t c = 0; c < from.size(); ++c) {
+      const float* const light = from[c].data();
+      for (std::uint32_t i = 0; i < count; ++i) sums[i] = own_[begin + i] * light[begin + i];
+      for (std::uint32_t k = first; k < end; ++k) addChunk(runs_[k], begin, count, light, sums);
+      out(c, begin, count, sums);
     }
-    r = next;
   }
 }
 

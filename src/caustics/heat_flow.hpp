@@ -39,17 +39,21 @@ class HeatFlow {
   void relax(Channels& E, double time) const;
 
  private:
-  static constexpr std::size_t kChunk = 128;  // cells whose sums stay close by
+  static constexpr std::size_t kChunk = 128;   // cells whose sums stay close by
+  static constexpr std::size_t kWorth = 8192;  // cells, from which on rows are shared by threads
 
   void addChunk(const CellGraph::Run&, std::uint32_t begin, std::uint32_t count, const float* light,
                 float* __restrict sums) const;
   template <class Out>
   void step(const Channels& from, const Out& out) const;
+  template <class Out>
+  void stepRow(std::uint32_t first, std::uint32_t end, const Channels& from, const Out& out) const;
 
   std::span<const CellGraph::Run> runs_;
-  std::vector<float> weights_;  // by border, relative to the largest eigenvalue
-  std::vector<float> own_;      // what a cell keeps
-  double largest_ = 0;          // bound of L's eigenvalues
+  std::vector<std::uint32_t> rows_;  // index of the first run of every row of cells, and of the end
+  std::vector<float> weights_;       // by border, relative to the largest eigenvalue
+  std::vector<float> own_;           // what a cell keeps
+  double largest_ = 0;               // bound of L's eigenvalues
 };
 
 }  // namespace deltalux

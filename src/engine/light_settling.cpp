@@ -81,13 +81,19 @@ void LightSettling::follow(const Parts& parts, const Elements& elements) {
   for (std::size_t i = 0; i < rows.size(); ++i) rowOf_[rows[i].leaf.index()] = static_cast<std::uint32_t>(i);
 }
 
+/// By many threads at once, most of which find it marked: then nothing is written that others read.
+void LightSettling::markRead(ElementId sender) {
+  const std::atomic_ref read(read_[sender.index()]);
+  if (!read.load(std::memory_order_relaxed)) read.store(1, std::memory_order_relaxed);
+}
+
 void LightSettling::learn(const LeafRow& row) {
   std::array<float, kRegions> factor{};
   SceneRegions::Set regions = 0;
   for (const LeafTransfer& t : row.indirect.transfers) {
     factor[regions_.of(t.leaf)] += gray(t.T);
     regions |= regions_.setOf(t.leaf);
-    std::atomic_ref(read_[t.leaf.index()]).store(1, std::memory_order_relaxed);
+    markRead(t.leaf);
   }
   const std::size_t e = row.leaf.index();
   from_[e] = regions;
@@ -99,7 +105,7 @@ void LightSettling::learn(ElementId surface, const Parts& parts, const Elements&
   SceneRegions::Set regions = 0;
   parts.particles.visitSenders(surface, elements, [&](ElementId sender) {
     regions |= regions_.setOf(sender);
-    std::atomic_ref(read_[sender.index()]).store(1, std::memory_order_relaxed);
+    markRead(sender);
   });
   particlesFrom_[surface.index()] = regions;
 }

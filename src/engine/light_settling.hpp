@@ -56,6 +56,7 @@ class LightSettling {
 
   void follow(const Parts&, const Elements&);
   const LeafRow& rowOf(ElementId leaf, const Parts& parts) const { return parts.rows.rows()[rowOf_[leaf.index()]]; }
+  void markRead(ElementId sender);
   void learn(const LeafRow&);
   void learn(ElementId surface, const Parts&, const Elements&);
   Work firstWork(const Parts&, Elements&, const LightChanges&);
