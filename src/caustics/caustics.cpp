@@ -7,6 +7,7 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "caustics/adaptive_textures.hpp"
+#include "particles/side_index.hpp"
 
 namespace deltalux {
 
@@ -14,18 +15,16 @@ namespace {
 
 constexpr double kDarkest = 0.1;  // of a side's area
 
-std::size_t sideOf(PrimitiveId primitive, bool front) { return 2 * primitive.index() + (front ? 0 : 1); }
-
 /// Sorts the impacts by side, in the order that they are in; runs of impacts on one side.
 std::vector<std::span<const Impact>> bySide(std::vector<Impact>& impacts) {
   std::size_t count = 0;
-  for (const Impact& i : impacts) count = std::max(count, sideOf(i.primitive, i.front) + 1);
+  for (const Impact& i : impacts) count = std::max(count, sideIndex(i.primitive, i.front) + 1);
   std::vector<std::size_t> first(count + 1, 0);
-  for (const Impact& i : impacts) ++first[sideOf(i.primitive, i.front) + 1];
+  for (const Impact& i : impacts) ++first[sideIndex(i.primitive, i.front) + 1];
   for (std::size_t s = 0; s < count; ++s) first[s + 1] += first[s];
   std::vector<std::size_t> next(first.begin(), first.end());
   std::vector<Impact> sorted(impacts.size());
-  for (const Impact& i : impacts) sorted[next[sideOf(i.primitive, i.front)]++] = i;
+  for (const Impact& i : impacts) sorted[next[sideIndex(i.primitive, i.front)]++] = i;
   impacts = std::move(sorted);
   std::vector<std::span<const Impact>> sides;
   for (std::size_t s = 0; s < count; ++s)
@@ -44,7 +43,7 @@ void forEachSide(const Scene& scene, const std::vector<std::span<const Impact>>&
   parallelFor(sides.size(), 1, [&](std::size_t k) {  // those that take long come first
     const std::size_t i = order[k];
     const Impact& first = sides[i].front();
-    const std::size_t side = sideOf(first.primitive, first.front);
+    const std::size_t side = sideIndex(first.primitive, first.front);
     body(i, scene[first.primitive].shape, CausticSettings{error, other.mean[side], other.darkest[side]});
   });
 }
@@ -57,7 +56,7 @@ struct LitPart {
 /// Puts them in order, and the index with them.
 Caustics indexed(std::vector<SurfaceCaustics> surfaces, std::size_t primitives) {
   std::sort(surfaces.begin(), surfaces.end(), [](const SurfaceCaustics& a, const SurfaceCaustics& b) {
-    return sideOf(a.primitive, a.front) < sideOf(b.primitive, b.front);
+    return sideIndex(a.primitive, a.front) < sideIndex(b.primitive, b.front);
   });
   Caustics result;
   result.ofPrimitive.assign(primitives, {Caustics::kNone, Caustics::kNone});
@@ -78,8 +77,8 @@ OtherLight otherLight(const Scene& scene, const Elements& elements) {
     const ElementTopology& t = elements.topology[i];
     if (!elements.isReceivingLeaf(ElementId(i))) continue;
     const ElementLight& l = elements.radiometry[i];
-    parts.push_back(
-        {sideOf(elements.domain[i].primitive, t.front), gray(l.direct + l.indirect), elements.geometry[i].litArea()});
+    parts.push_back({sideIndex(elements.domain[i].primitive, t.front), gray(l.direct + l.indirect),
+                     elements.geometry[i].litArea()});
   }
   std::sort(parts.begin(), parts.end(),
             [](const LitPart& a, const LitPart& b) { return a.side != b.side ? a.side < b.side : a.E < b.E; });
@@ -98,7 +97,7 @@ std::vector<double> meanOtherLight(const Scene& scene, const Elements& elements)
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const ElementId e(i);
     if (!elements.isInputLevel(e) || elements.at(e).emitter || elements.at(e).blocker) continue;
-    const std::size_t side = sideOf(elements.domain[i].primitive, elements.at(e).front);
+    const std::size_t side = sideIndex(elements.domain[i].primitive, elements.at(e).front);
     const double own = elements.shape(e).area;
     flux[side] += own * gray(elements.radiometry[i].direct + elements.radiometry[i].indirect);
     area[side] += own;
@@ -139,13 +138,13 @@ SurfaceSides sidesWithTextures(const Scene& scene, const Elements& elements, std
               });
   SurfaceSides result(2 * scene.primitives.size(), false);
   for (std::size_t i = 0; i < sides.size(); ++i)
-    if (chosen[i]) result[sideOf(sides[i].front().primitive, sides[i].front().front)] = true;
+    if (chosen[i]) result[sideIndex(sides[i].front().primitive, sides[i].front().front)] = true;
   return result;
 }
 
 Caustics makeCaustics(const Scene& scene, const Elements& elements, std::vector<Impact> impacts, double error,
                       const SurfaceSides& chosen) {
-  std::erase_if(impacts, [&](const Impact& i) { return !chosen[sideOf(i.primitive, i.front)]; });
+  std::erase_if(impacts, [&](const Impact& i) { return !chosen[sideIndex(i.primitive, i.front)]; });
   const auto sides = bySide(impacts);
   std::vector<SurfaceCaustics> made(sides.size());
   forEachSide(scene, sides, otherLight(scene, elements), error,
@@ -171,7 +170,7 @@ std::size_t remakeCaustics(Caustics& caustics, const Scene& scene, const Element
               });
   std::vector<SurfaceCaustics> all;
   for (SurfaceCaustics& s : caustics.surfaces)
-    if (!remade[sideOf(s.primitive, s.front)]) all.push_back(std::move(s));
+    if (!remade[sideIndex(s.primitive, s.front)]) all.push_back(std::move(s));
   std::size_t count = 0;
   for (std::optional<SurfaceCaustics>& s : made)
     if (s) count += s->textures.size(), all.push_back(std::move(*s));

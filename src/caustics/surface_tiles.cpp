@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "particles/side_index.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -11,17 +13,13 @@ namespace {
 constexpr double kPerTile = 64;  // particles
 constexpr double kMost = 16;     // tiles across
 
-std::size_t sideOf(const Particles& p, std::uint32_t impact) {
-  return 2 * p.primitive[impact].index() + (p.triangleAndSide[impact] & 1);
-}
-
 }  // namespace
 
 SurfaceTiles::SurfaceTiles(const Scene& scene, const Particles& p) : scene_(scene) {
   sides_.resize(2 * scene.primitives.size());
   std::vector<std::uint32_t> impacts(sides_.size(), 0);
   for (std::size_t path = 0; path < p.paths(); ++path)
-    for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) ++impacts[sideOf(p, i)];
+    for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) ++impacts[sideIndex(p, i)];
   for (std::size_t side = 0; side < sides_.size(); ++side)
     if (impacts[side] > 0)
       cut(side,
@@ -35,7 +33,7 @@ void SurfaceTiles::cut(std::size_t side, std::uint32_t across) {
 }
 
 std::uint32_t SurfaceTiles::tileOf(const Particles& p, std::uint32_t impact) {
-  const std::size_t index = sideOf(p, impact);
+  const std::size_t index = sideIndex(p, impact);
   if (sides_[index].across == 0) cut(index, 1);
   const Side& side = sides_[index];
   if (side.across == 1) return side.first;

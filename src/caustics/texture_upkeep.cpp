@@ -4,6 +4,7 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "particles/side_index.hpp"
 
 namespace deltalux {
 
@@ -18,10 +19,6 @@ constexpr double kStrays = 2;             // particles that are no change where 
 constexpr double kOtherNoise = 1.25;      // times more or less noise matters: another reconstruction
 constexpr float kTexels = 256;            // across a side, at most: impacts that far apart are different ones
 constexpr std::size_t kParts = 8;         // of all impacts, summed apart
-
-std::size_t sideOf(const Particles& p, std::uint32_t impact) {
-  return 2 * p.primitive[impact].index() + (p.triangleAndSide[impact] & 1);
-}
 
 /// 1 for impacts at one place, 0 for those that textures tell apart.
 float sameness(const Particles& p, std::uint32_t a, std::uint32_t b) {
@@ -78,7 +75,7 @@ TextureUpkeep::Report TextureUpkeep::follow(const ParticleUpdate& update, const 
   Report report;
   report.judged = static_cast<std::uint64_t>(std::count(sides.begin(), sides.end(), 1));
   for (SurfaceCaustics& s : caustics.surfaces)
-    if (const std::size_t side = 2 * s.primitive.index() + (s.front ? 0 : 1); !sides[side])
+    if (const std::size_t side = sideIndex(s.primitive, s.front); !sides[side])
       report.scaled += rescale(s, fluxOf(side), kMatters * error_);
   report.rebuilt = remakeCaustics(caustics, parts_.scene, parts_.elements, landedOn(sides, transfer), error_, sides);
   remember(sides, background);
@@ -192,7 +189,7 @@ std::vector<Impact> TextureUpkeep::landedOn(const std::vector<char>& sides, cons
   inParts(p.paths(), [&](std::size_t part, std::size_t begin, std::size_t end) {
     for (std::size_t path = begin; path < end; ++path)
       for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
-        if (!sides[sideOf(p, i)]) continue;
+        if (!sides[sideIndex(p, i)]) continue;
         const Rgb power = p.links[p.link[path]].scale * transfer.power(path, parts_.elements, parts_.scene);
         parts[part].push_back({p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0, p.uv[i],
                                power * p.throughput[i]});

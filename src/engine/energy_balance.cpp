@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cosine_direction.hpp"
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
 #include "hierarchy/patch.hpp"
@@ -63,9 +64,8 @@ Outcome diffuseLight(const Solution& s) {
         static_cast<std::size_t>(std::upper_bound(power.begin() + 1, power.end() - 1, u) - power.begin() - 1);
     const Rgb B = elements.radiometry[e].B;
     const PatchPoint x = samplePatch(elements, s.scene, ElementId(e), at.x, at.y);
-    const double r = std::sqrt(to.x), phi = 2 * kPi * to.y;
     Ray ray;
-    ray.direction = Vec3f(Frame(Vec3(x.normal)).toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - to.x)}));
+    ray.direction = Vec3f(cosineDirection(Frame(Vec3(x.normal)), to.x, to.y));
     ray.origin = offsetOrigin(x.position, x.normal, ray.direction);
     Outcome outcome;
     RgbSum flux = total / kRays / double(gray(B)) * RgbSum(B);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/check.hpp"
 #include "engine/state.hpp"
 #include "radiosity/push_pull.hpp"
 

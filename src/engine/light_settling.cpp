@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/parallel.hpp"
+#include "hierarchy/patch.hpp"
 #include "radiosity/push_pull.hpp"
 
 namespace deltalux {
@@ -23,11 +24,6 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 
 bool differ(const Rgb& a, const Rgb& b) {
   return maxChannel(glm::abs(a - b)) > kSame * std::max(maxChannel(a), maxChannel(b));
-}
-
-ElementId surfaceOf(const Elements& elements, ElementId e) {
-  while (elements.at(e).depth > 0) e = elements.at(e).parent;
-  return e;
 }
 
 void addLeaves(const Elements& elements, ElementId top, std::vector<ElementId>& leaves) {

@@ -8,6 +8,7 @@
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
 #include "particles/mesh_for_particles.hpp"
+#include "particles/side_index.hpp"
 #include "radiosity/direct_senders.hpp"
 #include "radiosity/push_pull.hpp"
 
@@ -111,7 +112,7 @@ bool Engine::State::subdivideWhereParticlesLanded(StepReport& step) {
   if (!tracing) return false;
   if (backlog.landed.paths.empty() && !backlog.landed.all) return false;
   std::vector<bool> shown(2 * s.scene.primitives.size(), false);
-  for (const SurfaceCaustics& c : s.caustics.surfaces) shown[2 * c.primitive.index() + (c.front ? 0 : 1)] = true;
+  for (const SurfaceCaustics& c : s.caustics.surfaces) shown[sideIndex(c.primitive, c.front)] = true;
   const std::size_t split = subdivideForParticles(s.elements, s.scene, s.particles, shown,
                                                   sidesThatKeepTheirMesh(s.scene, s.particles, backlog.landed));
   step.times.particles += time.seconds();

@@ -10,6 +10,12 @@ struct PatchPoint {
   Vec3f position, normal;
 };
 
+/// The input-level patch that a patch is part of.
+inline ElementId surfaceOf(const Elements& elements, ElementId patch) {
+  while (elements.at(patch).depth > 0) patch = elements.at(patch).parent;
+  return patch;
+}
+
 /// The point at parameters (u,v) of the patch's primitive (of its triangle, for meshes).
 PatchPoint pointOn(const Elements&, const Scene&, ElementId patch, double u, double v);
 

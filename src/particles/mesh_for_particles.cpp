@@ -5,6 +5,7 @@
 #include "base/parallel.hpp"
 #include "hierarchy/patch.hpp"
 #include "hierarchy/side_locator.hpp"
+#include "particles/side_index.hpp"
 
 namespace deltalux {
 
@@ -61,7 +62,7 @@ std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const 
     for (std::size_t e = 0; e < tallies.size(); ++e) {
       const Tally& t = tallies[e];
       if (t.count < kFewest) continue;
-      const bool shown = coarse[2 * elements.domain[e].primitive.index() + (elements.topology[e].front ? 0 : 1)];
+      const bool shown = coarse[sideIndex(elements.domain[e].primitive, elements.topology[e].front)];
       if (shown && elements.topology[e].depth >= kShownDepth) continue;
       const double A = elements.geometry[e].area;
       Quarter whole;

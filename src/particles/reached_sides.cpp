@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/check.hpp"
+#include "base/cosine_direction.hpp"
 #include "base/random.hpp"
 #include "particles/surface_normal.hpp"
 
@@ -48,9 +49,9 @@ class Lookout {
   bool sees(const Vec3f& p, const Vec3f& normal, Rng& rng, bool again = true) const {
     const Frame frame{Vec3(normal)};
     for (int k = 0; k < kRays; ++k) {
-      const double u = rng.uniform(), r = std::sqrt(u), phi = 2 * kPi * rng.uniform();
+      const double u = rng.uniform();
       Ray ray;
-      ray.direction = Vec3f(frame.toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)}));
+      ray.direction = Vec3f(cosineDirection(frame, u, rng.uniform()));
       ray.origin = offsetOrigin(p, normal, ray.direction);
       const Hit hit = tracer_.closestHit(ray);
       if (!hit || !stopsLight(scene_.materialOf(hit.primitive))) return true;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/random.hpp"
+#include "particles/side_index.hpp"
 #include "scene/edit/plan.hpp"
 
 namespace deltalux {
@@ -140,7 +141,7 @@ void Senders::addSurfaces(double limit) {
   std::sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   addTree(std::move(cells), kSurfaceSeed);
   for (std::size_t i = cells_.size(); i-- > surfaceCells_;)
-    firstCell_[2 * cells_[i].primitive.index() + (cells_[i].front ? 0 : 1)] = static_cast<std::uint32_t>(i);
+    firstCell_[sideIndex(cells_[i].primitive, cells_[i].front)] = static_cast<std::uint32_t>(i);
 }
 
 std::uint32_t Senders::cellOf(PrimitiveId p, std::uint32_t triangle, bool front, const Vec2& uv) const {

@@ -5,6 +5,7 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "hierarchy/patch.hpp"
 #include "hierarchy/side_locator.hpp"
 #include "particles/surface_normal.hpp"
 
@@ -26,11 +27,6 @@ std::vector<ElementId> surfacesOf(const Elements& elements) {
   for (std::size_t i = 0; i < elements.size(); ++i)
     if (elements.receives(ElementId(i)) && elements.topology[i].depth == 0) surfaces.emplace_back(i);
   return surfaces;
-}
-
-ElementId surfaceOf(const Elements& elements, ElementId e) {
-  while (elements.at(e).depth > 0) e = elements.at(e).parent;
-  return e;
 }
 
 bool earlier(const RetracedPath& a, const RetracedPath& b) { return a.path < b.path; }

@@ -4,6 +4,7 @@
 
 #include "radiosity/direct_sampler.hpp"
 #include "radiosity/links_below.hpp"
+#include "radiosity/row_terms.hpp"
 
 namespace deltalux {
 
@@ -72,30 +73,26 @@ DirectUpdate DirectSampler::update(ElementId leaf, int rays, const LinkChanges& 
   next.weightPerRay = row.weightPerRay, next.reach = row.reach;
   next.terms.reserve(row.terms.size()), next.transfers.reserve(row.transfers.size());
   float gone = 0;
-  auto at = row.transfers.begin();
   auto a = again.begin();
-  for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
-    const RowTerm& t = row.terms[i];
-    const auto begin = at;
-    at += t.count;
+  forEachTerm(row, [&](std::uint32_t i, const RowTerm& t, std::span<const LeafTransfer> transfers) {
     const bool retraced = a != again.end() && *a == i;
     a += retraced;
     if (!changed.empty() && dealtOver(links, changed, space, t)) {
       gone += raysOf(t);
-      continue;
+      return;
     }
     next.terms.push_back(t);
     if (!retraced) {
-      next.transfers.insert(next.transfers.end(), begin, at);
-      continue;
+      next.transfers.insert(next.transfers.end(), transfers.begin(), transfers.end());
+      return;
     }
     const Passage found = tracedAgain(leaf, t, traced);
     remember(t.sender, found, next);
-    const Rgb T = t.gain * found.T, before = t.count > 0 ? begin->T : Rgb(0.0f);
+    const Rgb T = t.gain * found.T, before = transfers.empty() ? Rgb(0.0f) : transfers[0].T;
     update.change += std::abs(gray((T - before) * elements_.radiometry[t.sender.index()].B));
     next.terms.back().count = !isBlack(T);
     if (!isBlack(T)) next.transfers.push_back({t.sender, T});
-  }
+  });
   if (!changed.empty() && !sampleChanged(leaf, rays, changed, gone, next, update, traced)) {
     update.anew = true;
     return update;

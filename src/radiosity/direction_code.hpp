@@ -1,6 +1,8 @@
 #pragma once
 // Directions in two bytes: a grid of 256 x 256 on the octahedral map. What a row remembers of its rays, so that the few
 // that may go where something has moved are found without looking at the others.
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <deltalux/math.hpp>
 

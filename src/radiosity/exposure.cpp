@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/cosine_direction.hpp"
 #include "base/random.hpp"
 #include "hierarchy/patch.hpp"
 #include "radiosity/sender_sampling.hpp"
@@ -38,8 +39,7 @@ bool Exposure::covered(const Vec3f& p, const Vec3f& normal, std::uint64_t key) c
   const Frame frame{Vec3(normal)};
   for (int k = 0; k < kRays; ++k) {
     const auto u = stratified4(key, k);
-    const double r = std::sqrt(u[0]), phi = 2 * kPi * u[1];
-    const Vec3f w(frame.toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u[0])}));
+    const Vec3f w(cosineDirection(frame, u[0], u[1]));
     Ray ray;
     ray.origin = offsetOrigin(p, normal, w);
     ray.direction = w;

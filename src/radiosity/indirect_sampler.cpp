@@ -229,7 +229,11 @@ void IndirectSampler::remember(ElementId leaf, std::size_t term, const SenderSam
 }
 
 void IndirectSampler::append(ElementId leaf, const Dealt& d, TransferRow& row, std::uint64_t& traced) const {
-  const SenderSample s = known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index);
+  append(leaf, d, known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index), row, traced);
+}
+
+void IndirectSampler::append(ElementId leaf, const Dealt& d, const SenderSample& s, TransferRow& row,
+                             std::uint64_t& traced) const {
   const Rgb T = transfer(d, s, traced);
   const bool some = !isBlack(T);
   row.terms.push_back(

@@ -80,9 +80,10 @@ class IndirectSampler {
   SenderSample shoot(ElementId leaf, ElementId sender, int index) const;
   /// T of a dealt term by its ray; black where it brings nothing.
   Rgb transfer(const Dealt&, const SenderSample&, std::uint64_t& traced) const;
-  /// Notes where the ray of the row's last term goes, or of one of them.
+  /// Notes where the ray of one of the row's terms goes.
   void remember(ElementId leaf, std::size_t term, const SenderSample&, TransferRow&) const;
   void append(ElementId leaf, const Dealt&, TransferRow&, std::uint64_t& traced) const;
+  void append(ElementId leaf, const Dealt&, const SenderSample&, TransferRow&, std::uint64_t& traced) const;
   /// A term of a row that has to be traced again, and its ray.
   struct Again {
     std::uint32_t term;

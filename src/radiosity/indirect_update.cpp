@@ -4,6 +4,7 @@
 
 #include "radiosity/indirect_sampler.hpp"
 #include "radiosity/links_below.hpp"
+#include "radiosity/row_terms.hpp"
 
 namespace deltalux {
 
@@ -21,8 +22,7 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(ElementId leaf, con
       const ElementGeometry& s = elements_.shape(t.sender);
       if (t.clear || !space.meets(r.center, r.radius, s.center, s.radius)) continue;
     }
-    const bool known = t.clear && exact(t.sender);
-    const SenderSample sample = known ? SenderSample{} : shoot(leaf, t.sender, t.index);
+    const SenderSample sample = t.clear && exact(t.sender) ? SenderSample{} : shoot(leaf, t.sender, t.index);
     if (moved || (sample.leaf.valid() && space.meets(sample.ray))) out.push_back({i, sample});
   }
   return out;
@@ -46,24 +46,19 @@ TransferRow IndirectSampler::kept(ElementId leaf, const LinkChanges& links, std:
   next.weightPerRay = row.weightPerRay, next.reach = row.reach;
   next.terms.reserve(row.terms.size()), next.directions.reserve(row.terms.size());
   next.transfers.reserve(row.transfers.size());
-  auto at = row.transfers.begin();
   auto a = again.begin();
-  for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
-    const RowTerm& t = row.terms[i];
-    const auto begin = at;
-    at += t.count;
-    const bool retraced = a != again.end() && a->term == i;
-    a += retraced;
+  forEachTerm(row, [&](std::uint32_t i, const RowTerm& t, std::span<const LeafTransfer> transfers) {
+    const auto retraced = a != again.end() && a->term == i ? a++ : again.end();
     const LinkChange change = changeOf(links, t.link);
-    if (change == LinkChange::Changed || (change == LinkChange::Touched && coveredBy(changed, t))) continue;
-    if (retraced) {
-      append(leaf, dealt(leaf, t), next, traced);
-      continue;
+    if (change == LinkChange::Changed || (change == LinkChange::Touched && coveredBy(changed, t))) return;
+    if (retraced != again.end()) {
+      append(leaf, dealt(leaf, t), retraced->sample, next, traced);
+      return;
     }
     next.terms.push_back(t);
     next.directions.push_back(row.directions[i]);
-    next.transfers.insert(next.transfers.end(), begin, at);
-  }
+    next.transfers.insert(next.transfers.end(), transfers.begin(), transfers.end());
+  });
   return next;
 }
 

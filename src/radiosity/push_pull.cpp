@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hierarchy/patch.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -12,8 +14,7 @@ constexpr float kLeast = 1e-12f;
 
 /// The same place on the other side of a surface, at no finer level; invalid when that side has no element.
 ElementId otherSide(const Elements& elements, ElementId leaf) {
-  ElementId input = leaf;
-  while (elements.at(input).depth > 0) input = elements.at(input).parent;
+  const ElementId input = surfaceOf(elements, leaf);
   const PatchDomain &d = elements.domain[leaf.index()], &top = elements.domain[input.index()];
   const ElementId parent = elements.at(input).parent;
   ElementId other;

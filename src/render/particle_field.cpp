@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/parallel.hpp"
+#include "particles/side_index.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux {
@@ -62,7 +63,7 @@ bool onSurface(const Shape& shape, const Vec3& q) {
 ParticleField::ParticleField(const Solution& s) : scene_(s.scene), tracer_(*s.tracer) {
   const std::vector<Impact> all = impacts(s.particles, s.elements, s.scene);
   begin_.assign(2 * scene_.primitives.size() + 1, 0);
-  const auto group = [](const Impact& i) { return 2 * i.primitive.index() + (i.front ? 0 : 1); };
+  const auto group = [](const Impact& i) { return sideIndex(i.primitive, i.front); };
   for (const Impact& i : all) ++begin_[group(i) + 1];
   for (std::size_t g = 1; g < begin_.size(); ++g) begin_[g] += begin_[g - 1];
   landings_.resize(all.size());
@@ -127,7 +128,7 @@ void ParticleField::search(std::uint32_t begin, std::uint32_t end, Query& q) con
 }
 
 Rgb ParticleField::at(PrimitiveId primitive, bool front, const Vec3& position, const Vec3& normal) const {
-  const std::size_t group = 2 * primitive.index() + (front ? 0 : 1);
+  const std::size_t group = sideIndex(primitive, front);
   if (begin_[group] == begin_[group + 1]) return Rgb(0.0f);
   Query q;
   q.primitive = primitive, q.position = position, q.normal = normal;

@@ -2,6 +2,7 @@
 #include <deltalux/render.hpp>
 
 #include "base/check.hpp"
+#include "base/cosine_direction.hpp"
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
 #include "radiosity/indirect_sampler.hpp"
@@ -137,10 +138,9 @@ class LightMeter {
       const std::uint64_t own = combineKeys(key, batches);
       for (std::uint32_t i = 0; i < kGatherBatch; ++i) {
         const UnitPair u = scrambledSobol(i, own);
-        const double r = std::sqrt(u.x), phi = 2 * kPi * u.y;
         EyeRay eye;
         eye.ray.origin = Vec3f(x.position);
-        eye.ray.direction = Vec3f(frame.toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u.x)}));
+        eye.ray.direction = Vec3f(cosineDirection(frame, u.x, u.y));
         eye.emitters = false;  // lights in plain view are measured apart
         eye.key = own, eye.index = i;
         batch += RgbSum(paths_.radiance(eye));
