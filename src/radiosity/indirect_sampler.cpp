@@ -31,14 +31,13 @@ float leastKernel(const Elements& elements, const Vec3f& x, ElementId sender) {
   return kLeastKernel * (elements.isCluster(sender) ? 1.0f : g.area / float(kPi)) / squared;
 }
 
-/// Chance that light passes, as the link's rays leave it: one that saw nothing may still be open. 1: it surely passes.
-float openness(const Link& l) {
+}  // namespace
+
+float IndirectSampler::openness(const Link& l) {
   if (l.visibility == Visibility::Clear) return 1.0f;
   const auto n = static_cast<float>(l.samples);
   return (maxChannel(l.V) * n + 0.5f) / (n + 1.0f);
 }
-
-}  // namespace
 
 IndirectSampler::IndirectSampler(const Scene& scene, const Elements& elements, const Links& links,
                                  const RayTracer& tracer)
@@ -262,7 +261,7 @@ TransferRow IndirectSampler::atLeaf(ElementId leaf, int rays, std::uint64_t& tra
   return row;
 }
 
-void IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> changed, TransferRow& row,
+bool IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> changed, TransferRow& row,
                                   std::uint64_t& traced) const {
   const auto kernelOf = [&](ElementId s, bool clear) { return kernelAtLeaf(leaf, s, clear); };
   std::vector<LinkId> active;
@@ -274,7 +273,7 @@ void IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> change
   float sum = 0;
   for (const Term& t : whole) sum += t.weight;
   const float step = std::max(row.weightPerRay * level(leaf), sum / kMostRays);
-  if (!(step > 0)) return;
+  if (!(step > 0)) return false;
   const auto terms = apart(leaf, std::move(whole), step, kernelOf);
   double unknown = 0;
   for (const Term& t : terms) unknown += known(t) ? 0.0f : t.weight;
@@ -282,7 +281,9 @@ void IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> change
   std::uint64_t key = elements_.key[leaf.index()];
   for (const Term& t : terms) key = combineKeys(key, elements_.key[t.sender.index()]);
   const int rays = static_cast<int>(unknown / step + toUnit(mix64(key)));
+  const std::size_t before = row.terms.size();
   deal(leaf, center, terms, step, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, row, traced); });
+  return row.terms.size() > before;
 }
 
 Rgb IndirectSampler::atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const {

@@ -36,7 +36,9 @@ class IndirectSampler {
   TransferRow atLeaf(ElementId leaf, int rays, std::uint64_t& traced) const;
   /// Makes those terms anew whose link is another by now, whose sender moved, or whose ray meets what moved; the others
   /// stay. `changed`: the topmost changed links that arrive at the leaf or above it. Returns whether it did.
-  bool update(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed, const SpaceChange&,
+  /// The row of a leaf that
+  /// moved is made anew by at most `rays` where too little of it is left, or its rays have grown too uneven.
+  bool update(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed, const SpaceChange&, int rays,
               TransferRow&, std::uint64_t& traced) const;
   /// Irradiance at a point of a leaf patch (unit normal) from the leaves' radiosities.
   Rgb atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const;
@@ -91,19 +93,20 @@ class IndirectSampler {
   };
   /// In ascending order.
   std::vector<Again> meeting(ElementId leaf, const SpaceChange&, const TransferRow&) const;
+  std::vector<Again> moved(ElementId leaf, const TransferRow&) const;
+  bool uneven(ElementId leaf, std::span<const Again>, const TransferRow&) const;
   bool coveredBy(std::span<const LinkId> changed, const RowTerm&) const;
   /// What a term of a row was dealt, by today's kernel.
   Dealt dealt(ElementId leaf, const RowTerm&) const;
   void retrace(ElementId leaf, std::span<const Again>, TransferRow&, std::uint64_t& traced) const;
-  /// The row without terms over changed links.
-  TransferRow kept(ElementId leaf, const LinkChanges&, std::span<const LinkId> changed, std::span<const Again>,
-                   const TransferRow&, std::uint64_t& traced) const;
-  /// Appends the terms over changed links.
-  void dealChanged(ElementId leaf, std::span<const LinkId> changed, TransferRow&, std::uint64_t& traced) const;
+  /// Appends the terms over changed links; false when none get rays.
+  bool dealChanged(ElementId leaf, std::span<const LinkId> changed, TransferRow&, std::uint64_t& traced) const;
   float kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const;
   bool exact(ElementId sender) const;
   /// Whether a term needs no ray.
   bool known(const Term& t) const { return t.open >= 1.0f && exact(t.sender); }
+  /// Chance that light passes, as the link's rays leave it: one that saw nothing may still be open. 1: it surely passes.
+  static float openness(const Link&);
   float faintest(ElementId receiver) const;
   float level(ElementId receiver) const;
   float strength(ElementId receiver, ElementId sender) const;

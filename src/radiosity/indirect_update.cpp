@@ -1,6 +1,7 @@
 // What a move does to a row of indirect light: terms over changed links go, and those of links that stand are looked at
 // in the directions in which something has moved.
 #include <algorithm>
+#include <cmath>
 
 #include "radiosity/indirect_sampler.hpp"
 #include "radiosity/links_below.hpp"
@@ -8,13 +9,20 @@
 
 namespace deltalux {
 
+namespace {
+
+constexpr float kMostGone = 0.5f;  // of the rays of a leaf that has moved: with fewer left, all are dealt anew
+constexpr double kUneven = 5.0;    // so they are when the mean square of what each may bring is this many shares'
+
+}  // namespace
+
 std::vector<IndirectSampler::Again> IndirectSampler::meeting(ElementId leaf, const SpaceChange& space,
                                                              const TransferRow& row) const {
   std::vector<Again> out;
   const ElementGeometry& r = elements_.shape(leaf);
   if (elements_.at(leaf).flat && space.behind(r.center, r.normal)) return out;
   std::vector<std::uint32_t> candidates;
-  space.meetsRays(r.center, r.radius, row.directions, candidates);
+  space.meetsRays(r, row.directions, candidates);
   for (const std::uint32_t i : candidates) {
     const RowTerm& t = row.terms[i];
     const bool moved = space.moved(t.sender);
@@ -29,37 +37,48 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(ElementId leaf, con
 }
 
 bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed,
-                             const SpaceChange& space, TransferRow& row, std::uint64_t& traced) const {
-  const std::vector<Again> again = meeting(leaf, space, row);
-  if (changed.empty()) {
-    retrace(leaf, again, row, traced);
-    return !again.empty();
+                             const SpaceChange& space, int rays, TransferRow& row, std::uint64_t& traced) const {
+  const auto stale = [&](const RowTerm& t) {
+    const LinkChange change = changeOf(links, t.link);
+    return change == LinkChange::Changed || (change == LinkChange::Touched && coveredBy(changed, t));
+  };
+  const bool gone = !changed.empty() && drop(row, stale);
+  const std::vector<Again> again = space.moved(leaf) ? moved(leaf, row) : meeting(leaf, space, row);
+  if (space.moved(leaf)) {
+    if (static_cast<float>(row.terms.size()) < kMostGone * static_cast<float>(rays) || uneven(leaf, again, row)) {
+      row = atLeaf(leaf, rays, traced);
+      return true;
+    }
+    row.reach = {}, row.reach.add(elements_.shape(leaf));
   }
-  row = kept(leaf, links, changed, again, row, traced);
-  dealChanged(leaf, changed, row, traced);
-  return true;
+  retrace(leaf, again, row, traced);
+  const bool dealt = !changed.empty() && dealChanged(leaf, changed, row, traced);
+  return gone || dealt || !again.empty();
 }
 
-TransferRow IndirectSampler::kept(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed,
-                                  std::span<const Again> again, const TransferRow& row, std::uint64_t& traced) const {
-  TransferRow next;
-  next.weightPerRay = row.weightPerRay, next.reach = row.reach;
-  next.terms.reserve(row.terms.size()), next.directions.reserve(row.terms.size());
-  next.transfers.reserve(row.transfers.size());
-  auto a = again.begin();
-  forEachTerm(row, [&](std::uint32_t i, const RowTerm& t, std::span<const LeafTransfer> transfers) {
-    const auto retraced = a != again.end() && a->term == i ? a++ : again.end();
-    const LinkChange change = changeOf(links, t.link);
-    if (change == LinkChange::Changed || (change == LinkChange::Touched && coveredBy(changed, t))) return;
-    if (retraced != again.end()) {
-      append(leaf, dealt(leaf, t), retraced->sample, next, traced);
-      return;
-    }
-    next.terms.push_back(t);
-    next.directions.push_back(row.directions[i]);
-    next.transfers.insert(next.transfers.end(), transfers.begin(), transfers.end());
-  });
-  return next;
+/// The rays of all terms, for a leaf that has moved itself.
+std::vector<IndirectSampler::Again> IndirectSampler::moved(ElementId leaf, const TransferRow& row) const {
+  std::vector<Again> out;
+  out.reserve(row.terms.size());
+  for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
+    const RowTerm& t = row.terms[i];
+    out.push_back({i, t.clear && exact(t.sender) ? SenderSample{} : shoot(leaf, t.sender, t.index)});
+  }
+  return out;
+}
+
+/// Whether what the rays may bring differs too much: each one's share when they were dealt.
+bool IndirectSampler::uneven(ElementId leaf, std::span<const Again> again, const TransferRow& row) const {
+  const double share = double(row.weightPerRay) * level(leaf);
+  double sum = 0;
+  for (const Again& a : again) {
+    const RowTerm& t = row.terms[a.term];
+    if (t.clear || !a.sample.leaf.valid()) continue;
+    const double K = elements_.shape(t.sender).area * a.sample.weight;
+    const double x = t.gain * K * strength(leaf, t.sender) * std::sqrt(openness(links_[t.link]));
+    sum += x * x;
+  }
+  return sum > kUneven * share * share * static_cast<double>(row.terms.size());
 }
 
 /// Whether a term that was dealt over a link now split is one of these links' by now. What is above a changed link has

@@ -48,9 +48,11 @@ LineSpace::Finding LineSpace::examine(LinkId id) const {
   }
   f.met = f.moved || left || arrives;
   if (!f.met) return f;
-  // What samples tell stands as long as no ray of theirs meets what moved.
+  // What samples tell stands as long as no ray of theirs meets what moved. Where few were taken, little comes over the
+  // link or it was split for its kernel: what they tell only shares out the rays of rows.
   const auto resampled = [&] {
-    return !f.moved && l.visibility == Visibility::Sampled && samplesMeet(elements_, scene_, l, change_);
+    return !f.moved && l.visibility == Visibility::Sampled && l.samples > kFewSamples &&
+           samplesMeet(elements_, scene_, l, change_);
   };
   switch (l.state) {
     case LinkState::Free:

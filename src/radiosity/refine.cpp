@@ -13,7 +13,7 @@ namespace deltalux {
 
 namespace {
 
-constexpr int kFewSamples = 4, kSomeSamples = 8, kManySamples = 16;
+constexpr int kSomeSamples = 8, kManySamples = 16;
 constexpr float kFineCell = 0.2f;     // radians: sky cells larger than this are split before the surface they light
 constexpr float kFinestCell = 0.06f;  // radians: smaller ones are not split
 
@@ -304,7 +304,7 @@ void markPaths(const Links& links, std::vector<Mark>& marks, LinkId id) {
 
 constexpr float kSameTransfer = 0.05f;  // relative difference of kernels that is no news: rows know their own
 constexpr float kSameKernel = 2.0f;     // factors within which rays are still well shared out
-constexpr float kSameOpenness = 4.0f;
+constexpr float kSameOpenness = 6.0f;
 
 /// Chance that light passes, with what few samples leave open.
 float openness(const Link& l) {
@@ -320,18 +320,17 @@ bool sameTransfer(const Link& before, const Link& after) {
          (before.state == LinkState::Averted) == (after.state == LinkState::Averted);
 }
 
-/// Whether rows that sample `before` may stand, but for terms that meet what moved: those are taken anew one by one,
-/// and what now is less or more likely to be seen than their number says costs noise only.
+/// Whether rows that sample `before` may stand, but for terms that meet what moved or lead to it: those are taken anew
+/// one by one, and what now is less or more likely to be seen than their number says costs noise only.
 bool samePlan(const Link& before, const Link& after) {
-  if (before.state != after.state) return false;
-  // What was proven clear was sampled by no ray, what was proven blocked not at all.
-  if (before.visibility != after.visibility &&
-      (before.visibility != Visibility::Sampled || after.visibility == Visibility::Clear))
-    return false;
+  // What was proven clear was sampled by no ray, what was proven blocked or averted not at all.
+  if (before.visibility == Visibility::Clear && after.visibility != Visibility::Clear) return false;
+  if (!after.carries()) return true;
+  if (!before.carries() || before.visibility != after.visibility) return false;
   const auto alike = [](float a, float b, float factor) { return a <= factor * b && b <= factor * a; };
   if (!alike(before.K, after.K, kSameKernel)) return false;
   if (before.fromLight) return true;  // every light in sight gets rays
-  return after.visibility == Visibility::Blocked || alike(openness(before), openness(after), kSameOpenness);
+  return alike(openness(before), openness(after), kSameOpenness);
 }
 
 /// One descent over marked links, level by level.

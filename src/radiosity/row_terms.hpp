@@ -1,5 +1,6 @@
 #pragma once
 // A walk over the terms of a row and the transfers that belong to each.
+#include <algorithm>
 #include <span>
 
 #include "radiosity/leaf_row.hpp"
@@ -15,6 +16,28 @@ void forEachTerm(const TransferRow& row, const Visit& visit) {
     visit(i, t, rest.first(t.count));
     rest = rest.subspan(t.count);
   }
+}
+
+/// Takes the terms out for which goes(term), with what belongs to them; false when there are none.
+template <class Goes>
+bool drop(TransferRow& row, const Goes& goes) {
+  std::size_t from = 0, terms = 0, transfers = 0;
+  for (std::size_t i = 0; i < row.terms.size(); ++i) {
+    const RowTerm t = row.terms[i];
+    const std::size_t begin = from;
+    from += t.count;
+    if (goes(t)) continue;
+    if (terms < i) {
+      std::copy_n(row.transfers.begin() + begin, t.count, row.transfers.begin() + transfers);
+      if (!row.directions.empty()) row.directions[terms] = row.directions[i];
+      row.terms[terms] = t;
+    }
+    ++terms, transfers += t.count;
+  }
+  if (terms == row.terms.size()) return false;
+  row.terms.resize(terms), row.transfers.resize(transfers);
+  if (!row.directions.empty()) row.directions.resize(terms);
+  return true;
 }
 
 }  // namespace deltalux

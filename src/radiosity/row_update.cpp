@@ -168,11 +168,11 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
   parallelFor(indirect.size(), kBlock, [&](std::size_t i) {
     const ElementId leaf = indirect[i];
     TransferRow& row = rows_[rowOf[leaf.index()]].indirect;
-    if (row.terms.empty() || space.moved(leaf)) {
+    if (row.terms.empty()) {
       row = sampler.atLeaf(leaf, settings.gatherRays, rays[i]);
       done[i] = 1;
     } else {
-      done[i] = sampler.update(leaf, marks.changes, changed.at(leaf, false), space, row, rays[i]);
+      done[i] = sampler.update(leaf, marks.changes, changed.at(leaf, false), space, settings.gatherRays, row, rays[i]);
     }
   });
   for (std::size_t i = 0; i < indirect.size(); ++i) {

@@ -93,14 +93,15 @@ bool SpaceChange::behind(const Vec3f& point, const Vec3f& normal) const {
   return glm::dot(middle - point, normal) + glm::dot(half, glm::abs(normal)) < 0;
 }
 
-void SpaceChange::meetsRays(const Vec3f& center, float radius, std::span<const DirectionCode> directions,
+void SpaceChange::meetsRays(const ElementGeometry& from, std::span<const DirectionCode> directions,
                             std::vector<std::uint32_t>& out) const {
   if (parts_.empty()) return;
   constexpr float kLeast = 1e-6f;  // of a coordinate of a direction
   constexpr std::size_t kMost = 64;
-  // As far as a ray of the ball, or one whose direction is not quite the coded one, may be from that of its middle.
+  // As far as a ray of the box, or one whose direction is not quite the coded one, may be from that of its middle.
+  const Vec3f center = 0.5f * (from.lower + from.upper), half = 0.5f * (from.upper - from.lower);
   const Vec3f far = glm::max(glm::abs(all_.lower - center), glm::abs(all_.upper - center));
-  const Vec3f grown(radius + 1.05f * kDirectionCodeError * (glm::length(far) + radius));
+  const Vec3f grown = half + 1.05f * kDirectionCodeError * glm::length(far + half);
   const Vec3f lower = all_.lower - grown - center, upper = all_.upper + grown - center;
   std::array<std::uint8_t, kMost> meets;
   for (std::size_t begin = 0; begin < directions.size(); begin += kMost) {

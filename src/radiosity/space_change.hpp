@@ -36,9 +36,8 @@ class SpaceChange {
   bool within(const Box&) const;
   /// Whether there is something, all of it behind a plane (unit normal).
   bool behind(const Vec3f& point, const Vec3f& normal) const;
-  /// Of each of many rays that leave a ball in these directions: appends the indices of those that may.
-  void meetsRays(const Vec3f& center, float radius, std::span<const DirectionCode>,
-                 std::vector<std::uint32_t>& out) const;
+  /// Of each of many rays that leave a box in these directions: appends the indices of those that may.
+  void meetsRays(const ElementGeometry& from, std::span<const DirectionCode>, std::vector<std::uint32_t>& out) const;
   /// Of what leaves a ball in directions within an angle of `direction` (unit; the angle in radians).
   bool meetsBeam(const Vec3f& center, float radius, const Vec3f& direction, float angle) const;
 

@@ -50,6 +50,10 @@ Sample sampleOf(const Elements& elements, const Scene& scene, ElementId receiver
 }  // namespace
 
 bool samplesMeet(const Elements& elements, const Scene& scene, const Link& link, const SpaceChange& space) {
+  if (elements.isDistant(link.sender)) {
+    const ElementGeometry &r = elements.shape(link.receiver), &s = elements.shape(link.sender);
+    if (!space.meetsBeam(r.center, r.radius, s.center, s.radius)) return false;
+  }
   const std::uint64_t key = combineKeys(elements.key[link.receiver.index()], elements.key[link.sender.index()]);
   for (int i = 0; i < link.samples; ++i) {
     const Sample s = sampleOf(elements, scene, link.receiver, link.sender, key, i);

@@ -9,6 +9,7 @@
 namespace deltalux {
 
 inline constexpr int kMaxSamples = 32;
+inline constexpr int kFewSamples = 4;  // of links that bring little, or are split for their kernel
 
 struct VisibilityEstimate {
   Rgb V{0.0f};

@@ -1,6 +1,7 @@
 #include "scene/light_sampling.hpp"
 
 #include <algorithm>
+#include <mutex>
 
 #include "base/check.hpp"
 #include "scene/light_sampling_triangle.hpp"
@@ -49,6 +50,24 @@ Rgb emittedRadiance(const Emission& emission, const Vec3& direction, double dist
   return emission.radiance * static_cast<float>(factor * factor);
 }
 
+/// Made when first asked for: many who sample area lights never ask.
+class LightSampler::LazyDome {
+ public:
+  explicit LazyDome(const DomeLight& dome) : dome_(dome) {}
+
+  const DomeTable& table() {
+    std::call_once(made_, [&] { table_.emplace(dome_); });
+    return *table_;
+  }
+
+ private:
+  const DomeLight& dome_;
+  std::once_flag made_;
+  std::optional<DomeTable> table_;
+};
+
+LightSampler::~LightSampler() = default;
+
 LightSampler::LightSampler(const Scene& scene, std::vector<Rgb> scales)
     : scene_(scene), scales_(std::move(scales)), lightOf_(scene.primitives.size()) {
   DELTALUX_CHECK(scales_.empty() || scales_.size() == scene.lights.size(), "a scale for every light");
@@ -61,7 +80,7 @@ LightSampler::LightSampler(const Scene& scene, std::vector<Rgb> scales)
         lightOf_[area->primitive.index()] = LightId(i);
       }
     } else if (const auto* dome = std::get_if<DomeLight>(&emitter)) {
-      prepared.dome.emplace(*dome);
+      prepared.dome = std::make_unique<LazyDome>(*dome);
       atInfinity_.push_back(LightId(i));
     } else if (std::holds_alternative<SunLight>(emitter)) {
       atInfinity_.push_back(LightId(i));
@@ -128,7 +147,7 @@ std::optional<LightSample> LightSampler::sample(LightId id, const Vec3& from, co
   const Prepared& prepared = prepared_[id.index()];
   if (prepared.area) return sampleArea(id, *prepared.area, from, u);
   if (prepared.dome) {
-    const DomeTable::Sample s = prepared.dome->sample(u);
+    const DomeTable::Sample s = prepared.dome->table().sample(u);
     return LightSample{s.direction, kInfinity, Vec3(0), radianceFrom(id, s.direction), s.pdf};
   }
   const Light& light = scene_[id];
@@ -235,7 +254,7 @@ SurfacePoint LightSampler::samplePoint(LightId id, const Vec2& u) const {
 double LightSampler::pdf(LightId id, const Vec3& from, const Vec3& direction, double distance,
                          const Vec3& normal) const {
   const Prepared& prepared = prepared_[id.index()];
-  if (prepared.dome) return prepared.dome->pdf(direction);
+  if (prepared.dome) return prepared.dome->table().pdf(direction);
   if (const auto* sun = std::get_if<SunLight>(&scene_[id].emitter)) return 1.0 / solidAngle(*sun);
   if (!prepared.area) return 0.0;
   const AreaData& data = *prepared.area;

@@ -8,6 +8,7 @@
 // A spotlight of area A shines only within its cone, and its radiance depends on the distance d to what it lights
 // first, L (d / (d + |direction|))^2, so that E = L A cos cos' / (d + |direction|)^2. [conventions.md]
 #include <deltalux/scene.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -33,6 +34,9 @@ class LightSampler {
   /// Prepares every light of the scene, which must outlive this. Lights whose primitive does not emit are dark.
   /// `scales`, one a light, stand for those that the lights have at present.
   explicit LightSampler(const Scene&, std::vector<Rgb> scales = {});
+  ~LightSampler();
+  LightSampler(const LightSampler&) = delete;
+  LightSampler& operator=(const LightSampler&) = delete;
 
   std::size_t size() const { return prepared_.size(); }
   /// The light that a primitive is, if it emits.
@@ -72,9 +76,10 @@ class LightSampler {
     std::vector<double> cumulative;
     double area = 0;
   };
+  class LazyDome;
   struct Prepared {
     std::optional<AreaData> area;
-    std::optional<DomeTable> dome;
+    std::unique_ptr<LazyDome> dome;
   };
 
   Rgb scaleOf(LightId id) const { return scales_.empty() ? scene_[id].scale : scales_[id.index()]; }

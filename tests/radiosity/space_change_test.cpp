@@ -28,7 +28,9 @@ SpaceChange twoBoxes(Rng& rng) {
 bool mayMeet(const SpaceChange& space, const Vec3f& center, float radius, const Vec3f& d) {
   const DirectionCode code = directionCode(d);
   std::vector<std::uint32_t> out;
-  space.meetsRays(center, radius, {&code, 1}, out);
+  ElementGeometry from;
+  from.lower = center - radius, from.upper = center + radius;
+  space.meetsRays(from, {&code, 1}, out);
   return !out.empty();
 }
 
