@@ -21,6 +21,7 @@ constexpr float kUneven = 2.0f;  // rays of clusters and curved senders, whose p
 constexpr float kPartsShare = 2.0f;   // rays of a sender above which it is taken apart
 constexpr float kWholeShare = 0.25f;  // the same for senders that need no ray: their radiosity counts as even
 constexpr float kMostRays = 128;      // of what is made anew in a row
+constexpr float kLookedAt = 8;        // times its rays' worth: chance that what changed is looked at
 constexpr int kFacingTries = 16;      // more points of a sender when some face away
 
 /// Transfer that clusters and curved senders are credited with: their nodes may all face away where some part does not.
@@ -274,13 +275,17 @@ bool IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> change
   for (const Term& t : whole) sum += t.weight;
   const float step = std::max(row.weightPerRay * level(leaf), sum / kMostRays);
   if (!(step > 0)) return false;
+  // What is left over is a ray by chance, by the key of the place and of what has changed: another one each time. Where
+  // all is worth a small part of a ray, chance comes first.
+  std::uint64_t key = elements_.key[leaf.index()];
+  for (const Term& t : whole) key = combineKeys(key, elements_.key[t.sender.index()]);
+  const bool sure = std::any_of(whole.begin(), whole.end(), [](const Term& t) { return t.open >= 1.0f; });
+  const float looked = sure ? 1.0f : std::min(1.0f, kLookedAt * sum / step);
+  if (!(toUnit(mix64(combineKeys(key, 1))) < looked)) return false;
   const auto terms = apart(leaf, std::move(whole), step, kernelOf);
   double unknown = 0;
   for (const Term& t : terms) unknown += known(t) ? 0.0f : t.weight;
-  // What is left over is a ray by chance, by the key of the place and of what has changed: another one each time.
-  std::uint64_t key = elements_.key[leaf.index()];
-  for (const Term& t : terms) key = combineKeys(key, elements_.key[t.sender.index()]);
-  const int rays = static_cast<int>(unknown / step + toUnit(mix64(key)));
+  const int rays = static_cast<int>(unknown / (step * looked) + toUnit(mix64(key)));
   const std::size_t before = row.terms.size();
   deal(leaf, center, terms, step, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, row, traced); });
   return row.terms.size() > before;

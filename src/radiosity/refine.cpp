@@ -19,6 +19,7 @@ constexpr float kFinestCell = 0.06f;  // radians: smaller ones are not split
 
 enum class Mark : char {
   None,
+  Way,      // to links between whose ends something has changed, which rarely ask for blockers
   Path,     // on the way to others
   Between,  // what lies between its ends has changed
   Ends,     // so has an end
@@ -94,6 +95,14 @@ class Judge {
     return v;
   }
 
+  /// One whose blockers are the parent's for now.
+  Verdict passUnseen(const Link& link, const ElementId* candidates, std::size_t count, Blockers& arena) const {
+    Verdict v;
+    keep(candidates, count, v, arena);
+    v.link = link;
+    return v;
+  }
+
   /// A link between whose ends something has moved. Its kernel stands, and so do the samples that did not meet it.
   Verdict judgeBetween(Link link, const SpaceChange& change, const ElementId* candidates, std::size_t count,
                        Blockers& arena) const {
@@ -107,8 +116,10 @@ class Judge {
     v.rays = static_cast<std::uint16_t>(rays);
     const bool same = e.V == link.V && e.mask == link.sampleMask;
     link.V = e.V, link.sampleMask = e.mask, link.visibilitySpread = e.spread;
-    if (!same || link.state == LinkState::Interior) shrink(link, candidates, count, v, arena);
-    if (!same) {
+    if (same) {
+      keep(candidates, count, v, arena);
+    } else {
+      shrink(link, candidates, count, v, arena);
       if (isBlack(e.V)) proveBlocked(link, v, arena);
       if (v.blockers.count == 0 && solidEnds(link)) seeClear(link);
       if (link.visibility == Visibility::Sampled) look(link, link.samples, v);
@@ -137,6 +148,11 @@ class Judge {
     v.blockers.begin = static_cast<std::uint32_t>(arena.size());
     shrinkBlockers(elements_, scene_, link.receiver, link.sender, candidates, count, arena);
     v.blockers.count = static_cast<std::uint32_t>(arena.size()) - v.blockers.begin;
+  }
+
+  static void keep(const ElementId* candidates, std::size_t count, Verdict& v, Blockers& arena) {
+    v.blockers = {static_cast<std::uint32_t>(arena.size()), static_cast<std::uint32_t>(count)};
+    arena.insert(arena.end(), candidates, candidates + count);
   }
 
   bool solidEnds(const Link& link) const {
@@ -296,10 +312,13 @@ void carrying(const Links& links, LinkId id, std::vector<LinkId>& out) {
   for (std::size_t c = 0; c < links[id].childCount; ++c) carrying(links, links.child(id, c), out);
 }
 
-/// Marks the links above the marked ones.
-void markPaths(const Links& links, std::vector<Mark>& marks, LinkId id) {
-  for (LinkId up = links[id].parent; up.valid() && marks[up.index()] == Mark::None; up = links[up].parent)
-    marks[up.index()] = Mark::Path;
+/// Marks the links above a marked one: they are on its path, or on its way.
+void markAbove(const Links& links, std::vector<Mark>& marks, LinkId id, Mark as) {
+  for (LinkId up = links[id].parent; up.valid(); up = links[up].parent) {
+    Mark& mark = marks[up.index()];
+    if (mark >= as && mark != Mark::Between) return;  // so is all above it
+    mark = std::max(mark, as);
+  }
 }
 
 constexpr float kSameTransfer = 0.05f;  // relative difference of kernels that is no news: rows know their own
@@ -346,7 +365,7 @@ class Descent {
         marks_(std::move(marks)),
         change_(change) {}
 
-  /// Told of every link that is freed or made, and of every one whose transfer or children are others than before.
+  /// Told of every link that is freed or made, and of every one over which rows have to be dealt anew.
   std::function<void(LinkId)> renewed = [](LinkId) {}, changed = [](LinkId) {};
   std::function<bool()> stop;
 
@@ -391,11 +410,13 @@ class Descent {
     const Link& link = links_[t.link];
     Verdict v = judged(judge, link, t, candidates, arena);
     v.refined =
-        t.mark != Mark::Path && link.state == LinkState::Interior && v.split == Split::None && judge.splits(link);
+        t.mark > Mark::Path && link.state == LinkState::Interior && v.split == Split::None && judge.splits(link);
     return v;
   }
 
   Verdict judged(const Judge& judge, Link link, const Task& t, const ElementId* candidates, Blockers& arena) const {
+    if (t.mark == Mark::Way && link.state == LinkState::Interior)
+      return judge.passUnseen(link, candidates, t.candidates.count, arena);
     if (t.mark == Mark::Path && link.state == LinkState::Interior)
       return judge.pass(link, candidates, t.candidates.count, arena);
     if (t.mark == Mark::Between) return judge.judgeBetween(link, *change_, candidates, t.candidates.count, arena);
@@ -408,7 +429,7 @@ class Descent {
   void commit(const Task& task, Verdict& v, bool stopping, std::vector<Task>& next) {
     const LinkId id = task.link;
     report_.rays += v.rays;
-    const bool anew = task.mark != Mark::Path;
+    const bool anew = task.mark > Mark::Path;
     if (anew && sameTransfer(links_[id], v.link)) {
       if (links_[id].state == LinkState::Interior) descend(task, v, next, false);
       return;
@@ -435,9 +456,8 @@ class Descent {
       report_.stopped = true;
       return;
     }
+    // Rows go on to sample over the link: it covers all that they did, and they find their way to leaves themselves.
     if (!splitLink(links_, elements_, scene_, id, v.split)) return;
-    // When the receiver is split, rows go on to sample over the link: it covers all that they did.
-    if (v.split != Split::Receiver) changed(id);
     ++report_.split;
     report_.created += links_[id].childCount;
     descend(task, v, next, true);
@@ -473,7 +493,8 @@ RefineReport refine(Links& links, Elements& elements, const Scene& scene, const 
     if (judge.unsettled(links.all[i])) marks[i] = Mark::Path;
   });
   for (std::size_t i = 0; i < links.size(); ++i)
-    if (links.all[i].state != LinkState::Interior && marks[i] != Mark::None) markPaths(links, marks, LinkId(i));
+    if (links.all[i].state != LinkState::Interior && marks[i] != Mark::None)
+      markAbove(links, marks, LinkId(i), Mark::Path);
   Descent descent(links, elements, scene, tracer, settings, std::move(marks));
   descent.stop = stop;
   return descent.run();
@@ -485,8 +506,9 @@ RefineReport rejudge(Links& links, Elements& elements, const Scene& scene, const
   std::vector<Mark> marks(links.size(), Mark::None);
   for (const LinkId id : marked.anew) marks[id.index()] = Mark::Between;
   for (const LinkId id : marked.moved) marks[id.index()] = Mark::Ends;
-  for (const auto* list : {&marked.anew, &marked.moved})
-    for (const LinkId id : *list) markPaths(links, marks, id);
+  for (const LinkId id : marked.moved) markAbove(links, marks, id, Mark::Path);
+  for (const LinkId id : marked.anew)
+    markAbove(links, marks, id, links[id].visibility == Visibility::Sampled ? Mark::Way : Mark::Path);
   const std::size_t known = marked.changes.size();
   for (const LinkId root : links.roots)
     if (root.index() >= known) marks[root.index()] = Mark::Path;
