@@ -26,7 +26,9 @@ struct WorkCounts {
 };
 
 struct MemoryBytes {
-  std::uint64_t elements = 0, links = 0, particles = 0, octree = 0, textures = 0, peakRss = 0;
+  std::uint64_t elements = 0, links = 0, particles = 0;
+  std::uint64_t octree = 0;  // of what knows the paths near an object in motion: a region and a bit a path; 0 before
+  std::uint64_t textures = 0, peakRss = 0;
 };
 
 /// Flux summed over the channels' photometric weights [W]; empty where a run did not measure it (null in JSON).

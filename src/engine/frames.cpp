@@ -142,7 +142,9 @@ void Engine::State::select(const std::string& object) {
   Box box;
   for (const PrimitiveId p : primitives)
     if (const Box b = bounds(s.scene[p].shape); !b.empty()) box.extend(b);
-  if (tracing) tracing->expectMotion(s.particles, box);
+  if (!tracing) return;
+  tracing->expectMotion(s.particles, box);
+  s.report.memory.octree = tracing->watchBytes();
 }
 
 }  // namespace deltalux

@@ -234,6 +234,7 @@ void Engine::State::count() {
   for (const Link& l : s.links.all) s.report.activeLinks += l.state == LinkState::Active;
   s.report.memory.elements = s.elements.memoryBytes();
   s.report.memory.links = s.links.memoryBytes() + s.transfers.memoryBytes();
+  s.report.memory.octree = tracing ? tracing->watchBytes() : 0;
   s.report.memory.peakRss = peakResidentBytes();
   counted = true;
 }

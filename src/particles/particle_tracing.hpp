@@ -49,6 +49,8 @@ class ParticleTracing {
 
   /// Looks for the paths that motion from here can touch, so that note() need not.
   void expectMotion(const Particles&, const Box& ofObject);
+  /// Of what knows the paths near the motion: the place of the paper's octree.
+  std::size_t watchBytes() const { return watch_ ? watch_->memoryBytes() : 0; }
 
   using Worth = std::function<double(std::size_t path)>;
   struct Waiting {

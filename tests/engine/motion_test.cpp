@@ -81,7 +81,9 @@ TEST(Motion, SettlesToWhatOneUpdateGives) {
 TEST(Motion, NoLightIsThereTwice) {
   Engine engine = cornell();
   ASSERT_GT(engine.solution().get().caustics.count(), 0u);
+  EXPECT_EQ(engine.solution().report().memory.octree, 0u);
   engine.select("ball");
+  EXPECT_GE(8 * engine.solution().report().memory.octree, engine.solution().get().particles.paths());
   bool waited = false;
   for (const Edit& e : drag()) {
     engine.apply(e);
