@@ -29,7 +29,7 @@ std::vector<ProbeResult> probe(const SolutionView&, std::span<const ProbePoint>,
 struct RenderSettings {
   int width = 640, height = 480;
   int samplesPerPixel = 16;   // camera rays, stratified; at least 1
-  int shadowRays = 4;         // towards lights at each surface that a camera ray meets; at least 2
+  int shadowRays = 8;         // towards lights at each surface that a camera ray meets; at least 2
   bool meshDirect = false;    // direct light from the mesh too, reconstructed: no shadow rays
   int maxSpecularDepth = 24;  // mirrors and panes that a camera ray follows
   std::uint64_t seed = 1;

@@ -64,6 +64,8 @@ class DirectLight {
   /// Senders of a free point, out of all lights.
   SenderChoice choiceAt(const Receiver&) const;
 
+  /// What a shadow ray finds of one sender by the numbers `u` in [0,1)^2, uniform ones; nullopt when it is blocked.
+  std::optional<LightArrival> arrival(ElementId sender, const Receiver&, const Vec2& u) const;
   /// visit(LightArrival) for each of `rays` shadow rays (at least 2) that is not blocked: the sum of all of them is the
   /// estimate. `index` and `key` name the stratified numbers to use.
   template <class Visit>
@@ -95,8 +97,6 @@ class DirectLight {
   static int raysToUnseen(const SenderChoice&, int rays);
   std::optional<LightArrival> shadowRay(const SenderList&, const Receiver&, int k, int rays, std::uint32_t index,
                                         std::uint64_t key) const;
-  /// What arrives from one sender by the numbers `u`.
-  std::optional<LightArrival> arrival(ElementId sender, const Receiver&, const Vec2& u) const;
   struct Trial;
   template <class ReceiverAt>
   void test(Trial&, int tests, std::uint64_t key, const ReceiverAt& receiver) const;

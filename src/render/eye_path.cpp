@@ -36,7 +36,7 @@ EyePaths::EyePaths(const Solution& s, const Reconstruction& reconstruction, EyeS
   }
 }
 
-Rgb EyePaths::radiance(const EyeRay& eye) const {
+Rgb EyePaths::radiance(const EyeRay& eye, Sights& sights) const {
   Rgb L(0.0f), beta(1.0f);
   Ray ray = eye.ray;
   bool emitters = eye.emitters;
@@ -55,15 +55,12 @@ Rgb EyePaths::radiance(const EyeRay& eye) const {
       continue;
     }
     bool lightsMet = false;
-    L += beta * scattered(v, eye, depth, lightsMet);
+    L += beta * scattered(v, eye, depth, sights, lightsMet);
     if (!specular_[scene_[hit.primitive].material.index()]) return L;
 
     if (const auto* body = std::get_if<Dielectric>(&scene_.materialOf(hit.primitive).surface); body && !hit.front)
       beta *= glm::pow(body->transmission, Rgb(hit.t));
-    const Frame frame(n);
-    const UnitPair a = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * depth));
-    const UnitPair b = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * depth + 1));
-    const auto s = sample(specularPart(scattering), frame.toLocal(-v.direction), {a.x, b.x, b.y});
+    const auto s = onward(v, scattering, eye, depth);
     if (!s) return L;
     beta *= s->weight / static_cast<float>(s->etaSquared);
     if (maxChannel(beta) < kFaint) return L;
@@ -71,11 +68,37 @@ Rgb EyePaths::radiance(const EyeRay& eye) const {
     const SpecularLobe& shape = s->direction.z > 0 ? scattering.reflection : scattering.transmission;
     lobe = glossy && lightsMet ? std::optional(Lobe{v.position, shape.roughness}) : std::nullopt;
     emitters = emitters || s->event != ScatterEvent::StraightTransmission;
-    ray.direction = Vec3f(glm::normalize(frame.toWorld(s->direction)));
+    ray.direction = Vec3f(glm::normalize(Frame(n).toWorld(s->direction)));
     ray.origin = offsetOrigin(Vec3f(v.position), hit.normal, ray.direction);
     ++depth;
   }
   return L;
+}
+
+std::optional<BsdfSample> EyePaths::onward(const Vertex& v, const Bsdf& scattering, const EyeRay& eye,
+                                           int depth) const {
+  const UnitPair a = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * depth));
+  const UnitPair b = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * depth + 1));
+  return sample(specularPart(scattering), Frame(v.normal).toLocal(-v.direction), {a.x, b.x, b.y});
+}
+
+void EyePaths::survey(const EyeRay& eye, Sights& sights) const {
+  Ray ray = eye.ray;
+  for (int depth = 0; depth <= settings_.maxDepth; ++depth) {
+    const Hit hit = tracer_.closestHit(ray);
+    if (!hit) return;
+    const Vertex v{hit, Vec3(hit.position), Vec3(ray.direction), hit.front ? Vec3(hit.normal) : -Vec3(hit.normal)};
+    const Bsdf& scattering = bsdf(hit.primitive, hit.front);
+    if (scattering.hasFinitePart())
+      if (const ElementId side = reconstruction_.locator.side(hit.primitive, hit.triangle, hit.front); side.valid())
+        sights.note(reconstruction_.locator.locate(side, v.position).leaf, {v.position, v.normal});
+    if (!specular_[scene_[hit.primitive].material.index()]) return;
+    const bool straight = scattering.pane && !panesReflect_;
+    const auto s = straight ? std::nullopt : onward(v, scattering, eye, depth);
+    if (!straight && !s) return;
+    if (s) ray.direction = Vec3f(glm::normalize(Frame(v.normal).toWorld(s->direction)));
+    ray.origin = offsetOrigin(Vec3f(v.position), hit.normal, ray.direction);
+  }
 }
 
 bool EyePaths::metByShadowRays(LightId id, const Lobe& lobe) const {
@@ -105,7 +128,7 @@ Rgb EyePaths::emitted(const Vertex& v, const Lobe* lobe) const {
   return lights.emittedRadiance(id, -v.direction, double(v.hit.t), v.hit.front);
 }
 
-Rgb EyePaths::scattered(const Vertex& v, const EyeRay& eye, int depth, bool& lightsMet) const {
+Rgb EyePaths::scattered(const Vertex& v, const EyeRay& eye, int depth, Sights& sights, bool& lightsMet) const {
   const Bsdf& b = bsdf(v.hit.primitive, v.hit.front);
   if (!b.hasFinitePart()) return Rgb(0.0f);
   const Bsdf lobes = specularPart(b);
@@ -113,14 +136,16 @@ Rgb EyePaths::scattered(const Vertex& v, const EyeRay& eye, int depth, bool& lig
   const Rgb tint = textureTint(scene_, v.hit.primitive, v.hit.triangle, v.position);
   lightsMet = glossy && settings_.shadowRays > 0;
   Rgb diffuse(0.0f), highlights(0.0f);
-  const auto from = [&](bool front) { return irradiance(v, front, glossy ? &lobes : nullptr, eye, depth, highlights); };
+  const auto from = [&](bool front) {
+    return irradiance(v, front, glossy ? &lobes : nullptr, eye, depth, sights, highlights);
+  };
   if (!isBlack(b.diffuseReflection) || glossy) diffuse += b.diffuseReflection * from(v.hit.front);
   if (!isBlack(b.diffuseTransmission) || !isBlack(lobes.transmission.reflectance))
     diffuse += b.diffuseTransmission * from(!v.hit.front);
   return float(1 / kPi) * tint * diffuse + highlights;
 }
 
-Rgb EyePaths::irradiance(const Vertex& v, bool front, const Bsdf* lobes, const EyeRay& eye, int depth,
+Rgb EyePaths::irradiance(const Vertex& v, bool front, const Bsdf* lobes, const EyeRay& eye, int depth, Sights& sights,
                          Rgb& glossy) const {
   const ElementId side = reconstruction_.locator.side(v.hit.primitive, v.hit.triangle, front);
   if (!side.valid()) return Rgb(0.0f);
@@ -134,15 +159,15 @@ Rgb EyePaths::irradiance(const Vertex& v, bool front, const Bsdf* lobes, const E
   const std::uint64_t key = combineKeys(eye.key, (front == v.hit.front ? kShadowKey : kOtherSideKey) + depth);
   const Frame frame(v.normal);
   const Vec3 wo = frame.toLocal(-v.direction);
-  reconstruction_.direct.sample(reconstruction_.choices.at(at.leaf), receiver, settings_.shadowRays, eye.index, key,
-                                [&](const LightArrival& a) {
-                                  E += static_cast<float>(glm::dot(a.direction, receiver.normal)) * a.E;
-                                  if (!lobes) return;
-                                  const Vec3 wi = frame.toLocal(a.direction);
-                                  const SpecularLobe& lobe = wi.z > 0 ? lobes->reflection : lobes->transmission;
-                                  if (lobe.roughness > 0 && metByShadowRays(a.light, {v.position, lobe.roughness}))
-                                    glossy += evaluate(*lobes, wo, wi) * a.E;
-                                });
+  sights.at(at.leaf).sample(reconstruction_.direct, receiver, settings_.shadowRays, eye.index, key,
+                            [&](const LightArrival& a) {
+                              E += static_cast<float>(glm::dot(a.direction, receiver.normal)) * a.E;
+                              if (!lobes) return;
+                              const Vec3 wi = frame.toLocal(a.direction);
+                              const SpecularLobe& lobe = wi.z > 0 ? lobes->reflection : lobes->transmission;
+                              if (lobe.roughness > 0 && metByShadowRays(a.light, {v.position, lobe.roughness}))
+                                glossy += evaluate(*lobes, wo, wi) * a.E;
+                            });
   return E;
 }
 

@@ -7,6 +7,7 @@
 // larger ones by the lobe's own rays; never by both.
 #include "caustics/caustics.hpp"
 #include "render/reconstruction.hpp"
+#include "render/sight.hpp"
 #include "scene/bsdf.hpp"
 
 namespace deltalux {
@@ -28,8 +29,10 @@ class EyePaths {
   /// Both must outlive this.
   EyePaths(const Solution&, const Reconstruction&, EyeSettings);
 
-  /// [W/(sr m2)]
-  Rgb radiance(const EyeRay&) const;
+  /// [W/(sr m2)]; `sights` learn what leaves they do not know.
+  Rgb radiance(const EyeRay&, Sights& sights) const;
+  /// Notes the places that radiance() would look at the lights from.
+  void survey(const EyeRay&, Sights& sights) const;
 
  private:
   struct Vertex;
@@ -41,8 +44,9 @@ class EyePaths {
 
   Rgb background(const Vec3& towards, const Lobe* lobe) const;
   Rgb emitted(const Vertex&, const Lobe* lobe) const;
-  Rgb scattered(const Vertex&, const EyeRay&, int depth, bool& lightsMet) const;
-  Rgb irradiance(const Vertex&, bool front, const Bsdf* lobes, const EyeRay&, int depth, Rgb& glossy) const;
+  Rgb scattered(const Vertex&, const EyeRay&, int depth, Sights&, bool& lightsMet) const;
+  Rgb irradiance(const Vertex&, bool front, const Bsdf* lobes, const EyeRay&, int depth, Sights&, Rgb& glossy) const;
+  std::optional<BsdfSample> onward(const Vertex&, const Bsdf&, const EyeRay&, int depth) const;
   bool metByShadowRays(LightId, const Lobe&) const;
   const Bsdf& bsdf(PrimitiveId p, bool front) const { return bsdfs_[2 * scene_[p].material.index() + (front ? 1 : 0)]; }
 

@@ -1,6 +1,7 @@
 #include "render/irradiance_field.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
@@ -12,13 +13,15 @@ namespace deltalux {
 namespace {
 
 constexpr std::size_t kBlock = 512;
-constexpr float kSamePlane = 0.9998f;  // cosine between polygons that make one wall
-constexpr float kSmoothMesh = 0.766f;  // cosine between triangles that a mesh means to be round: 40 degrees
-constexpr float kOffPlane = 1e-3f;     // of the smaller leaf's size: still one plane
-constexpr float kDisagree = 0.3f;      // relative difference that asks whether something stands between
-constexpr float kLift = 0.1f;          // of the smaller leaf's size: height at which that is looked for
-constexpr int kExposureRays = 16;      // that tell how much of a torn leaf is in sight of its centre
-constexpr float kLeeway = 2.0f;        // predictions stay within so many times what the neighbours differ
+constexpr float kSamePlane = 0.9998f;          // cosine between polygons that make one wall
+constexpr float kSmoothMesh = 0.766f;          // cosine between triangles that a mesh means to be round: 40 degrees
+constexpr float kOffPlane = 1e-3f;             // of the smaller leaf's size: still one plane
+constexpr float kDisagree = 0.3f;              // relative difference that asks whether something stands between
+constexpr float kLift = 0.1f;                  // of the smaller leaf's size: height at which that is looked for
+constexpr int kExposureRays = 16;              // that tell how much of a torn leaf is in sight of its centre
+constexpr std::uint32_t kFewestWitnesses = 4;  // joined leaves that tell what is out of the way
+constexpr int kQuietPasses = 4;                // of averaging: it reaches about as many leaves
+constexpr float kLeeway = 2.0f;                // predictions stay within so many times what the neighbours differ
 
 bool disagree(const Rgb& a, const Rgb& b) {
   const float x = gray(a), y = gray(b);
@@ -28,7 +31,7 @@ bool disagree(const Rgb& a, const Rgb& b) {
 }  // namespace
 
 IrradianceField::IrradianceField(const Elements& elements, const Scene& scene, const RayTracer& tracer,
-                                 const std::vector<LeafIrradiance>& values)
+                                 const std::vector<LeafIrradiance>& values, float noise)
     : elements_(elements), scene_(scene), tracer_(tracer), siteOf_(elements.size(), Id<void>::kNone) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (!elements.isReceivingLeaf(ElementId(i))) continue;
@@ -43,7 +46,7 @@ IrradianceField::IrradianceField(const Elements& elements, const Scene& scene, c
     site.support = PatchSupport(elements, scene, site.leaf);
   });
   findNeighbours(values);
-  const std::vector<LeafIrradiance> whole = mended(values);
+  const std::vector<LeafIrradiance> whole = quiet(mended(values), noise);
   fit(direct_, &LeafIrradiance::direct, whole);
   fit(indirect_, &LeafIrradiance::indirect, whole);
 }
@@ -142,6 +145,46 @@ std::vector<LeafIrradiance> IrradianceField::mended(const std::vector<LeafIrradi
     LeafIrradiance& own = result[leaf.index()];
     own = {mend(own.direct, most.direct), mend(own.indirect, most.indirect)};
   });
+  return result;
+}
+
+std::vector<LeafIrradiance> IrradianceField::withoutOutliers(const std::vector<LeafIrradiance>& values) const {
+  std::vector<LeafIrradiance> result = values;
+  parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
+    if (torn_[i] - begin_[i] < 1 + kFewestWitnesses) return;
+    Rgb least(std::numeric_limits<float>::infinity()), most(0.0f);
+    for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
+      const Rgb& E = values[sites_[neighbours_[k]].leaf.index()].indirect;
+      least = glm::min(least, E), most = glm::max(most, E);
+    }
+    Rgb& own = result[sites_[i].leaf.index()].indirect;
+    own = glm::clamp(own, least, most);
+  });
+  return result;
+}
+
+std::vector<LeafIrradiance> IrradianceField::quiet(const std::vector<LeafIrradiance>& values, float noise) const {
+  if (!(noise > 0)) return values;
+  std::vector<LeafIrradiance> result = withoutOutliers(values);
+  for (int pass = 0; pass < kQuietPasses; ++pass) {
+    const std::vector<LeafIrradiance> before = result;
+    parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
+      const ElementId leaf = sites_[i].leaf;
+      const LeafIrradiance& own = before[leaf.index()];
+      const float total = gray(own.direct + own.indirect);
+      if (!(total > 0)) return;
+      RgbSum sum(0.0);
+      double weights = 0;
+      for (std::uint32_t k = begin_[i]; k < torn_[i]; ++k) {
+        const Site& other = sites_[neighbours_[k]];
+        const LeafIrradiance& value = before[other.leaf.index()];
+        const float apart = maxChannel(glm::abs(value.indirect - own.indirect)) / (noise * total);
+        const double w = std::exp(-0.5 * apart * apart) / other.fineness;
+        sum += w * RgbSum(value.indirect), weights += w;
+      }
+      result[leaf.index()].indirect = Rgb(sum / weights);
+    });
+  }
   return result;
 }
 

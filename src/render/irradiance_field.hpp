@@ -11,6 +11,10 @@
 // or sides. Two leaves that disagree, with something standing between them, do not blend: no light leaks under a wall
 // that stands on a floor. All of that is decided once per pair of leaves, none of it per query.
 //
+// Leaves gather by rays of their own, so neighbours differ by chance, in colour too, which an eye sees as blotches.
+// What indirect light of joined leaves differs by less than the error that was asked for is taken for noise and
+// averaged (bilateral filter [Tomasi98]); larger differences stay. The lower the error, the less is averaged.
+//
 // Rejected: vertex interpolation (needs a conforming mesh), one moving least-squares fit per query (a solve each, and
 // fits that jump as leaves enter them).
 // Cost: about 15 neighbours a leaf to build (a ray for pairs that disagree), 0.2-0.5 microseconds a query (a ray per
@@ -24,8 +28,10 @@ namespace deltalux {
 
 class IrradianceField {
  public:
-  /// `values` by element; those of receiving leaves are used. The others must outlive this.
-  IrradianceField(const Elements&, const Scene&, const RayTracer&, const std::vector<LeafIrradiance>& values);
+  /// `values` by element; those of receiving leaves are used. `noise`: of their indirect light, relative to all light.
+  /// The others must outlive this.
+  IrradianceField(const Elements&, const Scene&, const RayTracer&, const std::vector<LeafIrradiance>& values,
+                  float noise = 0.0f);
 
   /// At the surface point `p`, which `at` locates [W/m2].
   Rgb direct(const LeafPoint& at, const Vec3f& p) const { return blend(direct_, at, p); }
@@ -58,6 +64,10 @@ class IrradianceField {
   bool inSight(const Vec3f& p, ElementId home, ElementId other) const;
   /// Mended values of leaves that are cut in two.
   std::vector<LeafIrradiance> mended(const std::vector<LeafIrradiance>&) const;
+  /// With indirect light kept within what the joined leaves have.
+  std::vector<LeafIrradiance> withoutOutliers(const std::vector<LeafIrradiance>&) const;
+  /// With indirect light averaged as far as it differs by no more than noise.
+  std::vector<LeafIrradiance> quiet(const std::vector<LeafIrradiance>&, float noise) const;
   float exposed(ElementId leaf) const;
   void fit(std::vector<Linear>&, Rgb LeafIrradiance::*quantity, const std::vector<LeafIrradiance>&) const;
   Rgb blend(const std::vector<Linear>&, const LeafPoint&, const Vec3f& p) const;

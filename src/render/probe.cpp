@@ -131,6 +131,7 @@ class LightMeter {
     ProbeResult result;
     const Frame frame(x.normal);
     RgbSum sum(0.0), squares(0.0);
+    Sights sights(elements_, reconstruction_);
     int batches = 0;
     while (batches < kFirstBatches ||
            result.samples + kGatherBatch <= static_cast<std::uint64_t>(settings_.maxSamples)) {
@@ -143,7 +144,7 @@ class LightMeter {
         eye.ray.direction = Vec3f(cosineDirection(frame, u.x, u.y));
         eye.emitters = false;  // lights in plain view are measured apart
         eye.key = own, eye.index = i;
-        batch += RgbSum(paths_.radiance(eye));
+        batch += RgbSum(paths_.radiance(eye, sights));
       }
       batch *= kPi / kGatherBatch;
       sum += batch, squares += batch * batch;

@@ -12,39 +12,66 @@ namespace deltalux {
 
 namespace {
 
-constexpr int kTile = 16;  // pixels a side: neighbours see the same elements
+constexpr int kTile = 32;  // pixels a side: neighbours see the same elements
+constexpr std::uint64_t kSurveyKey = 1 << 16;
+constexpr int kLearningShare = 2, kFewestLearning = 4, kMostLearning = 64;  // rays of a pixel over those to learn from
+
+/// Numbers pixels along a curve that keeps neighbours together: a pixel takes its stratified numbers from where its
+/// neighbours' end, so that errors of neighbours cancel and what noise there is, is fine. [Ahmed20]
+std::uint32_t pixelInOrder(int x, int y) {
+  std::uint32_t order = 0;
+  for (int bit = 0; bit < 16; ++bit)
+    order |= (static_cast<std::uint32_t>(x) >> bit & 1u) << (2 * bit) | (static_cast<std::uint32_t>(y) >> bit & 1u)
+                                                                            << (2 * bit + 1);
+  return order;
+}
 
 class Painter {
  public:
   Painter(const Solution& s, const View& view, const RenderSettings& settings)
-      : view_(view),
+      : elements_(s.elements),
+        view_(view),
         settings_(settings),
         reconstruction_(s),
         paths_(s, reconstruction_, {settings.meshDirect ? 0 : settings.shadowRays, settings.maxSpecularDepth}) {}
 
+  /// Looks around first, then at every pixel.
   void paint(Image& image, int x0, int y0) const {
-    for (int y = y0; y < std::min(y0 + kTile, image.height); ++y)
-      for (int x = x0; x < std::min(x0 + kTile, image.width); ++x) image.at(x, y) = pixel(image, x, y);
+    const int x1 = std::min(x0 + kTile, image.width), y1 = std::min(y0 + kTile, image.height);
+    Sights sights(elements_, reconstruction_);
+    if (!settings_.meshDirect) {
+      const std::uint64_t key = combineKeys(settings_.seed, kSurveyKey);
+      for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x) paths_.survey(eyeRay(image, x, y, pixelInOrder(x, y), key), sights);
+      const int rays = settings_.samplesPerPixel * settings_.shadowRays;
+      sights.learn(std::clamp(rays / kLearningShare, kFewestLearning, kMostLearning),
+                   combineKeys(key, pixelInOrder(x0, y0)));
+    }
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) image.at(x, y) = pixel(image, x, y, sights);
   }
 
  private:
-  Rgb pixel(const Image& image, int x, int y) const {
-    const std::uint64_t key =
-        combineKeys(settings_.seed, static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(image.width) + x);
+  Rgb pixel(const Image& image, int x, int y, Sights& sights) const {
+    const auto samples = static_cast<std::uint32_t>(settings_.samplesPerPixel);
     RgbSum sum(0.0);
-    for (int s = 0; s < settings_.samplesPerPixel; ++s) {
-      const UnitPair u = scrambledSobol(static_cast<std::uint32_t>(s), key);
-      const ViewRay from = viewRay(view_, (x + u.x) / image.width, (y + u.y) / image.height);
-      EyeRay eye;
-      eye.ray.origin = Vec3f(from.origin);
-      eye.ray.direction = Vec3f(from.direction);
-      eye.key = key;
-      eye.index = static_cast<std::uint32_t>(s);
-      sum += RgbSum(paths_.radiance(eye));
-    }
-    return Rgb(sum / double(settings_.samplesPerPixel));
+    for (std::uint32_t s = 0; s < samples; ++s)
+      sum += RgbSum(paths_.radiance(eyeRay(image, x, y, pixelInOrder(x, y) * samples + s, settings_.seed), sights));
+    return Rgb(sum / double(samples));
   }
 
+  EyeRay eyeRay(const Image& image, int x, int y, std::uint32_t index, std::uint64_t key) const {
+    const UnitPair u = scrambledSobol(index, key);
+    const ViewRay from = viewRay(view_, (x + u.x) / image.width, (y + u.y) / image.height);
+    EyeRay eye;
+    eye.ray.origin = Vec3f(from.origin);
+    eye.ray.direction = Vec3f(from.direction);
+    eye.key = key;
+    eye.index = index;
+    return eye;
+  }
+
+  const Elements& elements_;
   const View& view_;
   const RenderSettings& settings_;
   Reconstruction reconstruction_;

@@ -51,7 +51,7 @@ struct MeshScene {
       }
   }
 
-  IrradianceField field() const { return IrradianceField(elements, scene, *tracer, values); }
+  IrradianceField field(float noise = 0) const { return IrradianceField(elements, scene, *tracer, values, noise); }
 };
 
 /// Reads a field at points of a primitive's side.

@@ -34,6 +34,30 @@ TEST(IrradianceField, ReproducesLinearFieldsUpToTheEdges) {
   }
 }
 
+/// Of indirect light, what is within the noise is averaged; an edge of light stays where it is.
+TEST(IrradianceField, AveragesNoiseAndKeepsEdges) {
+  MeshScene mesh({square(0, 0)});
+  mesh.splitIrregularly(4, 6, 1);
+  mesh.light([&](const Vec3f& c, ElementId e) {
+    return (c.x < 0.5f ? 1.0f : 2.0f) * (Rgb(1.0f) + 0.1f * (noise(c, mesh, e) - 0.5f));
+  });
+  const IrradianceField rough = mesh.field(), quiet = mesh.field(0.05f);
+  const SideLocator locator(mesh.elements, mesh.scene);
+  Rng rng(3);
+  double before = 0, after = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3 p(rng.uniform(), rng.uniform(), 0);
+    if (std::abs(p.x - 0.5) < 0.1) continue;
+    const LeafPoint at = locator.locate(locator.side(PrimitiveId(0), 0, true), p);
+    const double truth = p.x < 0.5 ? 1 : 2;
+    const double a = rough.indirect(at, Vec3f(p)).x / truth - 1, b = quiet.indirect(at, Vec3f(p)).x / truth - 1;
+    before += a * a, after += b * b;
+    EXPECT_LT(std::abs(b), 0.06);
+    EXPECT_EQ(quiet.direct(at, Vec3f(p)), rough.direct(at, Vec3f(p)));
+  }
+  EXPECT_LT(after, 0.2 * before);
+}
+
 TEST(IrradianceField, ReproducesLinearFieldsOnSlantedPolygonsWithHoles) {
   // A slanted wall with a window, its hole joined by a seam.
   const auto at = [](double x, double y) { return Vec3(x, y, 0.5 * x); };

@@ -1,0 +1,116 @@
+#pragma once
+// What a small place sees of the lights, so that shadow rays go where light comes from: through the window, not at the
+// wall around it. The unit square of numbers that samples a sender (direct_light.hpp) is divided where some of it is
+// seen and some is not, or where it brings more here than there; shadow rays are shared among the squares in proportion
+// to their area times the root mean square of what one of their rays brings, which is least variance. It is learnt from
+// rays of the very points that will be shaded, and not from those that shade them: so what these bring stays unbiased.
+// Squares that no ray has found lit keep a share that falls with the number of rays that looked.
+//
+// Squares are in the order of a curve that fills the sky, and rays are dealt to them by systematic sampling: a pixel's
+// rays are spread over all that it sees. (Adaptive importance sampling, as [Lepage78], by quadtrees.)
+// Cost: the rays that are learnt from; a search by halves and a shadow ray a sample.
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "base/sobol.hpp"
+#include "radiosity/direct_light.hpp"
+#include "render/reconstruction.hpp"
+
+namespace deltalux {
+
+class Sight {
+ public:
+  /// As the choice of a leaf has it, in whole senders.
+  Sight(const Elements&, const SenderChoice&);
+  /// To learn from, for several leaves at once: as the choice of any of them has it.
+  Sight(const Elements&, std::span<const SenderChoice* const>);
+  /// Of its senders, those of one leaf.
+  Sight of(const SenderChoice&) const;
+
+  /// Learns by `rays` shadow rays from these places.
+  void learn(const DirectLight&, std::span<const Receiver> places, int rays, std::uint64_t key);
+
+  bool dark() const { return !(total() > 0); }
+  /// visit(LightArrival) for each of `rays` shadow rays that is not blocked: the sum of all of them is the estimate.
+  /// `index` and `key` name the stratified numbers to use.
+  template <class Visit>
+  void sample(const DirectLight& direct, const Receiver& x, int rays, std::uint32_t index, std::uint64_t key,
+              const Visit& visit) const {
+    if (dark()) return;
+    const double shift = scrambledSobol(index, combineKeys(key, 1)).x;
+    for (int k = 0; k < rays; ++k) {
+      const Square& square = squareAt(static_cast<float>((k + shift) / rays));
+      const UnitPair u =
+          scrambledSobol(index * static_cast<std::uint32_t>(rays) + static_cast<std::uint32_t>(k), combineKeys(key, 2));
+      auto arrival = direct.arrival(square.sender, x, square.at(u));
+      if (!arrival) continue;
+      arrival->E *= total() / (square.strength * static_cast<float>(rays));
+      visit(*arrival);
+    }
+  }
+
+ private:
+  Sight() = default;
+
+  /// A part of a sender's unit square.
+  struct Square {
+    ElementId sender;
+    Vec2 lower{0};
+    double size = 1;
+    float guess = 0;     // of its strength, before any ray looked at the square alone
+    float strength = 0;  // root mean square of what a ray brings, by the sender's whole square
+
+    Vec2 at(const UnitPair& u) const { return lower + size * Vec2(u.x, u.y); }
+    float share() const { return static_cast<float>(size * size) * strength; }
+  };
+  /// What a ray that was learnt from brought.
+  struct Look {
+    std::uint32_t square;
+    Vec2 u;
+    float E;
+  };
+
+  float total() const { return cumulative_.empty() ? 0.0f : cumulative_.back(); }
+  std::size_t indexAt(float part) const;
+  const Square& squareAt(float part) const { return squares_[indexAt(part)]; }
+  void limitBrightest();
+  void sumShares();
+  void look(const DirectLight&, std::span<const Receiver> places, int rays, std::uint64_t key,
+            std::vector<Look>&) const;
+  void judge(std::vector<Look>&);
+  static bool uneven(const Square&, std::span<const Look>);
+  void divide(const Square&, std::span<Look>, std::vector<Square>& squares, std::vector<Look>& looks) const;
+
+  std::vector<Square> squares_;
+  std::vector<float> cumulative_;
+};
+
+/// The sights of a part of a picture, by leaf: places are noted, learnt from, and then looked up. The leaves of one
+/// side of a surface learn together.
+class Sights {
+ public:
+  /// Both must outlive this.
+  Sights(const Elements& elements, const Reconstruction& reconstruction)
+      : elements_(elements), reconstruction_(reconstruction) {}
+
+  void note(ElementId leaf, const Receiver& place) { places_.push_back({leaf, place}); }
+  /// By so many rays a place that was noted.
+  void learn(int raysOfPlace, std::uint64_t key);
+  const Sight& at(ElementId leaf);
+
+ private:
+  const Elements& elements_;
+  const Reconstruction& reconstruction_;
+  struct Place {
+    ElementId leaf;
+    Receiver at;
+  };
+  std::vector<Place> places_;
+  std::unordered_map<ElementId, Sight> known_;
+
+  std::uint64_t sideOf(ElementId leaf) const;
+  void learn(std::span<const Place> ofSide, int rays, std::uint64_t key);
+};
+
+}  // namespace deltalux
