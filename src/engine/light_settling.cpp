@@ -20,7 +20,6 @@ constexpr double kDark = 1e-3;     // of the mean radiosity: irradiance that is 
 constexpr double kLeft = 0.5;      // of what may be missed: what is left when it was more
 constexpr double kMost = 0.4;      // of all rows: when it matters to more, all are gathered
 constexpr double kWithheld = 0.1;  // the same of what is not told
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 bool differ(const Rgb& a, const Rgb& b) {
   return maxChannel(glm::abs(a - b)) > kSame * std::max(maxChannel(a), maxChannel(b));
@@ -54,7 +53,7 @@ void takeLargest(const std::vector<double>& amounts, double sum, double most, co
 }  // namespace
 
 LightSettling::LightSettling(const Parts& parts, const Elements& elements) : regions_(elements) {
-  follow(parts, elements);
+  follow(elements);
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (!elements.isReceivingLeaf(ElementId(i))) continue;
     const int r = regions_.of(ElementId(i));
@@ -67,14 +66,11 @@ LightSettling::LightSettling(const Parts& parts, const Elements& elements) : reg
   parallelFor(surfaces.size(), 64, [&](std::size_t i) { learn(surfaces[i], parts, elements); });
 }
 
-void LightSettling::follow(const Parts& parts, const Elements& elements) {
+void LightSettling::follow(const Elements& elements) {
   regions_.follow(elements);
   for (std::size_t i = seen_.size(); i < elements.size(); ++i) seen_.push_back(elements.radiometry[i].B);
   from_.resize(elements.size(), 0), factors_.resize(elements.size()), misses_.resize(elements.size(), 0.0f);
   particlesFrom_.resize(elements.size(), 0), read_.resize(elements.size(), 0), listed_.resize(elements.size(), 0);
-  rowOf_.assign(elements.size(), kNone);
-  const auto rows = parts.rows.rows();
-  for (std::size_t i = 0; i < rows.size(); ++i) rowOf_[rows[i].leaf.index()] = static_cast<std::uint32_t>(i);
 }
 
 /// By many threads at once, most of which find it marked: then nothing is written that others read.
@@ -120,11 +116,11 @@ void LightSettling::addRelit(const Parts& parts, Elements& elements, std::vector
 }
 
 LightSettling::Work LightSettling::firstWork(const Parts& parts, Elements& elements, const LightChanges& changes) {
-  follow(parts, elements);
+  follow(elements);
   Work work;
   std::vector<char> marked(elements.size(), 0);
   for (const ElementId e : changes.rows)
-    if (rowOf_[e.index()] != kNone)
+    if (parts.rows.find(e))
       marked[e.index()] = 1;
     else
       from_[e.index()] = 0, misses_[e.index()] = 0;
@@ -161,7 +157,7 @@ void LightSettling::gather(const Parts& parts, Elements& elements, Work& work, b
   parallelFor(work.rows.size(), 64, [&](std::size_t i) {
     const std::size_t e = work.rows[i].index();
     const Rgb before = elements.radiometry[e].indirect;
-    const LeafRow& row = rowOf(work.rows[i], parts);
+    const LeafRow& row = *parts.rows.find(work.rows[i]);
     if (anew) learn(row);
     parts.rows.gatherIndirect(row, elements, seen_);
     misses_[e] = 0;
@@ -222,7 +218,7 @@ LightSettling::Work LightSettling::readersOf(const News& news, const Parts& part
   const double area = std::accumulate(area_.begin(), area_.end(), 1e-30);
   const auto dark = static_cast<float>(kDark * std::accumulate(power_.begin(), power_.end(), 0.0) / area);
   parallelFor(elements.size(), 1024, [&](std::size_t e) {
-    if (rowOf_[e] == kNone) return;
+    if (!parts.rows.find(ElementId(e))) return;
     if (from_[e] & news.regions) {
       float change = 0;
       for (int r = 0; r < kRegions; ++r) change += static_cast<float>(factors_[e][r]) * news.change[r];

@@ -54,8 +54,7 @@ class LightSettling {
     double withheld = 0;                   // change that is too small to be told [W]
   };
 
-  void follow(const Parts&, const Elements&);
-  const LeafRow& rowOf(ElementId leaf, const Parts& parts) const { return parts.rows.rows()[rowOf_[leaf.index()]]; }
+  void follow(const Elements&);
   void markRead(ElementId sender);
   void learn(const LeafRow&);
   void learn(ElementId surface, const Parts&, const Elements&);
@@ -69,7 +68,6 @@ class LightSettling {
 
   SceneRegions regions_;
   // By element.
-  std::vector<std::uint32_t> rowOf_;              // or none; while settle() runs
   std::vector<SceneRegions::Set> from_;           // regions that its row reads
   std::vector<Factors> factors_;                  // of its row
   std::vector<float> misses_;                     // irradiance that its row has not heard of, gray [W/m2]

@@ -223,7 +223,7 @@ Engine::State::Motion Engine::State::leave(const SceneUpdate& edits, StepReport&
   motion.inputs = elementsOf(s.elements, primitives);
   const std::vector<ElementId> lights = elementsOf(s.elements, edits.movedLights);
   motion.inputs.insert(motion.inputs.end(), lights.begin(), lights.end());
-  motion.all.setMoved(subtrees(s.elements, motion.inputs));
+  motion.all.setMoved(subtrees(s.elements, motion.inputs), s.elements, s.scene);
   if (primitives.empty() && motion.inputs.empty()) return motion;
   motion.marks = LineSpace(s.links, s.elements, s.scene, motion.all, before, after).visit();
   reshape(s.elements, s.scene, motion.inputs);
@@ -238,10 +238,10 @@ RowWork Engine::State::arrive(Motion& motion, const Growth& growth, StepReport& 
   LinkMarks& marks = motion.marks;
   if (marks.changes.empty() || !growth.woken.empty()) {
     SpaceChange woken;
-    woken.setMoved(subtrees(s.elements, growth.woken));
+    woken.setMoved(subtrees(s.elements, growth.woken), s.elements, s.scene);
     add(LineSpace(s.links, s.elements, s.scene, woken, {}, {}).visit(), marks);
     motion.inputs.insert(motion.inputs.end(), growth.woken.begin(), growth.woken.end());
-    motion.all.setMoved(subtrees(s.elements, motion.inputs));
+    motion.all.setMoved(subtrees(s.elements, motion.inputs), s.elements, s.scene);
   }
   if (growth.root.valid()) addRootLinks(s.links, s.elements, growth.root);
   step.linksVisited = marks.visited;

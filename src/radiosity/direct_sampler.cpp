@@ -87,7 +87,6 @@ DirectRow DirectSampler::at(ElementId leaf, int rays) const {
 
 void DirectSampler::deal(ElementId leaf, const std::vector<Term>& terms, float step, Sampled& sampled) const {
   sampled.row.weightPerRay = step;
-  sampled.row.reach.add(elements_.shape(leaf));
   for (const Term& t : terms) {
     const std::uint64_t key = rayKey(leaf, t.sender);
     if (t.known()) {
@@ -177,8 +176,8 @@ Vec3f DirectSampler::endOf(const Ray& ray) const {
 
 /// Notes where the rays of a row's term go.
 void DirectSampler::remember(ElementId sender, const Passage& p, TransferRow& row) const {
-  if (p.weights > 0) row.reach.add(p.reach.lower), row.reach.add(p.reach.upper);
-  if (!elements_.isDistant(sender)) row.reach.add(elements_.shape(sender));
+  row.reach.add(p.reach);
+  if (elements_.isPatch(sender)) row.reach.objects.add(scene_, elements_.domain[sender.index()].primitive);
 }
 
 DirectSampler::Passage DirectSampler::pass(ElementId leaf, const Term& t, int rays, std::uint64_t key,
@@ -190,11 +189,14 @@ DirectSampler::Passage DirectSampler::pass(ElementId leaf, const Term& t, int ra
     const Shot shot = shoot(leaf, t.sender, key, i);
     p.used += byAngle || shot.weight > 0;
     if (!(shot.weight > 0)) continue;
-    Rgb V(1.0f);
-    if (!t.clear) V = tracer_.transmittance(shot.ray), ++traced;
-    if (byAngle) V *= shot.radiance;
+    Passing through;
+    if (!t.clear) through = tracer_.passing(shot.ray), ++traced;
+    const Rgb V = byAngle ? through.share * shot.radiance : through.share;
     passed += shot.weight * RgbSum(V);
-    p.reach.add(endOf(shot.ray));
+    if (endsAtOne(scene_, through))
+      p.reach.objects.add(scene_, through.blocker);
+    else
+      p.reach.add(elements_.shape(leaf), endOf(shot.ray));
     p.weights += shot.weight;
     p.seen[shot.quadrant] += shot.weight * gray(V), p.all[shot.quadrant] += shot.weight;
     ++p.count[shot.quadrant];

@@ -126,7 +126,7 @@ bool DirectSampler::sampleChanged(ElementId leaf, int rays, std::span<const Link
   deal(leaf, fresh, row.weightPerRay, sampled);
   traced += sampled.rays;
   update.variation = variation(leaf, sampled);
-  row.reach.add(sampled.row.reach.lower), row.reach.add(sampled.row.reach.upper);
+  row.reach.add(sampled.row.reach);
   row.terms.insert(row.terms.end(), sampled.row.terms.begin(), sampled.row.terms.end());
   row.transfers.insert(row.transfers.end(), sampled.row.transfers.begin(), sampled.row.transfers.end());
   return true;

@@ -10,6 +10,8 @@ namespace deltalux {
 
 struct DirectionCode {
   std::int8_t x = 0, y = 0;
+
+  friend bool operator==(DirectionCode, DirectionCode) = default;
 };
 
 /// No decoded direction is further from the coded one [radians].

@@ -18,11 +18,12 @@ constexpr float kLeastKernel = 0.1f;  // relative to that of a sender that faces
 constexpr float kFaint = 0.1f;   // of the light here: radiosity that senders are credited with, so that rows hold what
                                  // may light up later, and what is all but dark gets no few heavy samples
 constexpr float kUneven = 2.0f;  // rays of clusters and curved senders, whose points differ most, against others
-constexpr float kPartsShare = 2.0f;   // rays of a sender above which it is taken apart
-constexpr float kWholeShare = 0.25f;  // the same for senders that need no ray: their radiosity counts as even
-constexpr float kMostRays = 128;      // of what is made anew in a row
-constexpr float kLookedAt = 8;        // times its rays' worth: chance that what changed is looked at
-constexpr int kFacingTries = 16;      // more points of a sender when some face away
+constexpr float kPartsShare = 2.0f;         // rays of a sender above which it is taken apart
+constexpr float kWholeShare = 0.25f;        // the same for senders that need no ray: their radiosity counts as even
+constexpr float kMostRays = 128;            // of what is made anew in a row
+constexpr float kLookedAt = 8;              // times its rays' worth: chance that what changed is looked at
+constexpr float kBlocked = 0x1.fffffep-1f;  // of a ray: furthest place of what blocks it
+constexpr int kFacingTries = 16;            // more points of a sender when some face away
 
 /// Transfer that clusters and curved senders are credited with: their nodes may all face away where some part does not.
 float leastKernel(const Elements& elements, const Vec3f& x, ElementId sender) {
@@ -204,28 +205,30 @@ float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear
   return static_cast<float>(K);
 }
 
-Rgb IndirectSampler::transfer(const Dealt& d, const SenderSample& s, std::uint64_t& traced) const {
-  if (known(d.term)) return Rgb(d.term.K);
-  if (!s.leaf.valid()) return Rgb(0.0f);
+IndirectSampler::Found IndirectSampler::find(const Dealt& d, const SenderSample& s, std::uint64_t& traced) const {
+  if (known(d.term)) return {Rgb(d.term.K)};
+  if (!s.leaf.valid()) return {Rgb(0.0f)};
   const float K = exact(d.term.sender) ? d.term.K : elements_.shape(d.term.sender).area * static_cast<float>(s.weight);
-  if (d.term.open >= 1.0f) return Rgb(d.gain * K);
+  if (d.term.open >= 1.0f) return {Rgb(d.gain * K), &s.ray};
   ++traced;
-  return d.gain * K * tracer_.transmittance(s.ray);
+  const Passing p = tracer_.passing(s.ray);
+  if (!endsAtOne(scene_, p)) return {d.gain * K * p.share, &s.ray};
+  return {Rgb(0.0f), &s.ray, std::min(p.t / s.ray.tFar, kBlocked), p.blocker};
 }
 
 SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index) const {
   return shoot(leaf, sender, index, [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); });
 }
 
-void IndirectSampler::remember(ElementId leaf, std::size_t term, const SenderSample& s, TransferRow& row) const {
-  const ElementGeometry& sender = elements_.shape(row.terms[term].sender);
-  const Vec3f d = s.leaf.valid() ? s.ray.direction : sender.center - elements_.shape(leaf).center;
-  row.directions.resize(row.terms.size());
-  row.directions[term] = glm::dot(d, d) > 0 ? directionCode(d) : DirectionCode{};
-  if (s.leaf.valid())
-    row.reach.add(s.ray.origin + s.ray.tFar * s.ray.direction);
-  else
-    row.reach.add(sender);
+void IndirectSampler::remember(ElementId leaf, std::size_t term, const Found& f, TransferRow& row) const {
+  const ElementGeometry& g = elements_.shape(leaf);
+  const Vec3f from = 0.5f * (g.lower + g.upper);
+  row.rays.resize(row.terms.size());
+  const Vec3f d = f.ray ? f.seen * (at(*f.ray, f.ray->tFar) - from) : Vec3f(0.0f);
+  row.rays[term] = f.ray ? rayCode(d, f.seen < 1) : rayCode({}, 0, true);
+  if (f.ray && !f.blocker.valid()) return row.reach.add(g, from + d);
+  row.reach.objects.add(scene_, elements_.domain[row.terms[term].sender.index()].primitive);
+  if (f.blocker.valid()) row.reach.objects.add(scene_, f.blocker);
 }
 
 void IndirectSampler::append(ElementId leaf, const Dealt& d, TransferRow& row, std::uint64_t& traced) const {
@@ -234,12 +237,12 @@ void IndirectSampler::append(ElementId leaf, const Dealt& d, TransferRow& row, s
 
 void IndirectSampler::append(ElementId leaf, const Dealt& d, const SenderSample& s, TransferRow& row,
                              std::uint64_t& traced) const {
-  const Rgb T = transfer(d, s, traced);
-  const bool some = !isBlack(T);
+  const Found found = find(d, s, traced);
+  const bool some = !isBlack(found.T);
   row.terms.push_back(
       {d.term.link, d.term.sender, d.gain, static_cast<std::uint8_t>(d.index), some, d.term.open >= 1.0f});
-  remember(leaf, row.terms.size() - 1, s, row);
-  if (some) row.transfers.push_back({d.term.sender, T});
+  remember(leaf, row.terms.size() - 1, found, row);
+  if (some) row.transfers.push_back({d.term.sender, found.T});
 }
 
 TransferRow IndirectSampler::atLeaf(ElementId leaf, int rays, std::uint64_t& traced) const {
@@ -251,14 +254,13 @@ TransferRow IndirectSampler::atLeaf(ElementId leaf, int rays, std::uint64_t& tra
   double total = 0;
   for (const Term& t : terms) total += known(t) ? 0.0f : t.weight;
   TransferRow row;
-  row.reach.add(elements_.shape(leaf));
   const double step = (total > 0 ? total : sum) / rays;
   row.weightPerRay = static_cast<float>(step / level(leaf));
   const PatchPoint center{elements_.shape(leaf).center, elements_.shape(leaf).normal};
   deal(leaf, center, terms, step, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, row, traced); });
   row.terms.shrink_to_fit();
   row.transfers.shrink_to_fit();
-  row.directions.shrink_to_fit();
+  row.rays.shrink_to_fit();
   return row;
 }
 
@@ -307,7 +309,7 @@ Rgb IndirectSampler::atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal
   deal(leaf, x, terms, total / rays, rays, kernelOf, [&](const Dealt& d) {
     const auto s =
         known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index, [&](double, double) { return x; });
-    const Rgb T = transfer(d, s, traced);
+    const Rgb T = find(d, s, traced).T;
     E += RgbSum(T * elements_.radiometry[d.term.sender.index()].B);
   });
   return Rgb(E);

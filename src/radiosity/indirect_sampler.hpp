@@ -80,10 +80,16 @@ class IndirectSampler {
   template <class PointAt>
   SenderSample shoot(ElementId leaf, ElementId sender, int index, const PointAt&) const;
   SenderSample shoot(ElementId leaf, ElementId sender, int index) const;
-  /// T of a dealt term by its ray; black where it brings nothing.
-  Rgb transfer(const Dealt&, const SenderSample&, std::uint64_t& traced) const;
+  struct Found {
+    Rgb T{0.0f};  // black where the term brings nothing
+    const Ray* ray = nullptr;
+    float seen = 1;  // share of the ray up to what blocks it
+    PrimitiveId blocker = {};
+  };
+  /// What a dealt term brings, by its ray.
+  Found find(const Dealt&, const SenderSample&, std::uint64_t& traced) const;
   /// Notes where the ray of one of the row's terms goes.
-  void remember(ElementId leaf, std::size_t term, const SenderSample&, TransferRow&) const;
+  void remember(ElementId leaf, std::size_t term, const Found&, TransferRow&) const;
   void append(ElementId leaf, const Dealt&, TransferRow&, std::uint64_t& traced) const;
   void append(ElementId leaf, const Dealt&, const SenderSample&, TransferRow&, std::uint64_t& traced) const;
   /// A term of a row that has to be traced again, and its ray.

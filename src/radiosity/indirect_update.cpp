@@ -11,6 +11,11 @@ namespace deltalux {
 
 namespace {
 
+/// From the middle of a leaf.
+Vec3f toEnd(const ElementGeometry& leaf, const Ray& ray) {
+  return at(ray, ray.tFar) - 0.5f * (leaf.lower + leaf.upper);
+}
+
 constexpr float kMostGone = 0.5f;  // of the rays of a leaf that has moved: with fewer left, all are dealt anew
 constexpr double kUneven = 5.0;    // so they are when the mean square of what each may bring is this many shares'
 
@@ -22,7 +27,14 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(ElementId leaf, con
   const ElementGeometry& r = elements_.shape(leaf);
   if (elements_.at(leaf).flat && space.behind(r.center, r.normal)) return out;
   std::vector<std::uint32_t> candidates;
-  space.meetsRays(r, row.directions, candidates);
+  space.meetsRays(r, row.rays, candidates);
+  // Senders that moved, behind what blocks their rays or without one.
+  const auto met = static_cast<std::ptrdiff_t>(candidates.size());
+  if (space.objects().meets(row.reach.objects))
+    for (std::uint32_t i = 0; i < row.terms.size(); ++i)
+      if (blocked(row.rays[i]) && space.moved(row.terms[i].sender)) candidates.push_back(i);
+  std::inplace_merge(candidates.begin(), candidates.begin() + met, candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   for (const std::uint32_t i : candidates) {
     const RowTerm& t = row.terms[i];
     const bool moved = space.moved(t.sender);
@@ -31,7 +43,9 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(ElementId leaf, con
       if (t.clear || !space.meets(r.center, r.radius, s.center, s.radius)) continue;
     }
     const SenderSample sample = t.clear && exact(t.sender) ? SenderSample{} : shoot(leaf, t.sender, t.index);
-    if (moved || (sample.leaf.valid() && space.meets(sample.ray))) out.push_back({i, sample});
+    // Where the sender has been split since, it is another ray.
+    const auto another = [&] { return !(directionCode(toEnd(r, sample.ray)) == towards(row.rays[i])); };
+    if (moved || (sample.leaf.valid() && (space.meets(sample.ray) || another()))) out.push_back({i, sample});
   }
   return out;
 }
@@ -49,7 +63,7 @@ bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span
       row = atLeaf(leaf, rays, traced);
       return true;
     }
-    row.reach = {}, row.reach.add(elements_.shape(leaf));
+    row.reach = {};
   }
   retrace(leaf, again, row, traced);
   const bool dealt = !changed.empty() && dealChanged(leaf, changed, row, traced);
@@ -100,12 +114,12 @@ void IndirectSampler::retrace(ElementId leaf, std::span<const Again> again, Tran
   for (const Again& a : again) {
     for (; i < a.term; ++i) at += row.terms[i].count;
     RowTerm& t = row.terms[a.term];
-    const Rgb T = transfer(dealt(leaf, t), a.sample, traced);
-    remember(leaf, a.term, a.sample, row);
+    const Found found = find(dealt(leaf, t), a.sample, traced);
+    remember(leaf, a.term, found, row);
     if (t.count > 0)
-      row.transfers[at].T = T;  // also where it is black by now: the next move may lift it
-    else if (!isBlack(T))
-      row.transfers.insert(row.transfers.begin() + static_cast<std::ptrdiff_t>(at), {t.sender, T}), t.count = 1;
+      row.transfers[at].T = found.T;  // also where it is black by now: the next move may lift it
+    else if (!isBlack(found.T))
+      row.transfers.insert(row.transfers.begin() + static_cast<std::ptrdiff_t>(at), {t.sender, found.T}), t.count = 1;
   }
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 // The row of one leaf patch: E(leaf) = sum of T B(sender), and which part of it samples which link, so that a part can
 // be made anew alone when what it crosses has changed.
-#include <limits>
 #include <vector>
 
 #include "hierarchy/link.hpp"
-#include "radiosity/direction_code.hpp"
+#include "radiosity/ray_code.hpp"
+#include "radiosity/row_reach.hpp"
 
 namespace deltalux {
 
@@ -26,19 +26,11 @@ struct RowTerm {
   std::uint8_t unused = 0;
 };
 
-/// A box that holds the leaf and all that the rays of a row pass through, or more.
-struct RowReach {
-  Vec3f lower{std::numeric_limits<float>::infinity()}, upper{-std::numeric_limits<float>::infinity()};
-
-  void add(const Vec3f& p) { lower = glm::min(lower, p), upper = glm::max(upper, p); }
-  void add(const ElementGeometry& g) { add(g.lower), add(g.upper); }
-};
-
 /// Transfers by term, in the order of the terms.
 struct TransferRow {
   std::vector<RowTerm> terms;
   std::vector<LeafTransfer> transfers;
-  std::vector<DirectionCode> directions;  // indirect, by term: of its ray, or to the sender where there is none
+  std::vector<RayCode> rays;  // indirect, by term; of one without a ray: blocked at the leaf
   RowReach reach;
   float weightPerRay = 0;  // how rays are shared out: by what a term may bring [W/m2]; indirect: relative to the level
                            // of light around the leaf

@@ -28,7 +28,7 @@ void validateRow(const TransferRow& row, bool ofEmitters, const Elements& elemen
     require(std::isfinite(t.gain) && t.gain > 0, "transfer: gain");
     count += t.count;
   }
-  require(row.directions.size() == (ofEmitters ? 0 : row.terms.size()), "transfers: a direction a term");
+  require(row.rays.size() == (ofEmitters ? 0 : row.terms.size()), "transfers: a ray a term");
   require(count == row.transfers.size() && std::isfinite(row.weightPerRay), "transfers: by term");
   for (const LeafTransfer& t : row.transfers) {
     require(t.leaf.index() < elements.size(), "transfer: sender");
@@ -74,6 +74,7 @@ LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, 
                                                    });
   report.rays = direct.rays, report.split = direct.split;
   std::sort(rows_.begin(), rows_.end(), [](const LeafRow& a, const LeafRow& b) { return a.leaf < b.leaf; });
+  listRows();
   gatherDirect(elements);
   pull(elements);
 
@@ -87,11 +88,11 @@ LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, 
 }
 
 std::size_t LeafTransfers::memoryBytes() const {
-  std::size_t bytes = rows_.capacity() * sizeof(LeafRow);
+  std::size_t bytes = rows_.capacity() * sizeof(LeafRow) + rowOf_.capacity() * sizeof rowOf_[0];
   for (const LeafRow& r : rows_)
     for (const TransferRow* row : {&r.direct, &r.indirect})
       bytes += row->terms.capacity() * sizeof(RowTerm) + row->transfers.capacity() * sizeof(LeafTransfer) +
-               row->directions.capacity() * sizeof(DirectionCode);
+               row->rays.capacity() * sizeof(RayCode);
   return bytes;
 }
 
@@ -121,6 +122,7 @@ void LeafTransfers::validate(const Elements& elements, const Links& links) const
     require(leaf.index() < elements.size() && elements.isReceivingLeaf(leaf), "transfers: of leaves");
     require(!has[leaf.index()], "transfers: each leaf once");
     has[leaf.index()] = 1;
+    require(rowOf_.empty() || find(leaf) == &rows_[i], "transfers: leaves know their rows");
     validateRow(rows_[i].direct, true, elements, links);
     validateRow(rows_[i].indirect, false, elements, links);
   }

@@ -58,6 +58,12 @@ class LeafTransfers {
 
   bool empty() const { return rows_.empty(); }
   std::span<const LeafRow> rows() const { return rows_; }
+  /// The row of a leaf; null when it has none.
+  const LeafRow* find(ElementId leaf) const {
+    return leaf.index() < rowOf_.size() && rowOf_[leaf.index()] != kNone ? &rows_[rowOf_[leaf.index()]] : nullptr;
+  }
+  /// Lists which row is whose anew.
+  void listRows();
   std::size_t memoryBytes() const;
 
   /// Fills `direct` of the leaves from the present B of emitters.
@@ -75,11 +81,13 @@ class LeafTransfers {
  private:
   friend struct StoredTransfers;  // solution files
 
-  void dropNoLeaves(const Elements&);
-  /// By element: index of its row, or none.
-  std::vector<std::uint32_t> rowsByElement(const Elements&) const;
+  static constexpr std::uint32_t kNone = 0xffffffffu;
 
-  std::vector<LeafRow> rows_;  // one a leaf
+  void dropNoLeaves(const Elements&);
+  void setRow(ElementId leaf, std::size_t row);
+
+  std::vector<LeafRow> rows_;         // one a leaf
+  std::vector<std::uint32_t> rowOf_;  // by element: index of its row, or none; follows from the rows
 };
 
 }  // namespace deltalux

@@ -29,14 +29,14 @@ bool drop(TransferRow& row, const Goes& goes) {
     if (goes(t)) continue;
     if (terms < i) {
       std::copy_n(row.transfers.begin() + begin, t.count, row.transfers.begin() + transfers);
-      if (!row.directions.empty()) row.directions[terms] = row.directions[i];
+      if (!row.rays.empty()) row.rays[terms] = row.rays[i];
       row.terms[terms] = t;
     }
     ++terms, transfers += t.count;
   }
   if (terms == row.terms.size()) return false;
   row.terms.resize(terms), row.transfers.resize(transfers);
-  if (!row.directions.empty()) row.directions.resize(terms);
+  if (!row.rays.empty()) row.rays.resize(terms);
   return true;
 }
 

@@ -36,7 +36,15 @@ void SpaceChange::add(const Box& box) {
   all_.upper = glm::max(all_.upper, parts_.back().upper);
 }
 
+void SpaceChange::setMoved(std::vector<char> moved, const Elements& elements, const Scene& scene) {
+  moved_ = std::move(moved);
+  for (std::size_t i = 0; i < moved_.size(); ++i)
+    if (moved_[i] && elements.topology[i].depth == 0 && elements.isPatch(ElementId(i)))
+      objects_.add(scene, elements.domain[i].primitive);
+}
+
 void SpaceChange::add(const SpaceChange& more) {
+  objects_.add(more.objects_);
   parts_.insert(parts_.end(), more.parts_.begin(), more.parts_.end());
   all_.lower = glm::min(all_.lower, more.all_.lower);
   all_.upper = glm::max(all_.upper, more.all_.upper);
@@ -93,7 +101,7 @@ bool SpaceChange::behind(const Vec3f& point, const Vec3f& normal) const {
   return glm::dot(middle - point, normal) + glm::dot(half, glm::abs(normal)) < 0;
 }
 
-void SpaceChange::meetsRays(const ElementGeometry& from, std::span<const DirectionCode> directions,
+void SpaceChange::meetsRays(const ElementGeometry& from, std::span<const RayCode> rays,
                             std::vector<std::uint32_t>& out) const {
   if (parts_.empty()) return;
   constexpr float kLeast = 1e-6f;  // of a coordinate of a direction
@@ -104,11 +112,14 @@ void SpaceChange::meetsRays(const ElementGeometry& from, std::span<const Directi
   const Vec3f grown = half + 1.05f * kDirectionCodeError * glm::length(far + half);
   const Vec3f lower = all_.lower - grown - center, upper = all_.upper + grown - center;
   std::array<std::uint8_t, kMost> meets;
-  for (std::size_t begin = 0; begin < directions.size(); begin += kMost) {
-    const std::size_t count = std::min(kMost, directions.size() - begin);
+  for (std::size_t begin = 0; begin < rays.size(); begin += kMost) {
+    const std::size_t count = std::min(kMost, rays.size() - begin);
     for (std::size_t i = 0; i < count; ++i) {
-      const Vec3f d = direction(directions[begin + i]);
-      float nearest = 0, furthest = std::numeric_limits<float>::infinity();
+      const std::uint32_t bits = rays[begin + i].bits;
+      const RayCode ray{bits};
+      const Vec3f d = direction(towards(ray));
+      float nearest = (blocked(ray) ? 1 - kRayCodeError : 0.0f) * end(ray);
+      float furthest = (1 + kRayCodeError) * end(ray);
       for (int axis = 0; axis < 3; ++axis) {
         const float inverse = 1.0f / std::copysign(std::max(std::abs(d[axis]), kLeast), d[axis]);
         const float a = lower[axis] * inverse, b = upper[axis] * inverse;

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "hierarchy/link.hpp"
-#include "radiosity/direction_code.hpp"
+#include "radiosity/ray_code.hpp"
+#include "radiosity/row_reach.hpp"
 #include "radiosity/shaft.hpp"
 #include "tracing/ray.hpp"
 
@@ -18,9 +19,11 @@ class SpaceChange {
   /// What another change moved too.
   void add(const SpaceChange&);
   /// By element: whether it is what moved, or part of it.
-  void setMoved(std::vector<char> moved) { moved_ = std::move(moved); }
+  void setMoved(std::vector<char> moved, const Elements&, const Scene&);
 
   bool moved(ElementId e) const { return e.index() < moved_.size() && moved_[e.index()]; }
+  /// What objects moved in part.
+  const ObjectSet& objects() const { return objects_; }
 
   bool empty() const { return parts_.empty(); }
   /// The largest share that the bounds of one thing take of the hemisphere around a ball, about; 1 for those near by.
@@ -30,14 +33,18 @@ class SpaceChange {
   bool meets(const Ray&) const;
   /// Of a box.
   bool meets(const Vec3f& lower, const Vec3f& upper) const;
+  /// Of what the rays of a leaf's row pass through, end at, or would.
+  bool meets(const ElementGeometry& leaf, const RowReach& reach) const {
+    return objects_.meets(reach.objects) || (!parts_.empty() && reach.meets(leaf, all_.lower, all_.upper));
+  }
   /// Of the convex hull of two balls.
   bool meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const;
   /// Whether all lies in the box.
   bool within(const Box&) const;
   /// Whether there is something, all of it behind a plane (unit normal).
   bool behind(const Vec3f& point, const Vec3f& normal) const;
-  /// Of each of many rays that leave a box in these directions: appends the indices of those that may.
-  void meetsRays(const ElementGeometry& from, std::span<const DirectionCode>, std::vector<std::uint32_t>& out) const;
+  /// Of each of many rays of a leaf: appends the indices of those that something moving may touch.
+  void meetsRays(const ElementGeometry& from, std::span<const RayCode>, std::vector<std::uint32_t>& out) const;
   /// Of what leaves a ball in directions within an angle of `direction` (unit; the angle in radians).
   bool meetsBeam(const Vec3f& center, float radius, const Vec3f& direction, float angle) const;
 
@@ -51,6 +58,7 @@ class SpaceChange {
   Part all_{Vec3f(std::numeric_limits<float>::infinity()), Vec3f(-std::numeric_limits<float>::infinity())};
   std::vector<Part> parts_;
   std::vector<char> moved_;
+  ObjectSet objects_;
 };
 
 /// What a link has come to, by its index.

@@ -199,16 +199,17 @@ class BruteForceTracer final : public RayTracer {
   Passing passed(const Ray& ray, const Counts& counts) const {
     Rgb product(1.0f);
     PrimitiveId blocker;
+    float t = 0;
     const bool through = forMeetings(ray, [&](const Snapshot& from, const Meeting& m) {
       if (!counts(from)) return true;
-      blocker = from.primitive;
+      blocker = from.primitive, t = static_cast<float>(m.t);
       if (!isPane(from)) return false;
       const double cosine = std::abs(glm::dot(m.normal, Vec3(ray.direction)));
       product *= deltalux::transmittance(std::get<ThinGlass>(scene_.materialOf(from.primitive).surface),
                                          std::clamp(cosine, 1e-6, 1.0));
       return true;
     });
-    return through ? Passing{product, isBlack(product) ? blocker : PrimitiveId()} : Passing{Rgb(0.0f), blocker};
+    return through ? Passing{product, isBlack(product) ? blocker : PrimitiveId(), t} : Passing{Rgb(0.0f), blocker, t};
   }
 
   const Scene& scene_;

@@ -70,9 +70,11 @@ void occludedCallback(const RTCOccludedFunctionNArguments* args) {
     const Vec3 origin = ray.origin(), direction = ray.direction();
     const Crossings crossings = record.surface.crossings(origin, direction);
     bool blocked = false;
+    float met = 0;
     for (int k = 0; k < crossings.count && !blocked; ++k) {
       const double t = crossings.t[static_cast<std::size_t>(k)];
       if (!ray.reaches(static_cast<float>(t))) continue;
+      met = static_cast<float>(t);
       if constexpr (passage == Passage::Opaque) {
         blocked = true;
       } else {
@@ -81,7 +83,8 @@ void occludedCallback(const RTCOccludedFunctionNArguments* args) {
       }
     }
     if (!blocked) continue;
-    static_cast<PassageQuery*>(args->context)->blocker = record.primitive;
+    auto& query = *static_cast<PassageQuery*>(args->context);
+    query.blocker = record.primitive, query.blockedAt = met;
     ray.tFar() = -std::numeric_limits<float>::infinity();
   }
 }
@@ -116,7 +119,7 @@ void triangleFilter(const RTCFilterFunctionNArguments* args) {
     if constexpr (passage == Passage::Pane)
       blocked = blocked && !query.cross(record.primitive, t, std::abs(glm::dot(record.normal, direction)));
     if (blocked)
-      query.blocker = record.primitive;
+      query.blocker = record.primitive, query.blockedAt = t;
     else
       args->valid[i] = 0;
   }

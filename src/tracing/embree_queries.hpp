@@ -54,6 +54,7 @@ struct PassageQuery : RTCIntersectContext {
   const Ray& segment;
   Rgb passed{1.0f};
   PrimitiveId blocker;  // what ended it, if anything did
+  float blockedAt = 0;  // and where
 
  private:
   struct Crossed {

@@ -121,7 +121,7 @@ class EmbreeTracer final : public RayTracer {
     RTCRay r = embreeRay(ray, kAnyMask);
     PassageQuery query(scene_, ray);
     rtcOccluded1(scene, &query, &r);
-    return r.tfar < 0 ? Passing{Rgb(0.0f), query.blocker} : Passing{query.passed, {}};
+    return r.tfar < 0 ? Passing{Rgb(0.0f), query.blocker, query.blockedAt} : Passing{query.passed, {}, 0};
   }
 
   void build(std::size_t group) {

@@ -19,7 +19,13 @@ using GroupId = Id<struct GroupTag>;  // group 0 is the static rest of the scene
 struct Passing {
   Rgb share{1.0f};
   PrimitiveId blocker;
+  float t = 0;  // where the blocker is met
 };
+
+/// Whether one surface alone lets nothing pass: not panes together.
+inline bool endsAtOne(const Scene& scene, const Passing& p) {
+  return p.blocker.valid() && !isThinGlass(scene.materialOf(p.blocker));
+}
 
 class RayTracer {
  public:

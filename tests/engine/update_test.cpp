@@ -4,6 +4,7 @@
 
 #include "base/random.hpp"
 #include "hierarchy/side_locator.hpp"
+#include "radiosity/row_terms.hpp"
 #include "support/settled.hpp"
 
 namespace deltalux {
@@ -79,6 +80,68 @@ TEST(Update, ManySmallMovesCarryTheirLightOn) {
   const EnergyLedger ledger = engine.solution().get().report.energy;
   EXPECT_LE(*ledger.unsettledW, 1e-4 * *ledger.emittedW);
   EXPECT_LT(test::unsettled(engine.solution().get()).relative.p95, 0.005);
+}
+
+/// Terms of indirect rows that would bring something else, were all their rays traced anew; and all terms.
+std::pair<std::size_t, std::size_t> termsThatAreStale(const Solution& s) {
+  Elements elements = s.elements;
+  LeafTransfers transfers = s.transfers;
+  LinkMarks all;
+  all.changes.assign(s.links.size(), LinkChange::Touched);
+  SpaceChange everywhere;
+  everywhere.add(elements.sceneBox);
+  ConcernedLeaves leaves;
+  for (const LeafRow& row : transfers.rows()) leaves.byLeaves.push_back(row.leaf);
+  std::sort(leaves.byLeaves.begin(), leaves.byLeaves.end());
+  transfers.update(elements, s.links, s.scene, *s.tracer, {}, all, {}, everywhere, leaves);
+  std::size_t stale = 0, count = 0;
+  for (std::size_t i = 0; i < transfers.rows().size(); ++i) {
+    const TransferRow &was = s.transfers.rows()[i].indirect, &is = transfers.rows()[i].indirect;
+    EXPECT_EQ(was.terms.size(), is.terms.size());
+    std::vector<RgbSum> bring(is.terms.size(), RgbSum(0.0));
+    const auto add = [&](const TransferRow& row, double sign) {
+      forEachTerm(row, [&](std::uint32_t k, const RowTerm&, std::span<const LeafTransfer> transfer) {
+        for (const LeafTransfer& x : transfer) bring[k] += sign * RgbSum(x.T);
+      });
+    };
+    add(was, 1), add(is, -1);
+    for (std::size_t k = 0; k < bring.size(); ++k) {
+      const bool same = towards(was.rays[k]) == towards(is.rays[k]);
+      if (!same && !elements.isLeaf(is.terms[k].sender)) continue;  // another ray, since its sender has been split
+      ++count, stale += !same || glm::length(bring[k]) > 1e-6;
+    }
+  }
+  return {stale, count};
+}
+
+TEST(Update, NoRayIsMissed) {
+  Scene scene = roomWithBox();
+  const ObjectId crate = internObject(scene, "crate", '.'), behind = internObject(scene, "behind", '.');
+  const MaterialId gray = test::addMaterial(scene, "gray", test::lambert(0.4f));
+  test::addBox(scene, gray, {2.0, 1.0, 0.1}, {2.6, 1.9, 1.2}, false);
+  for (std::size_t i = scene.primitives.size() - 6; i < scene.primitives.size(); ++i)
+    scene.primitives[i].object = crate;
+  test::addShape(scene, gray, Sphere{{2.3, 2.6, 0.5}, 0.25, false});
+  scene.primitives.back().object = behind;
+  SolveSettings settings;
+  settings.error = 0.1, settings.diffuseOnly = true;
+  Engine engine(scene, settings);
+  engine.solve();
+  const auto moved = [](const char* what, const Vec3& by) {
+    Mat4 matrix(1.0);
+    matrix[3] = glm::dvec4(by, 1.0);
+    return TransformObject{what, matrix};
+  };
+  const std::vector<TransformObject> moves{moved("box", {0.3, 0.9, 0}),   moved("crate", {-0.5, 0.2, 0.3}),
+                                           moved("behind", {-0.6, 0, 0}), moved("crate", {0.4, 1.2, 0}),
+                                           moved("box", {0, -1.0, 0.2}),  moved("behind", {0.4, -1.4, 0.8})};
+  for (const TransformObject& move : moves) {
+    engine.apply(move);
+    engine.update();
+    const auto [stale, terms] = termsThatAreStale(engine.solution().get());
+    EXPECT_GT(terms, 10000u);
+    EXPECT_EQ(stale, 0u) << "after " << move.object;
+  }
 }
 
 TEST(Update, DiffuseOnlyFollowsLights) {

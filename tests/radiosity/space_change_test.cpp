@@ -16,21 +16,24 @@ Vec3f inBall(Rng& rng, const Vec3f& center, float radius) {
     if (const Vec3f p = point(rng, 1.0f); glm::dot(p, p) <= 1) return center + radius * p;
 }
 
-SpaceChange twoBoxes(Rng& rng) {
+SpaceChange boxes(Rng& rng, int count) {
   SpaceChange space;
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < count; ++i) {
     const Vec3f a = point(rng, 1.0f), b = a + 0.3f * glm::abs(point(rng, 1.0f));
     space.add(Box{Vec3(a), Vec3(b)});
   }
   return space;
 }
 
-bool mayMeet(const SpaceChange& space, const Vec3f& center, float radius, const Vec3f& d) {
-  const DirectionCode code = directionCode(d);
+ElementGeometry boxAround(const Vec3f& center, float radius) {
+  ElementGeometry g;
+  g.lower = center - radius, g.upper = center + radius;
+  return g;
+}
+
+bool mayMeet(const SpaceChange& space, const Vec3f& center, float radius, const RayCode& code) {
   std::vector<std::uint32_t> out;
-  ElementGeometry from;
-  from.lower = center - radius, from.upper = center + radius;
-  space.meetsRays(from, {&code, 1}, out);
+  space.meetsRays(boxAround(center, radius), {&code, 1}, out);
   return !out.empty();
 }
 
@@ -51,7 +54,7 @@ TEST(SpaceChange, HullsAndBeamsHoldTheirRays) {
   Rng rng(7);
   int hulls = 0, beams = 0, unseen = 0;
   for (int k = 0; k < 2000; ++k) {
-    const SpaceChange space = twoBoxes(rng);
+    const SpaceChange space = boxes(rng, 2);
     const Vec3f a = point(rng, 2.0f), b = point(rng, 2.0f);
     const auto upTo = [&](double most) { return static_cast<float>(most * rng.uniform()); };
     const float ra = upTo(0.3), rb = upTo(0.3), angle = upTo(0.6);
@@ -62,7 +65,8 @@ TEST(SpaceChange, HullsAndBeamsHoldTheirRays) {
       const Vec3f p = inBall(rng, a, ra), q = inBall(rng, b, rb);
       const Vec3f d = inBall(rng, Vec3f(0.0f), 1.0f), across = glm::normalize(glm::cross(axis, d));
       const float off = upTo(angle);
-      const bool far = space.meets(Ray{p, 0.0f, d, 1e30f}), near = mayMeet(space, a, ra, d);
+      const bool far = space.meets(Ray{p, 0.0f, d, 1e30f}),
+                 near = mayMeet(space, a, ra, rayCode(directionCode(d), 1e30f, false));
       unseen += !near;
       EXPECT_TRUE(near || !far);
       EXPECT_FALSE(!hull && space.meets(Ray{p, 0.0f, q - p, 1.0f}));
@@ -72,6 +76,39 @@ TEST(SpaceChange, HullsAndBeamsHoldTheirRays) {
   EXPECT_GT(hulls, 500);
   EXPECT_GT(beams, 500);
   EXPECT_GT(unseen, 20 * 500);
+}
+
+/// A ray with an end is met only up to it, one that is blocked only where it is; a row's reach holds its rays.
+TEST(SpaceChange, CodesAndReachHoldRaysWithEnds) {
+  Rng rng(11);
+  int unmet = 0, apart = 0, unreached = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const SpaceChange space = boxes(rng, 1);
+    const Vec3f a = point(rng, 2.0f);
+    const float radius = static_cast<float>(0.2 * rng.uniform());
+    const ElementGeometry leaf = boxAround(a, radius);
+    RowReach reach;
+    bool any = false;
+    for (int i = 0; i < 4; ++i) {
+      const Vec3f from = a + point(rng, radius), to = point(rng, 2.0f);
+      const float seen = static_cast<float>(0.1 + 0.8 * rng.uniform());
+      const Vec3f hit = from + seen * (to - from);
+      const bool meets = space.meets(Ray{from, 0.0f, to - from, 1.0f}), there = space.meets(hit, hit);
+      const bool open = mayMeet(space, a, radius, rayCode(to - a, false));
+      const bool blocked = mayMeet(space, a, radius, rayCode(seen * (to - a), true));
+      EXPECT_TRUE(open || !meets);
+      EXPECT_TRUE(blocked || !there);
+      EXPECT_TRUE(open || !blocked);
+      unmet += !open, apart += open && !blocked;
+      reach.add(leaf, to), any |= meets;
+    }
+    const bool reached = space.meets(leaf, reach);
+    EXPECT_TRUE(reached || !any);
+    unreached += !reached;
+  }
+  EXPECT_GT(unmet, 4000);
+  EXPECT_GT(apart, 300);
+  EXPECT_GT(unreached, 1000);
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ void members(auto& archive, Is<Particles> auto& p) {
 }
 
 void members(auto& archive, Is<TransferRow> auto& r) {
-  auto& [terms, transfers, directions, reach, weightPerRay] = r;
-  transferAll(archive, terms, transfers, directions, reach.lower, reach.upper, weightPerRay);
+  auto& [terms, transfers, rays, reach, weightPerRay] = r;
+  transferAll(archive, terms, transfers, rays, reach.furthest, reach.objects.words, weightPerRay);
 }
 void members(auto& archive, Is<LeafRow> auto& r) {
   auto& [leaf, direct, indirect] = r;
@@ -48,7 +48,7 @@ void members(auto& archive, Is<LeafRow> auto& r) {
 }
 struct StoredTransfers {
   static void transfer(auto& archive, auto& t) {
-    auto& [rows] = t;
+    auto& [rows, rowOf] = t;  // the latter follows from the first
     transferAll(archive, rows);
   }
 };

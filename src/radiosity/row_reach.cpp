@@ -1,0 +1,121 @@
+#include "radiosity/row_reach.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "radiosity/direction_code.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr float kSlack = 1e-4f;  // of cosines
+
+std::size_t sectorOf(DirectionCode code) {
+  return static_cast<std::size_t>((code.y + 128) >> 5 << 3 | (code.x + 128) >> 5);
+}
+
+/// Cones around the sectors, of all directions whose codes fall into them.
+struct Sectors {
+  std::array<float, RowReach::kSectors> x{}, y{}, z{}, cosine{}, sine{};
+
+  Sectors() {
+    std::array<Vec3f, RowReach::kSectors> axis{};
+    forEachCode([&](std::size_t s, const Vec3f& d) { axis[s] += d; });
+    for (std::size_t s = 0; s < axis.size(); ++s) {
+      axis[s] = glm::normalize(axis[s]);
+      x[s] = axis[s].x, y[s] = axis[s].y, z[s] = axis[s].z, cosine[s] = 1;
+    }
+    forEachCode([&](std::size_t s, const Vec3f& d) { cosine[s] = std::min(cosine[s], glm::dot(axis[s], d)); });
+    for (std::size_t s = 0; s < axis.size(); ++s) {
+      const float angle = std::acos(cosine[s]) + kDirectionCodeError;
+      cosine[s] = std::cos(angle), sine[s] = std::sin(angle);
+    }
+  }
+
+ private:
+  template <class Visit>
+  static void forEachCode(const Visit& visit) {
+    for (int x = -127; x <= 127; ++x)
+      for (int y = -127; y <= 127; ++y) {
+        const DirectionCode code{static_cast<std::int8_t>(x), static_cast<std::int8_t>(y)};
+        visit(sectorOf(code), glm::normalize(direction(code)));
+      }
+  }
+};
+
+const Sectors& sectors() {
+  static const Sectors all;
+  return all;
+}
+
+/// Logarithm in quarters of octaves, rounded down; 0 for what is nearer than any ray goes.
+std::uint8_t logarithm(float squared) {
+  constexpr int kNearest = -20;  // octaves
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::sqrt(squared)) >> 21;
+  return static_cast<std::uint8_t>(std::clamp(static_cast<int>(bits) - 4 * (127 + kNearest), 0, 254));
+}
+
+Vec3f middle(const ElementGeometry& g) { return 0.5f * (g.lower + g.upper); }
+
+/// A box as it is seen from a point.
+struct Seen {
+  bool around = false;  // the point, or so near that it fills half of all directions
+  Vec3f axis{0.0f};
+  float cosine = -1, nearest = 0;  // of the cone that holds it; squared distance
+
+  Seen(const Vec3f& from, const Vec3f& lower, const Vec3f& upper) {
+    const Vec3f near = glm::max(glm::max(lower - from, from - upper), Vec3f(0.0f));
+    nearest = glm::dot(near, near);
+    axis = 0.5f * (lower + upper) - from;
+    const float length = glm::length(axis);
+    around = !(nearest > 0) || !(length > 0);
+    if (around) return;
+    axis /= length, cosine = 1;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3f d =
+          Vec3f(corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y, corner & 4 ? upper.z : lower.z) - from;
+      cosine = std::min(cosine, glm::dot(axis, d) / glm::length(d));
+    }
+    around = !(cosine > 0.05f);
+  }
+
+  /// visit(sector, whether it may be met).
+  template <class Visit>
+  void forEachSector(const Visit& visit) const {
+    const Sectors& all = sectors();
+    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+    for (std::size_t s = 0; s < RowReach::kSectors; ++s) {
+      const float apart = axis.x * all.x[s] + axis.y * all.y[s] + axis.z * all.z[s];
+      visit(s, around || apart >= cosine * all.cosine[s] - sine * all.sine[s] - kSlack);
+    }
+  }
+};
+
+}  // namespace
+
+void RowReach::add(const ElementGeometry& leaf, const Vec3f& end) {
+  const Vec3f d = end - middle(leaf);
+  const float squared = glm::dot(d, d);
+  if (!(squared > 0)) return;
+  std::uint8_t& f = furthest[sectorOf(directionCode(d))];
+  f = std::max(f, static_cast<std::uint8_t>(logarithm(squared) + 1));
+}
+
+void RowReach::add(const RowReach& more) {
+  for (std::size_t s = 0; s < kSectors; ++s) furthest[s] = std::max(furthest[s], more.furthest[s]);
+  objects.add(more.objects);
+}
+
+bool RowReach::meets(const ElementGeometry& leaf, const Vec3f& lower, const Vec3f& upper) const {
+  const Vec3f half = 0.5f * (leaf.upper - leaf.lower);
+  const Seen box(middle(leaf), lower - half, upper + half);
+  if (box.around && !(box.nearest > 0)) return true;
+  const std::uint8_t nearest = logarithm(box.nearest);
+  bool found = false;
+  box.forEachSector([&](std::size_t s, bool met) { found |= met && furthest[s] > nearest; });
+  return found;
+}
+
+}  // namespace deltalux
