@@ -143,6 +143,7 @@ void Engine::State::select(const std::string& object) {
   for (const PrimitiveId p : primitives)
     if (const Box b = bounds(s.scene[p].shape); !b.empty()) box.extend(b);
   if (!tracing) return;
+  s.particles.makeRoom();
   tracing->expectMotion(s.particles, box);
   s.report.memory.octree = tracing->watchBytes();
 }

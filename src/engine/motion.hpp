@@ -59,8 +59,8 @@ struct Backlog {
   std::vector<SurfaceCaustics> textures;  // as they were when they were last looked at
   bool frames = false;                    // some frame has been shown since
 
-  LearnedCost path{1e-6};                                       // traced anew
-  LearnedCost carry{0.005};                                     // what was traced taken into transfers and textures
+  LearnedCost path{3e-6};                                       // traced anew
+  LearnedCost carry{0.01};                                      // what was traced taken into transfers and textures
   LearnedCost deposit{0.01};                                    // particles' light brought to the elements
   LearnedCost pass{0.1};                                        // one gathering over all rows
   LearnedCost row{1e-4};                                        // made anew, or looked at for it

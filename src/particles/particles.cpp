@@ -69,6 +69,11 @@ void gather(std::vector<T>& array, const std::vector<PathRange>& ranges, std::ui
 
 }  // namespace
 
+void Particles::makeRoom() {
+  const auto grow = [](auto&... arrays) { (arrays.reserve(arrays.size() + arrays.size() / 4), ...); };
+  grow(vertices, met, primitive, triangleAndSide, uv, throughput);
+}
+
 void Particles::compact() {
   gather(vertices, range, &PathRange::vertex, &PathRange::vertices);
   gather(met, range, &PathRange::vertex, &PathRange::vertices);

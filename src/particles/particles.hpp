@@ -99,6 +99,8 @@ struct Particles {
   std::size_t memoryBytes() const;
   /// Closes the gaps.
   void compact();
+  /// Room for paths that are traced anew, so that none of them has to wait for all to be copied.
+  void makeRoom();
   /// Of everything that says where particles go and what they carry; equal for equal particles.
   std::uint64_t hash() const;
 };
