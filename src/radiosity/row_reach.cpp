@@ -59,38 +59,22 @@ std::uint8_t logarithm(float squared) {
 
 Vec3f middle(const ElementGeometry& g) { return 0.5f * (g.lower + g.upper); }
 
-/// A box as it is seen from a point.
-struct Seen {
-  bool around = false;  // the point, or so near that it fills half of all directions
-  Vec3f axis{0.0f};
-  float cosine = -1, nearest = 0;  // of the cone that holds it; squared distance
+/// The cone that holds a box, as it is seen from a point.
+struct ViewCone {
+  Vec3f axis;
+  float cosine = 1;
 
-  Seen(const Vec3f& from, const Vec3f& lower, const Vec3f& upper) {
-    const Vec3f near = glm::max(glm::max(lower - from, from - upper), Vec3f(0.0f));
-    nearest = glm::dot(near, near);
-    axis = 0.5f * (lower + upper) - from;
-    const float length = glm::length(axis);
-    around = !(nearest > 0) || !(length > 0);
-    if (around) return;
-    axis /= length, cosine = 1;
+  ViewCone(const Vec3f& from, const Vec3f& lower, const Vec3f& upper)
+      : axis(glm::normalize(0.5f * (lower + upper) - from)) {
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3f d =
           Vec3f(corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y, corner & 4 ? upper.z : lower.z) - from;
       cosine = std::min(cosine, glm::dot(axis, d) / glm::length(d));
     }
-    around = !(cosine > 0.05f);
   }
 
-  /// visit(sector, whether it may be met).
-  template <class Visit>
-  void forEachSector(const Visit& visit) const {
-    const Sectors& all = sectors();
-    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-    for (std::size_t s = 0; s < RowReach::kSectors; ++s) {
-      const float apart = axis.x * all.x[s] + axis.y * all.y[s] + axis.z * all.z[s];
-      visit(s, around || apart >= cosine * all.cosine[s] - sine * all.sine[s] - kSlack);
-    }
-  }
+  /// No sector is told apart from one so wide.
+  bool wide() const { return !(cosine > 0.05f); }
 };
 
 }  // namespace
@@ -109,13 +93,25 @@ void RowReach::add(const RowReach& more) {
 }
 
 bool RowReach::meets(const ElementGeometry& leaf, const Vec3f& lower, const Vec3f& upper) const {
-  const Vec3f half = 0.5f * (leaf.upper - leaf.lower);
-  const Seen box(middle(leaf), lower - half, upper + half);
-  if (box.around && !(box.nearest > 0)) return true;
-  const std::uint8_t nearest = logarithm(box.nearest);
-  bool found = false;
-  box.forEachSector([&](std::size_t s, bool met) { found |= met && furthest[s] > nearest; });
-  return found;
+  const Vec3f from = middle(leaf), half = 0.5f * (leaf.upper - leaf.lower), low = lower - half, high = upper + half;
+  const Vec3f near = glm::max(glm::max(low - from, from - high), Vec3f(0.0f));
+  const float squared = glm::dot(near, near);
+  if (!(squared > 0)) return true;
+  const std::uint8_t nearest = logarithm(squared);
+  std::uint8_t most = 0;
+  for (const std::uint8_t f : furthest) most = std::max(most, f);
+  if (most <= nearest) return false;
+  const ViewCone cone(from, low, high);
+  if (cone.wide()) return true;
+  const Sectors& all = sectors();
+  const float sine = std::sqrt(std::max(0.0f, 1 - cone.cosine * cone.cosine));
+  int met = 0;
+  for (std::size_t s = 0; s < kSectors; ++s) {
+    const float apart = cone.axis.x * all.x[s] + cone.axis.y * all.y[s] + cone.axis.z * all.z[s];
+    const bool within = apart >= cone.cosine * all.cosine[s] - sine * all.sine[s] - kSlack;
+    met |= within & (furthest[s] > nearest);
+  }
+  return met;
 }
 
 }  // namespace deltalux
