@@ -155,6 +155,7 @@ void Engine::State::followWithTextures(StepReport& step) {
   Solution& s = *solution;
   const Clock time;
   const ParticleUpdate followed = std::exchange(backlog.landed, {});
+  if (!tracing && s.caustics.surfaces.empty()) return;
   if (!backlog.textures.empty()) s.caustics.surfaces = std::exchange(backlog.textures, {});
   if (!upkeep || followed.all) {
     upkeep.reset();
