@@ -117,6 +117,7 @@ void runUpdate(const UpdateOptions& options) {
     }));
     Session session(engine);
     for (const EditStep& step : steps) run.report.steps.push_back(session.take(step, progress));
+    run.report.memory.octree = engine.solution().report().memory.octree;
     saveSolution(options.output, engine.solution());
   }
   for (const StepReport& step : run.report.steps) describe(step, run);
@@ -155,6 +156,7 @@ void runReplay(const UpdateOptions& options, const CLI::App& command) {
       drag(engine, playing, session.steps, options.frameMs, run.report.steps, progress);
     else
       for (const EditStep& step : session.steps) run.report.steps.push_back(playing.take(step, progress));
+    run.report.memory.octree = engine.solution().report().memory.octree;
     if (options.check) {
       Engine fresh(engine.solution().scene(), engine.solution().settings());
       const SolveReport solved = fresh.solve(&progress);
