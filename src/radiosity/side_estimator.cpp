@@ -102,11 +102,31 @@ Rgb SideEstimator::wholeReflectance(const SurfaceSide& side) const {
   return r;
 }
 
+/// Whether a ray that comes straight down on the point meets another surface in its stead, one in the same place.
+bool SideEstimator::hidden(const SurfaceSide& side, const Origin& o) const {
+  Ray ray;
+  ray.direction = -Vec3f(o.normal);
+  ray.origin = offsetOrigin(Vec3f(o.position), Vec3f(o.normal), Vec3f(o.normal));
+  const float height = glm::dot(ray.origin - Vec3f(o.position), Vec3f(o.normal));
+  const Hit hit = tracer_.closestHit(ray);
+  return hit && hit.primitive != side.primitive && hit.t <= 2 * height;
+}
+
+bool SideEstimator::hidden(const SurfaceSide& side, std::size_t points) const {
+  Rng rng(combineKeys(combineKeys(side.primitive.value, side.triangle), side.front), 2);
+  for (std::size_t k = 0; k < points; ++k) {
+    const double u = (double(k) + rng.uniform()) / double(points);
+    if (!hidden(side, pointOnSide(side, {u, rng.uniform()}))) return false;
+  }
+  return true;
+}
+
 void SideEstimator::estimate(std::size_t i) {
   const SurfaceSide& side = sides_[i];
   Estimate& e = estimates_[i];
   const bool triangle = std::holds_alternative<Mesh>(scene_[side.primitive].shape);
   const std::size_t rays = triangle ? rays_ : std::max(rays_, kFewest);
+  if (hidden(side, rays)) return;
   std::vector<std::size_t> seen;
   Rng rng(combineKeys(combineKeys(side.primitive.value, side.triangle), side.front));
   double path = 0;

@@ -1,7 +1,8 @@
 #pragma once
 // A few short light paths from a side of an input-level surface: what irradiance it may have, how far its surroundings
 // are, and whether light reaches it at all. Estimates of different sides may run in parallel; they depend on scene and
-// side alone, but for what they tell of each other: a side that a ray from a lit point meets is lit.
+// side alone, but for what they tell of each other: a side that a ray from a lit point meets is lit. Of surfaces in one
+// place that counts as reached which rays meet: light must not count twice.
 //
 // Lights that are switched off count, faintly: sides that they can reach will be lit by them one day.
 // Cost: about 2^17 paths of up to four vertices for all sides together, and in large scenes 24 of every side (8 of a
@@ -50,6 +51,8 @@ class SideEstimator {
 
   bool isGlass(std::size_t i) const { return !twoSided_[sides_[i].primitive.index()]; }
   bool isLit(std::size_t i) const { return !isBlack(estimates_[i].E) || lit_[i]; }
+  bool hidden(const SurfaceSide&, const Origin&) const;
+  bool hidden(const SurfaceSide&, std::size_t points) const;
   Origin pointOnSide(const SurfaceSide&, Vec2 u) const;
   Rgb wholeReflectance(const SurfaceSide&) const;
   Hit look(const Origin&, const Vec3f& w, Rgb& through, float& t) const;
