@@ -24,6 +24,14 @@ float reachAbove(const ElementGeometry& g, const Vec3f& p, const Vec3f& n) {
   return glm::dot(0.5f * (g.upper + g.lower) - p, n) + glm::dot(half, glm::abs(n));
 }
 
+/// What the rounding of coordinates may do to a distance along `n`: along an axis, coordinates on the others have no
+/// say, however large they are.
+float roundingAlong(const Vec3f& n, const ElementGeometry& r, const ElementGeometry& s) {
+  const Vec3f largest =
+      glm::max(glm::max(glm::abs(r.lower), glm::abs(r.upper)), glm::max(glm::abs(s.lower), glm::abs(s.upper)));
+  return 4e-6f * glm::dot(glm::abs(n), largest);
+}
+
 /// Relative intensity of a point light into `w` (its colour is the element's B).
 double relativeIntensity(const Light& light, const Vec3& w) {
   return std::visit(
@@ -207,19 +215,16 @@ Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, 
       selfKernel(elements, scene, receiver, result);
     return result;
   }
-  const float size = std::max({std::abs(r.lower.x), std::abs(r.lower.y), std::abs(r.lower.z), std::abs(r.upper.x),
-                               std::abs(r.upper.y), std::abs(r.upper.z)});
-  const float touch = 4e-6f * size;
   const bool distant = st.kind == ElementKind::Distant;
   const bool flatReceiver = rt.flat && !clusterReceiver, flatSender = st.flat && st.kind == ElementKind::Patch;
   float senderReach = s.radius, receiverReach = r.radius;  // how far each end rises above the other's plane
   if (flatReceiver) {
     senderReach = distant ? highestDirection(elements, sender, r.normal) : reachAbove(s, r.center, r.normal);
-    result.averted = senderReach <= (distant ? 0.0f : touch);
+    result.averted = senderReach <= (distant ? 0.0f : roundingAlong(r.normal, r, s));
   }
   if (flatSender && !result.averted) {
     receiverReach = reachAbove(r, s.center, s.normal);
-    result.averted = receiverReach <= touch;
+    result.averted = receiverReach <= roundingAlong(s.normal, r, s);
   }
   if (result.averted) return result;
   if ((clusterReceiver || clusterSender) && st.kind != ElementKind::Distant) {
@@ -253,7 +258,8 @@ Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, 
   }
   if (flatReceiver && flatSender && spread <= 0.5 * mean + 1e-12) {
     // The ends cross each other's planes: the nodes may all lie where little or nothing is seen.
-    const bool crossing = reachAbove(s, r.center, -r.normal) > touch || reachAbove(r, s.center, -s.normal) > touch;
+    const bool crossing = reachAbove(s, r.center, -r.normal) > roundingAlong(r.normal, r, s) ||
+                          reachAbove(r, s.center, -s.normal) > roundingAlong(s.normal, r, s);
     if (crossing) spread = std::max(spread, std::min(1.0, crossingBound(r, s, senderReach, receiverReach)) - mean);
   }
   result.K = static_cast<float>(mean);
