@@ -48,7 +48,7 @@ double leafRoundSeconds(const Elements& elements, const Links& links, const Scen
     const ElementId leaf = leaves[i * leaves.size() / n];
     direct.at(leaf, settings.shadowRays);
     std::uint64_t traced = 0;
-    indirect.atLeaf(leaf, settings.gatherRays, traced);
+    indirect.atLeaf(leaf, gatherRaysOfLeaf(settings, leaves.size()), traced);
   });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return kSplitting * seconds * static_cast<double>(leaves.size()) / static_cast<double>(n);
@@ -59,6 +59,7 @@ LeafTransferSettings shrunk(LeafTransferSettings settings, double needed, double
   const double share = std::max(kFewestRays, seconds / needed);
   settings.shadowRays = static_cast<int>(settings.shadowRays * share);
   settings.gatherRays = static_cast<int>(settings.gatherRays * share);
+  settings.inAll = static_cast<int>(settings.inAll * share);
   settings.variation = std::numeric_limits<double>::infinity();
   return settings;
 }

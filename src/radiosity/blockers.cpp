@@ -4,6 +4,7 @@
 #include <array>
 
 #include "hierarchy/outline.hpp"
+#include "radiosity/rounding.hpp"
 
 namespace deltalux {
 
@@ -19,13 +20,9 @@ struct Ends {
   const Elements& elements;
   ElementId receiver, sender;
   Shaft shaft;
-  float touch;
 
   Ends(const Elements& e, ElementId r, ElementId s)
-      : elements(e), receiver(r), sender(s), shaft(e.shape(r), e.shape(s)) {
-    const Vec3f extent = glm::max(glm::abs(e.shape(r).lower), glm::abs(e.shape(r).upper));
-    touch = 4e-6f * std::max({extent.x, extent.y, extent.z});
-  }
+      : elements(e), receiver(r), sender(s), shaft(e.shape(r), e.shape(s)) {}
 
   bool sameSurface(ElementId patch, ElementId end) const {
     return elements.isPatch(end) &&
@@ -36,7 +33,8 @@ struct Ends {
   /// A flat end is not blocked by what lies behind it.
   bool behindEnd(const ElementGeometry& g, ElementId end) const {
     const ElementGeometry& e = elements.shape(end);
-    return elements.isPatch(end) && elements.at(end).flat && reach(g.lower, g.upper, e.center, e.normal) <= touch;
+    return elements.isPatch(end) && elements.at(end).flat &&
+           reach(g.lower, g.upper, e.center, e.normal) <= roundingAlong(e.normal, e, g);
   }
 
   bool mayBlock(ElementId candidate) const {
@@ -50,6 +48,7 @@ struct Ends {
         const ElementGeometry &r = elements.shape(receiver), &s = elements.shape(sender);
         for (const float sign : {1.0f, -1.0f}) {
           const Vec3f n = sign * g.normal;
+          const float touch = roundingAlong(n, r, g);
           if (reach(r.lower, r.upper, g.center, n) <= touch && reach(s.lower, s.upper, g.center, n) <= touch)
             return false;
         }

@@ -212,7 +212,7 @@ DirectSampler::Passage DirectSampler::pass(ElementId leaf, const Term& t, int ra
 void DirectSampler::sample(ElementId leaf, const Term& t, int rays, float gain, std::uint64_t key, Sampled& out) const {
   const Rgb B = elements_.radiometry[t.sender.index()].B;
   const Passage s = pass(leaf, t, rays, key, out.rays);
-  out.row.terms.push_back({t.link, t.sender, gain, static_cast<std::uint8_t>(rays), 0, t.clear});
+  out.row.terms.push_back({t.link, t.sender, gain, static_cast<std::uint16_t>(rays), 0, t.clear});
   remember(t.sender, s, out.row);
   if (!(s.weights > 0)) return;
   const bool byAngle = sampledByAngle(t.sender);

@@ -13,14 +13,12 @@ namespace deltalux {
 
 namespace {
 
-constexpr float kNear = 8.0f;         // in radii of the leaf: nearer to a sender than this, K is taken at all its nodes
 constexpr float kLeastKernel = 0.1f;  // relative to that of a sender that faces the place with a quarter of its area
 constexpr float kFaint = 0.1f;   // of the light here: radiosity that senders are credited with, so that rows hold what
                                  // may light up later, and what is all but dark gets no few heavy samples
 constexpr float kUneven = 2.0f;  // rays of clusters and curved senders, whose points differ most, against others
 constexpr float kPartsShare = 2.0f;         // rays of a sender above which it is taken apart
 constexpr float kWholeShare = 0.25f;        // the same for senders that need no ray: their radiosity counts as even
-constexpr float kMostRays = 128;            // of what is made anew in a row
 constexpr float kLookedAt = 8;              // times its rays' worth: chance that what changed is looked at
 constexpr float kBlocked = 0x1.fffffep-1f;  // of a ray: furthest place of what blocks it
 constexpr int kFacingTries = 16;            // more points of a sender when some face away
@@ -182,6 +180,8 @@ SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index,
   const bool flat = exact(sender);
   const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
   SenderSample s;
+  if (flat && isCloseLeaf(leaf, sender))
+    if (const auto pair = sampleClosePair(elements_, scene_, pointAt, sender, key, index)) return along(*pair, sender);
   for (int tries = 0; tries < (flat ? kFacingTries : 1); ++tries) {
     const auto u = stratified4(combineKeys(key, tries), index);
     s = sampleLeafOf(elements_, scene_, pointAt(u[2], u[3]), sender, u[0], u[1]);
@@ -191,24 +191,11 @@ SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index,
   return s;
 }
 
-/// What is in plain view has no noise that would hide an error of K: then at all nodes.
-float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const {
-  const ElementGeometry& g = elements_.shape(leaf);
-  const ElementNodes& n = elements_.nodes[leaf.index()];
-  const float reach = kNear * g.radius + elements_.shape(sender).radius;
-  const Vec3f d = elements_.shape(sender).center - g.center;
-  if (!clear && elements_.at(leaf).flat && glm::dot(d, d) > reach * reach)
-    return static_cast<float>(kernelAtPoint(elements_, scene_, g.center, g.normal, sender));
-  double K = 0;
-  for (int i = 0; i < 4; ++i)
-    if (n.weight[i] > 0) K += n.weight[i] * kernelAtPoint(elements_, scene_, n.position[i], n.normal[i], sender);
-  return static_cast<float>(K);
-}
-
 IndirectSampler::Found IndirectSampler::find(const Dealt& d, const SenderSample& s, std::uint64_t& traced) const {
   if (known(d.term)) return {Rgb(d.term.K)};
   if (!s.leaf.valid()) return {Rgb(0.0f)};
-  const float K = exact(d.term.sender) ? d.term.K : elements_.shape(d.term.sender).area * static_cast<float>(s.weight);
+  const bool isKnown = exact(d.term.sender) && !s.measures;
+  const float K = isKnown ? d.term.K : elements_.shape(d.term.sender).area * static_cast<float>(s.weight);
   if (d.term.open >= 1.0f) return {Rgb(d.gain * K), &s.ray};
   ++traced;
   const Passing p = tracer_.passing(s.ray);
@@ -217,6 +204,9 @@ IndirectSampler::Found IndirectSampler::find(const Dealt& d, const SenderSample&
 }
 
 SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index) const {
+  const bool curvedLeaf = !elements_.at(leaf).flat, curvedSender = !exact(sender);
+  if (curvedLeaf && !curvedSender && isCloseToNodes(leaf, sender)) return shootMeasuring(leaf, sender, index);
+  if (!curvedLeaf && curvedSender && isCloseLeaf(leaf, sender)) return shootBack(leaf, sender, index);
   return shoot(leaf, sender, index, [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); });
 }
 
@@ -240,7 +230,7 @@ void IndirectSampler::append(ElementId leaf, const Dealt& d, const SenderSample&
   const Found found = find(d, s, traced);
   const bool some = !isBlack(found.T);
   row.terms.push_back(
-      {d.term.link, d.term.sender, d.gain, static_cast<std::uint8_t>(d.index), some, d.term.open >= 1.0f});
+      {d.term.link, d.term.sender, d.gain, static_cast<std::uint16_t>(d.index), some, d.term.open >= 1.0f});
   remember(leaf, row.terms.size() - 1, found, row);
   if (some) row.transfers.push_back({d.term.sender, found.T});
 }
@@ -264,7 +254,7 @@ TransferRow IndirectSampler::atLeaf(ElementId leaf, int rays, std::uint64_t& tra
   return row;
 }
 
-bool IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> changed, TransferRow& row,
+bool IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> changed, int most, TransferRow& row,
                                   std::uint64_t& traced) const {
   const auto kernelOf = [&](ElementId s, bool clear) { return kernelAtLeaf(leaf, s, clear); };
   std::vector<LinkId> active;
@@ -275,7 +265,7 @@ bool IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> change
   // As many rays for a weight as the row has, and no more than a row has.
   float sum = 0;
   for (const Term& t : whole) sum += t.weight;
-  const float step = std::max(row.weightPerRay * level(leaf), sum / kMostRays);
+  const float step = std::max(row.weightPerRay * level(leaf), sum / static_cast<float>(most));
   if (!(step > 0)) return false;
   // What is left over is a ray by chance, by the key of the place and of what has changed: another one each time. Where
   // all is worth a small part of a ray, chance comes first.

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "hierarchy/patch.hpp"
+#include "radiosity/close_pairs.hpp"
 #include "radiosity/leaf_row.hpp"
 #include "radiosity/ray_shares.hpp"
 #include "radiosity/sender_sampling.hpp"
@@ -35,9 +36,9 @@ class IndirectSampler {
   /// The transfers to a leaf patch as a whole, by at most `rays` rays. Adds the rays traced to `traced`.
   TransferRow atLeaf(ElementId leaf, int rays, std::uint64_t& traced) const;
   /// Makes those terms anew whose link is another by now, whose sender moved, or whose ray meets what moved; the others
-  /// stay. `changed`: the topmost changed links that arrive at the leaf or above it. Returns whether it did.
-  /// The row of a leaf that
-  /// moved is made anew by at most `rays` where too little of it is left, or its rays have grown too uneven.
+  /// stay. `changed`: the topmost changed links that arrive at the leaf or above it; at most `rays` go over those.
+  /// Returns whether it did. The row of a leaf that moved is made anew by `rays` where too little of it is left, or its
+  /// rays have grown too uneven.
   bool update(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed, const SpaceChange&, int rays,
               TransferRow&, std::uint64_t& traced) const;
   /// Irradiance at a point of a leaf patch (unit normal) from the leaves' radiosities.
@@ -80,6 +81,11 @@ class IndirectSampler {
   template <class PointAt>
   SenderSample shoot(ElementId leaf, ElementId sender, int index, const PointAt&) const;
   SenderSample shoot(ElementId leaf, ElementId sender, int index) const;
+  SenderSample shootBack(ElementId leaf, ElementId sender, int index) const;
+  SenderSample shootMeasuring(ElementId leaf, ElementId sender, int index) const;
+  bool isCloseLeaf(ElementId leaf, ElementId sender) const;
+  bool isCloseToNodes(ElementId leaf, ElementId sender) const;
+  SenderSample along(const ClosePair&, ElementId sender) const;
   struct Found {
     Rgb T{0.0f};  // black where the term brings nothing
     const Ray* ray = nullptr;
@@ -105,9 +111,12 @@ class IndirectSampler {
   /// What a term of a row was dealt, by today's kernel.
   Dealt dealt(ElementId leaf, const RowTerm&) const;
   void retrace(ElementId leaf, std::span<const Again>, TransferRow&, std::uint64_t& traced) const;
-  /// Appends the terms over changed links; false when none get rays.
-  bool dealChanged(ElementId leaf, std::span<const LinkId> changed, TransferRow&, std::uint64_t& traced) const;
+  /// Appends the terms over changed links, by at most `most` rays; false when none get any.
+  bool dealChanged(ElementId leaf, std::span<const LinkId> changed, int most, TransferRow&,
+                   std::uint64_t& traced) const;
   float kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const;
+  float kernelOverNodes(ElementId at, ElementId of) const;
+  float kernelOverPairs(ElementId leaf, ElementId sender) const;
   bool exact(ElementId sender) const;
   /// Whether a term needs no ray.
   bool known(const Term& t) const { return t.open >= 1.0f && exact(t.sender); }

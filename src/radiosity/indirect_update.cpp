@@ -66,7 +66,7 @@ bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span
     row.reach = {};
   }
   retrace(leaf, again, row, traced);
-  const bool dealt = !changed.empty() && dealChanged(leaf, changed, row, traced);
+  const bool dealt = !changed.empty() && dealChanged(leaf, changed, rays, row, traced);
   return gone || dealt || !again.empty();
 }
 

@@ -6,6 +6,7 @@
 
 #include "hierarchy/patch.hpp"
 #include "radiosity/form_factor.hpp"
+#include "radiosity/rounding.hpp"
 
 namespace deltalux {
 
@@ -22,14 +23,6 @@ bool isZero(const Vec3f& v) { return v.x == 0.0f && v.y == 0.0f && v.z == 0.0f; 
 float reachAbove(const ElementGeometry& g, const Vec3f& p, const Vec3f& n) {
   const Vec3f half = 0.5f * (g.upper - g.lower);
   return glm::dot(0.5f * (g.upper + g.lower) - p, n) + glm::dot(half, glm::abs(n));
-}
-
-/// What the rounding of coordinates may do to a distance along `n`: along an axis, coordinates on the others have no
-/// say, however large they are.
-float roundingAlong(const Vec3f& n, const ElementGeometry& r, const ElementGeometry& s) {
-  const Vec3f largest =
-      glm::max(glm::max(glm::abs(r.lower), glm::abs(r.upper)), glm::max(glm::abs(s.lower), glm::abs(s.upper)));
-  return 4e-6f * glm::dot(glm::abs(n), largest);
 }
 
 /// Relative intensity of a point light into `w` (its colour is the element's B).

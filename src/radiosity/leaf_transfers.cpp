@@ -61,6 +61,15 @@ Rgb gatheredFromLeaves(const LeafRow& row, const Elements& elements, const std::
 
 }  // namespace
 
+int gatherRaysOfLeaf(const LeafTransferSettings& settings, std::size_t leaves) {
+  constexpr int kMostDoubled = 4;  // by powers of two: near twins of a scene take the same
+  int rays = settings.gatherRays;
+  for (int i = 0;
+       i < kMostDoubled && static_cast<std::size_t>(rays) * leaves < static_cast<std::size_t>(settings.inAll); ++i)
+    rays *= 2;
+  return rays;
+}
+
 LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, const Scene& scene,
                                         const RayTracer& tracer, const LeafTransferSettings& settings) {
   LeafTransferReport report;
@@ -80,9 +89,9 @@ LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, 
 
   const IndirectSampler sampler(scene, elements, links, tracer);
   std::vector<std::uint64_t> rays((rows_.size() + kBlock - 1) / kBlock, 0);
-  parallelFor(rows_.size(), kBlock, [&](std::size_t i) {
-    rows_[i].indirect = sampler.atLeaf(rows_[i].leaf, settings.gatherRays, rays[i / kBlock]);
-  });
+  const int ofLeaf = gatherRaysOfLeaf(settings, rows_.size());
+  parallelFor(rows_.size(), kBlock,
+              [&](std::size_t i) { rows_[i].indirect = sampler.atLeaf(rows_[i].leaf, ofLeaf, rays[i / kBlock]); });
   for (const std::uint64_t n : rays) report.rays += n;
   return report;
 }

@@ -6,7 +6,8 @@
 //
 // Where direct light varies over a leaf by more than the error allows, the leaf is split first: its own samples tell,
 // so shadow edges and the scallops of lamps are found where they are, not where links might have them.
-// Cost: about 64 + 128 rays a leaf; 16 bytes a transfer. Rows of a moved scene: row_update.cpp.
+// Cost: about 64 + 128 rays a leaf, more where there are few leaves; 16 bytes a transfer. Rows of a moved scene:
+// row_update.cpp.
 #include <span>
 
 #include "hierarchy/link.hpp"
@@ -16,6 +17,9 @@
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
+
+/// Rays that gather a leaf's indirect light when there are so many leaves.
+int gatherRaysOfLeaf(const LeafTransferSettings&, std::size_t leaves);
 
 struct LeafTransferReport {
   std::uint64_t rays = 0, split = 0;

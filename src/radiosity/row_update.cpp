@@ -118,15 +118,15 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
   rays.assign(indirect.size(), 0);
   std::vector<char> done(indirect.size(), 0);
   const IndirectSampler sampler(scene, elements, links, tracer);
+  const int ofLeaf = gatherRaysOfLeaf(settings, rows_.size());
   parallelFor(indirect.size(), kBlock, [&](std::size_t i) {
     const ElementId leaf = indirect[i];
     TransferRow& row = rows_[rowOf_[leaf.index()]].indirect;
     if (row.terms.empty()) {
-      row = sampler.atLeaf(leaf, settings.gatherRays, rays[i]);
+      row = sampler.atLeaf(leaf, ofLeaf, rays[i]);
       done[i] = 1;
     } else {
-      done[i] = sampler.update(leaf, marks.changes, arriving.changedAt(leaf, false), space, settings.gatherRays, row,
-                               rays[i]);
+      done[i] = sampler.update(leaf, marks.changes, arriving.changedAt(leaf, false), space, ofLeaf, row, rays[i]);
     }
   });
   for (std::size_t i = 0; i < indirect.size(); ++i) {

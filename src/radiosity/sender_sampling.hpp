@@ -17,8 +17,9 @@ PatchPoint samplePoint(const Elements&, const Scene&, ElementId, double a, doubl
 /// One ray from a receiving point to a point of a sender.
 struct SenderSample {
   Ray ray;
-  ElementId leaf;     // the patch below the sender that the point lies on
-  double weight = 0;  // kernel between the points, per sender area; not above 0: they do not face each other
+  ElementId leaf;         // the patch below the sender that the point lies on
+  double weight = 0;      // kernel between the points, per sender area; not above 0: they do not face each other
+  bool measures = false;  // the weight is to be taken for the kernel, also of a flat sender
 };
 
 /// To the leaf that holds the sampled point of `sender`, a cluster or patch.

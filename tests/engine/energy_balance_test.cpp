@@ -47,13 +47,12 @@ TEST(EnergyBalance, OpenScenes) {
   EXPECT_GT(*cornell.escapedW, 0.1 * *cornell.emittedW);
 }
 
-/// What solutions of our scenes lose or gain at the default error, in parts of all light. What is left is the noise of
-/// rows where there are few leaves, K V where what is near is hidden in part (ring), the floor under a mirror block
-/// that counts as lit (cornell-caustic); single precision far from the origin (far_away), lengths over seven orders of
-/// magnitude (scales), surfaces in one place (coplanar).
+/// What solutions of our scenes lose or gain at the default error is a thousandth of all light at most; what is left is
+/// noise of rows and particles (most of it in thin, whose light goes round four times), and single precision far from
+/// the origin, where rays start and end a fortieth of a room off its walls (far_away).
 struct Reached {
   const char* scene;
-  double residue;
+  double residue = 1e-3;
 };
 
 class EnergyBalances : public testing::TestWithParam<Reached> {};
@@ -61,15 +60,14 @@ class EnergyBalances : public testing::TestWithParam<Reached> {};
 TEST_P(EnergyBalances, Close) { EXPECT_NEAR(residue(balanceOf(bundled(GetParam().scene))), 0, GetParam().residue); }
 
 INSTANTIATE_TEST_SUITE_P(Bundled, EnergyBalances,
-                         testing::Values(Reached{"furnace/furnace.gltf", 1e-3}, Reached{"nasty/nested_glass.rad", 1e-3},
-                                         Reached{"nasty/outlines.rad", 1e-3}, Reached{"nasty/slivers.rad", 1e-3},
-                                         Reached{"nasty/touching.rad", 1e-3}, Reached{"plates/perpendicular.rad", 1e-3},
-                                         Reached{"nasty/mirror_corridor.rad", 1.5e-3},
-                                         Reached{"nasty/sealed.rad", 1.5e-3}, Reached{"nasty/thin.rad", 1.5e-3},
-                                         Reached{"plates/parallel.rad", 1.5e-3}, Reached{"cornell/cornell.rad", 3e-3},
-                                         Reached{"cornell-caustic/cornell-caustic.rad", 4e-3},
-                                         Reached{"ring/ring.rad", 3e-3}, Reached{"nasty/far_away.rad", 6e-3},
-                                         Reached{"nasty/scales.rad", 8e-3}, Reached{"nasty/coplanar.rad", 15e-3}),
+                         testing::Values(Reached{"furnace/furnace.gltf"}, Reached{"nasty/nested_glass.rad"},
+                                         Reached{"nasty/outlines.rad"}, Reached{"nasty/slivers.rad"},
+                                         Reached{"nasty/touching.rad"}, Reached{"plates/perpendicular.rad"},
+                                         Reached{"nasty/mirror_corridor.rad"}, Reached{"nasty/sealed.rad"},
+                                         Reached{"nasty/thin.rad", 1.5e-3}, Reached{"plates/parallel.rad"},
+                                         Reached{"cornell/cornell.rad"}, Reached{"cornell-caustic/cornell-caustic.rad"},
+                                         Reached{"ring/ring.rad"}, Reached{"nasty/scales.rad"},
+                                         Reached{"nasty/coplanar.rad"}, Reached{"nasty/far_away.rad", 2e-3}),
                          [](const auto& reached) {
                            std::string name = reached.param.scene;
                            std::replace_if(

@@ -1,0 +1,69 @@
+#include "radiosity/close_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/cosine_direction.hpp"
+#include "hierarchy/outline.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr float kClose = 2.0f;                   // in radii of both ends, between their centres
+constexpr int kUniform = kClosePairs / 2;        // candidates that are
+constexpr int kCosine = kClosePairs - kUniform;  // and those in cosine directions
+
+double kernelBetween(const PatchPoint& x, const PatchPoint& y) {
+  const Vec3 d = Vec3(y.position) - Vec3(x.position);
+  const double squared = glm::dot(d, d), cosX = glm::dot(Vec3(x.normal), d), cosY = -glm::dot(Vec3(y.normal), d);
+  return cosX > 0 && cosY > 0 && squared > 0 ? cosX * cosY / (kPi * squared * squared) : 0.0;
+}
+
+/// Where a ray from above meets a flat patch.
+std::optional<PatchPoint> meet(const Elements& elements, ElementId patch, const Vec3& origin, const Vec3& w) {
+  const PatchDomain& d = elements.domain[patch.index()];
+  const PlaneFrame& f = elements.frames[d.frame];
+  const Vec3 n = elements.at(patch).front ? f.normal : -f.normal;
+  const double towards = glm::dot(w, n);
+  if (!(towards < 0)) return std::nullopt;
+  const double t = glm::dot(f.origin - origin, n) / towards;
+  if (!(t > 0)) return std::nullopt;
+  const Vec3 p = origin + t * w, from = p - f.origin;
+  const double uu = glm::dot(f.edgeU, f.edgeU), vv = glm::dot(f.edgeV, f.edgeV), uv = glm::dot(f.edgeU, f.edgeV);
+  const double pu = glm::dot(from, f.edgeU), pv = glm::dot(from, f.edgeV), det = uu * vv - uv * uv;
+  const Vec2 at{(pu * vv - pv * uv) / det, (pv * uu - pu * uv) / det};
+  if (at.x < d.u0 || at.x > d.u1 || at.y < d.v0 || at.y > d.v1) return std::nullopt;
+  const auto outline = elements.outline(patch);
+  const double whole = double(d.u1 - d.u0) * double(d.v1 - d.v0);
+  const bool full = outline.size() == 4 && std::abs(outlineArea(outline)) > 0.9999 * whole;
+  if (!full && !outlineContains(outline, at)) return std::nullopt;
+  return PatchPoint{Vec3f(p), Vec3f(n)};
+}
+
+}  // namespace
+
+bool areClose(const Elements& elements, ElementId a, ElementId b) {
+  const ElementGeometry &x = elements.shape(a), &y = elements.shape(b);
+  const Vec3f d = x.center - y.center;
+  const float reach = kClose * (x.radius + y.radius);
+  return glm::dot(d, d) < reach * reach;
+}
+
+ClosePair closePair(const Elements& elements, const Scene& scene, const PatchPoint& from, ElementId patch, int i,
+                    double a, double b) {
+  const ElementGeometry& g = elements.shape(patch);
+  ClosePair pair{from, {}, 0};
+  if (i < kUniform) {
+    pair.to = samplePatch(elements, scene, patch, a, b);
+  } else {
+    const auto to = meet(elements, patch, Vec3(from.position), cosineDirection(Frame(Vec3(from.normal)), a, b));
+    if (!to) return pair;
+    pair.to = *to;
+  }
+  const double K = kernelBetween(from, pair.to);
+  pair.weight = K / (kUniform / double(g.area) + kCosine * K);  // [Veach97 9.2.2]
+  return pair;
+}
+
+}  // namespace deltalux

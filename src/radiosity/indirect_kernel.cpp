@@ -1,0 +1,126 @@
+// Kernels of rows at a leaf, and rays that start at the sender.
+#include <algorithm>
+#include <cmath>
+
+#include "radiosity/indirect_sampler.hpp"
+#include "radiosity/kernel.hpp"
+#include "radiosity/rounding.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr float kNear = 8.0f;         // in radii of the leaf: nearer to a sender than this, K is taken at all its nodes
+constexpr float kSmall = 0.5f;        // radius of a sender, in those of the leaf, that counts as small
+constexpr float kGauss = 1.1547005f;  // from centroids of quadrants to nodes that integrate cubics
+
+bool isRectangle(const Elements& elements, ElementId patch) {
+  const ElementNodes& n = elements.nodes[patch.index()];
+  return elements.outline(patch).size() == 4 &&
+         std::all_of(n.weight, n.weight + 4, [](float w) { return std::abs(w - 0.25f) < 1e-4f; });
+}
+
+/// Whether the plane of a flat patch runs through another: nodes of that may all lie behind it.
+bool crosses(const ElementGeometry& g, const ElementGeometry& plane) {
+  const Vec3f half = 0.5f * (g.upper - g.lower);
+  const float extent = glm::dot(half, glm::abs(plane.normal));
+  const float above = glm::dot(0.5f * (g.upper + g.lower) - plane.center, plane.normal);
+  return extent - std::abs(above) > roundingAlong(plane.normal, g, plane);
+}
+
+}  // namespace
+
+/// What is in plain view has no noise that would hide an error of K: then at all nodes. What a large leaf gets of a
+/// small patch close to it lies between its nodes: then at the nodes of that, the other way round. What faces a part of
+/// it may face none of its nodes: then between many points.
+float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const {
+  const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(sender);
+  const bool flat = elements_.at(leaf).flat;
+  if (flat && exact(sender) && areClose(elements_, leaf, sender)) {
+    if (crosses(r, s)) return kernelOverPairs(leaf, sender);
+    if (s.radius < kSmall * r.radius) return s.area / r.area * kernelOverNodes(sender, leaf);
+  }
+  const float reach = kNear * r.radius + s.radius;
+  const Vec3f d = s.center - r.center;
+  if (!clear && flat && glm::dot(d, d) > reach * reach)
+    return static_cast<float>(kernelAtPoint(elements_, scene_, r.center, r.normal, sender));
+  return kernelOverNodes(leaf, sender);
+}
+
+float IndirectSampler::kernelOverNodes(ElementId at, ElementId of) const {
+  const ElementGeometry& g = elements_.shape(at);
+  const ElementNodes& n = elements_.nodes[at.index()];
+  // Nodes of whole rectangles are moved to where Gauss has them.
+  const float stretch = elements_.at(at).flat && isRectangle(elements_, at) ? kGauss : 1.0f;
+  double K = 0;
+  for (int i = 0; i < 4; ++i) {
+    if (n.weight[i] <= 0) continue;
+    const Vec3f x = g.center + stretch * (n.position[i] - g.center);
+    K += n.weight[i] * kernelAtPoint(elements_, scene_, x, n.normal[i], of);
+  }
+  return static_cast<float>(K);
+}
+
+/// By chance, right in the mean.
+float IndirectSampler::kernelOverPairs(ElementId leaf, ElementId sender) const {
+  constexpr int kSets = 6;
+  const std::uint64_t key = combineKeys(combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]), 11);
+  double sum = 0;
+  for (int k = 0; k < kSets * kClosePairs; ++k) {
+    const auto u = stratified4(key, k);
+    const PatchPoint x = samplePatch(elements_, scene_, leaf, u[2], u[3]);
+    sum += closePair(elements_, scene_, x, sender, k % kClosePairs, u[0], u[1]).weight;
+  }
+  return static_cast<float>(sum / kSets);
+}
+
+bool IndirectSampler::isCloseLeaf(ElementId leaf, ElementId sender) const {
+  return elements_.isPatch(sender) && elements_.isLeaf(sender) && areClose(elements_, leaf, sender);
+}
+
+/// Whether the sender is so close to some of a curved leaf that its nodes, which stand for half its extent, do not tell
+/// the kernel.
+bool IndirectSampler::isCloseToNodes(ElementId leaf, ElementId sender) const {
+  if (!isCloseLeaf(leaf, sender)) return false;
+  const ElementGeometry& s = elements_.shape(sender);
+  const ElementNodes& n = elements_.nodes[leaf.index()];
+  const float reach = 2.0f * s.radius + elements_.shape(leaf).radius;
+  return std::any_of(n.position, n.position + 4, [&](const Vec3f& p) {
+    const Vec3f d = p - s.center;
+    return glm::dot(d, d) < reach * reach;
+  });
+}
+
+SenderSample IndirectSampler::along(const ClosePair& pair, ElementId sender) const {
+  SenderSample s;
+  s.leaf = sender, s.weight = pair.weight / elements_.shape(sender).area;
+  s.ray = segment(pair.from.position, pair.from.normal, pair.to.position, pair.to.normal);
+  return s;
+}
+
+/// From a curved leaf to a flat sender close by: nodes do not tell their kernel.
+SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, int index) const {
+  const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
+  const auto pointAt = [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); };
+  const auto pair = sampleClosePair(elements_, scene_, pointAt, sender, key, index);
+  if (!pair) return {};
+  SenderSample s = along(*pair, sender);
+  s.measures = true;
+  return s;
+}
+
+/// From a point of a curved sender close by to the leaf.
+SenderSample IndirectSampler::shootBack(ElementId leaf, ElementId sender, int index) const {
+  const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
+  const auto u = stratified4(key, index);
+  const PatchPoint y = samplePatch(elements_, scene_, sender, u[0], u[1]);
+  const auto pair = sampleClosePair(
+      elements_, scene_, [&](double, double) { return y; }, leaf, key, index);
+  if (!pair) return {};
+  SenderSample s;
+  s.leaf = sender, s.weight = pair->weight / elements_.shape(leaf).area;
+  s.ray = segment(pair->to.position, pair->to.normal, y.position, y.normal);
+  return s;
+}
+
+}  // namespace deltalux

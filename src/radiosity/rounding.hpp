@@ -1,0 +1,14 @@
+#pragma once
+#include "hierarchy/element.hpp"
+
+namespace deltalux {
+
+/// What the rounding of coordinates may do to distances along `n` between two elements: along an axis, coordinates on
+/// the others have no say, however large they are.
+inline float roundingAlong(const Vec3f& n, const ElementGeometry& a, const ElementGeometry& b) {
+  const Vec3f largest =
+      glm::max(glm::max(glm::abs(a.lower), glm::abs(a.upper)), glm::max(glm::abs(b.lower), glm::abs(b.upper)));
+  return 4e-6f * glm::dot(glm::abs(n), largest);
+}
+
+}  // namespace deltalux
