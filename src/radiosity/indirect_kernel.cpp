@@ -74,14 +74,14 @@ float IndirectSampler::kernelOverPairs(ElementId leaf, ElementId sender) const {
   return static_cast<float>(sum / kSets);
 }
 
-bool IndirectSampler::isCloseLeaf(ElementId leaf, ElementId sender) const {
-  return elements_.isPatch(sender) && elements_.isLeaf(sender) && areClose(elements_, leaf, sender);
+bool IndirectSampler::isClosePatch(ElementId leaf, ElementId sender) const {
+  return elements_.isPatch(sender) && areClose(elements_, leaf, sender);  // also when it has been split since
 }
 
 /// Whether the sender is so close to some of a curved leaf that its nodes, which stand for half its extent, do not tell
 /// the kernel.
 bool IndirectSampler::isCloseToNodes(ElementId leaf, ElementId sender) const {
-  if (!isCloseLeaf(leaf, sender)) return false;
+  if (!isClosePatch(leaf, sender)) return false;
   const ElementGeometry& s = elements_.shape(sender);
   const ElementNodes& n = elements_.nodes[leaf.index()];
   const float reach = 2.0f * s.radius + elements_.shape(leaf).radius;

@@ -180,7 +180,7 @@ SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index,
   const bool flat = exact(sender);
   const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
   SenderSample s;
-  if (flat && isCloseLeaf(leaf, sender))
+  if (flat && isClosePatch(leaf, sender))
     if (const auto pair = sampleClosePair(elements_, scene_, pointAt, sender, key, index)) return along(*pair, sender);
   for (int tries = 0; tries < (flat ? kFacingTries : 1); ++tries) {
     const auto u = stratified4(combineKeys(key, tries), index);
@@ -206,7 +206,7 @@ IndirectSampler::Found IndirectSampler::find(const Dealt& d, const SenderSample&
 SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index) const {
   const bool curvedLeaf = !elements_.at(leaf).flat, curvedSender = !exact(sender);
   if (curvedLeaf && !curvedSender && isCloseToNodes(leaf, sender)) return shootMeasuring(leaf, sender, index);
-  if (!curvedLeaf && curvedSender && isCloseLeaf(leaf, sender)) return shootBack(leaf, sender, index);
+  if (!curvedLeaf && curvedSender && isClosePatch(leaf, sender)) return shootBack(leaf, sender, index);
   return shoot(leaf, sender, index, [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); });
 }
 

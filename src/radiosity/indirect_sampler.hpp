@@ -83,7 +83,7 @@ class IndirectSampler {
   SenderSample shoot(ElementId leaf, ElementId sender, int index) const;
   SenderSample shootBack(ElementId leaf, ElementId sender, int index) const;
   SenderSample shootMeasuring(ElementId leaf, ElementId sender, int index) const;
-  bool isCloseLeaf(ElementId leaf, ElementId sender) const;
+  bool isClosePatch(ElementId leaf, ElementId sender) const;
   bool isCloseToNodes(ElementId leaf, ElementId sender) const;
   SenderSample along(const ClosePair&, ElementId sender) const;
   struct Found {
