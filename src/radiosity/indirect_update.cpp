@@ -11,11 +11,6 @@ namespace deltalux {
 
 namespace {
 
-/// From the middle of a leaf.
-Vec3f toEnd(const ElementGeometry& leaf, const Ray& ray) {
-  return at(ray, ray.tFar) - 0.5f * (leaf.lower + leaf.upper);
-}
-
 constexpr float kMostGone = 0.5f;  // of the rays of a leaf that has moved: with fewer left, all are dealt anew
 constexpr double kUneven = 5.0;    // so they are when the mean square of what each may bring is this many shares'
 
@@ -44,8 +39,8 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(ElementId leaf, con
     }
     const SenderSample sample = t.clear && exact(t.sender) ? SenderSample{} : shoot(leaf, t.sender, t.index);
     // Where the sender has been split since, it is another ray.
-    const auto another = [&] { return !(directionCode(toEnd(r, sample.ray)) == towards(row.rays[i])); };
-    if (moved || (sample.leaf.valid() && (space.meets(sample.ray) || another()))) out.push_back({i, sample});
+    const bool another = !elements_.isLeaf(t.sender);
+    if (moved || (sample.leaf.valid() && (another || space.meets(sample.ray)))) out.push_back({i, sample});
   }
   return out;
 }

@@ -106,9 +106,8 @@ std::pair<std::size_t, std::size_t> termsThatAreStale(const Solution& s) {
     };
     add(was, 1), add(is, -1);
     for (std::size_t k = 0; k < bring.size(); ++k) {
-      const bool same = towards(was.rays[k]) == towards(is.rays[k]);
-      if (!same && !elements.isLeaf(is.terms[k].sender)) continue;  // another ray, since its sender has been split
-      ++count, stale += !same || glm::length(bring[k]) > 1e-6;
+      if (!elements.isLeaf(is.terms[k].sender)) continue;  // another ray, since its sender has been split
+      ++count, stale += !(towards(was.rays[k]) == towards(is.rays[k])) || glm::length(bring[k]) > 1e-6;
     }
   }
   return {stale, count};
