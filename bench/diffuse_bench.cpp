@@ -10,7 +10,6 @@
 //   furnace     a closed box whose walls all emit and reflect alike: E = M / (1 - rho), probed at many points on its
 //               walls and inside, with shadow rays until their own error is small against 0.5 %.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -21,19 +20,11 @@
 #include <deltalux/render.hpp>
 #include <stdexcept>
 
+#include "processor_time.hpp"
 #include "scene_copies.hpp"
 
 namespace deltalux::bench {
 namespace {
-
-double cpuSeconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 class Table {
  public:
@@ -49,11 +40,11 @@ class Table {
 };
 
 Engine solved(Scene scene, const SolveSettings& settings, const Table& table) {
-  const double before = cpuSeconds();
+  const double before = processorSeconds();
   Engine engine(std::move(scene), settings);
   const SolveReport report = engine.solve();
   table.row("solve", report.times.total, "s");
-  table.row("solve processor time", cpuSeconds() - before, "s");
+  table.row("solve processor time", processorSeconds() - before, "s");
   table.row("peak memory", static_cast<double>(peakResidentBytes()) / 1048576.0, "MiB");
   table.row("memory of elements", static_cast<double>(report.memory.elements) / 1048576.0, "MiB");
   table.row("memory of links", static_cast<double>(report.memory.links) / 1048576.0, "MiB");
@@ -95,7 +86,7 @@ void reference(const std::string& name, const std::string& scene, const std::str
              noise = tripleColumns(points, {"se_r", "se_g", "se_b"});
   const Engine engine = solved(loadScene({scene}).scene, settings, table);
   for (const bool mesh : {false, true}) {
-    const double before = cpuSeconds();
+    const double before = processorSeconds();
     ProbeSettings probing;
     probing.mesh = mesh;
     const auto results = probe(engine.solution(), points.points, probing);
@@ -113,7 +104,7 @@ void reference(const std::string& name, const std::string& scene, const std::str
     table.row(of + "largest difference", 100 * quantile(differences, 1), "%");
     table.row(of + "median signed difference", 100 * quantile(signedOnes, 0.5), "%");
     table.row(of + "probes", static_cast<double>(differences.size()), "");
-    table.row(of + "probing processor time", cpuSeconds() - before, "s");
+    table.row(of + "probing processor time", processorSeconds() - before, "s");
     if (!mesh) table.row("95th percentile of the values' standard error", 100 * quantile(own, 0.95), "%");
   }
 }

@@ -6,7 +6,6 @@
 // file of fluxes, the flux from the sun over a mirror onto the wall behind x = 0.06, against the file's line of the
 // sum.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -19,21 +18,13 @@
 
 #include "base/parallel.hpp"
 #include "particles/particles.hpp"
+#include "processor_time.hpp"
 
 namespace deltalux {
 namespace {
 
 constexpr int kRounds = 3;
 constexpr std::size_t kBlock = 1024;
-
-double now() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 /// The segments of all paths as rays.
 std::vector<Ray> raysOf(const Particles& p) {
@@ -55,11 +46,11 @@ std::vector<Ray> raysOf(const Particles& p) {
 
 double rawSeconds(const RayTracer& tracer, const std::vector<Ray>& rays) {
   std::vector<Hit> hits(rays.size());
-  const double start = now();
+  const double start = bench::processorSeconds();
   parallelBlocks(rays.size(), kBlock, [&](std::size_t begin, std::size_t end) {
     tracer.closestHits(std::span(rays).subspan(begin, end - begin), std::span(hits).subspan(begin, end - begin));
   });
-  return now() - start;
+  return bench::processorSeconds() - start;
 }
 
 /// Flux of first impacts, beyond x = 0.06, of paths from a sun over a Mirror.
@@ -119,9 +110,9 @@ void run(int argc, char** argv) {
   Particles p;
   std::size_t segments = 0;
   for (int round = 0; round < kRounds; ++round) {
-    const double start = now();
+    const double start = bench::processorSeconds();
     p = traceParticles(scene, *tracer, settings);
-    seconds = std::min(seconds, now() - start);
+    seconds = std::min(seconds, bench::processorSeconds() - start);
     const std::vector<Ray> rays = raysOf(p);
     segments = rays.size();
     raw = std::min(raw, rawSeconds(*tracer, rays));

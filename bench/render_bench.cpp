@@ -8,7 +8,6 @@
 //   specks      share of pixels that are off by more than 10 %
 //   time        processor time, preparations included
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <cmath>
 #include <cstdio>
@@ -19,17 +18,13 @@
 #include <deltalux/solution_file.hpp>
 #include <stdexcept>
 
+#include "processor_time.hpp"
+
 namespace deltalux::bench {
 namespace {
 
 constexpr std::uint64_t kOtherSeed = 0x5eed;
 constexpr double kSpeck = 0.1;
-
-double processorSeconds() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
-}
 
 SolutionView solved(const std::string& file) {
   if (isSolutionFile(file)) return loadSolution(file);

@@ -14,7 +14,6 @@
 //           values beside ours where the scene is of the same kind (kTableColumns).
 // Options: diffuse-only, error=E, metres=M (of a scene unit), each, unchecked.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <chrono>
 #include <cstdio>
@@ -26,6 +25,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "processor_time.hpp"
 #include "scene_copies.hpp"
 
 namespace deltalux::bench {
@@ -70,20 +70,11 @@ struct Options {
 class Stopwatch {
  public:
   double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  double processor() const { return cpuSeconds() - cpu_; }
+  double processor() const { return processorSeconds() - cpu_; }
 
  private:
-  static double cpuSeconds() {
-    rusage usage{};
-    ::getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  }
-
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double cpu_ = cpuSeconds();
+  double cpu_ = processorSeconds();
 };
 
 struct Seconds {

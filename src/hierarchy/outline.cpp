@@ -37,6 +37,10 @@ bool outlineContains(std::span<const Vec2> p, const Vec2& q) {
   return inside;
 }
 
+bool outlineFills(std::span<const Vec2> outline, double area) {
+  return outline.size() == 4 && std::abs(outlineArea(outline)) > 0.9999 * area;
+}
+
 std::vector<Vec2> clipOutline(std::span<const Vec2> p, int axis, double limit, bool below) {
   const double sign = below ? 1.0 : -1.0;
   const auto excess = [&](const Vec2& q) { return sign * (q[axis] - limit); };

@@ -13,6 +13,8 @@ double outlineArea(std::span<const Vec2>);
 Vec2 outlineCentroid(std::span<const Vec2>);
 /// Whether `p` is inside, by the winding of crossings (even-odd).
 bool outlineContains(std::span<const Vec2>, const Vec2& p);
+/// Whether it is all of a rectangle of that area, which it lies in.
+bool outlineFills(std::span<const Vec2>, double area);
 /// The part with coordinate `axis` <= limit (below) or >= limit. [Sutherland & Hodgman 1974]
 std::vector<Vec2> clipOutline(std::span<const Vec2>, int axis, double limit, bool below);
 

@@ -191,7 +191,7 @@ PatchPoint samplePatch(const Elements& elements, const Scene& scene, ElementId p
     return pointOn(elements, scene, patch, d.u0 + a * du, cone ? byArea(*cone, d.v0, d.v1, b) : d.v0 + b * dv);
   }
   const auto outline = elements.outline(patch);
-  const bool full = outline.size() == 4 && std::abs(outlineArea(outline)) > 0.9999 * du * dv;
+  const bool full = outlineFills(outline, du * dv);
   Vec2 uv{d.u0 + a * du, d.v0 + b * dv};
   if (!full && !outlineContains(outline, uv)) {
     // Rejection keeps samples uniform; the sequence depends on (a,b) alone.

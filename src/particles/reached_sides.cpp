@@ -10,6 +10,7 @@
 #include "base/cosine_direction.hpp"
 #include "base/random.hpp"
 #include "particles/surface_normal.hpp"
+#include "scene/stops_light.hpp"
 
 namespace deltalux {
 
@@ -29,10 +30,6 @@ double areaOf(const Scene& scene, const SurfaceSide& s) {
 
 constexpr std::size_t kAsked = 16;  // paths of a side
 constexpr int kRays = 16;           // from where a path starts
-
-bool stopsLight(const Material& m) {
-  return std::holds_alternative<Opaque>(m.surface) || std::holds_alternative<Mirror>(m.surface);
-}
 
 struct Landed {
   RgbSum flux{0.0};

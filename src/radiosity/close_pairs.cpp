@@ -36,8 +36,7 @@ std::optional<PatchPoint> meet(const Elements& elements, ElementId patch, const 
   if (at.x < d.u0 || at.x > d.u1 || at.y < d.v0 || at.y > d.v1) return std::nullopt;
   const auto outline = elements.outline(patch);
   const double whole = double(d.u1 - d.u0) * double(d.v1 - d.v0);
-  const bool full = outline.size() == 4 && std::abs(outlineArea(outline)) > 0.9999 * whole;
-  if (!full && !outlineContains(outline, at)) return std::nullopt;
+  if (!outlineFills(outline, whole) && !outlineContains(outline, at)) return std::nullopt;
   return PatchPoint{Vec3f(p), Vec3f(n)};
 }
 

@@ -6,6 +6,7 @@
 #include "base/random.hpp"
 #include "hierarchy/patch.hpp"
 #include "radiosity/sender_sampling.hpp"
+#include "scene/stops_light.hpp"
 
 namespace deltalux {
 
@@ -17,10 +18,6 @@ constexpr std::size_t kInAll = 1 << 18;       // and up to 1024 where leaves are
 constexpr int kLines = 6;                     // across a flat leaf, either way
 constexpr float kLow = 1e-3f, kHigh = 3e-2f;  // of them above it, by turns, in its radii: under what hangs close
 constexpr int kRays = 4;  // of a point, all of which must meet sides without an element when those are far
-
-bool stopsLight(const Material& m) {
-  return std::holds_alternative<Opaque>(m.surface) || std::holds_alternative<Mirror>(m.surface);
-}
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include "radiosity/kernel.hpp"
 #include "radiosity/links_below.hpp"
 #include "radiosity/sender_sampling.hpp"
+#include "radiosity/visibility.hpp"
 
 namespace deltalux {
 
@@ -32,12 +33,6 @@ float leastKernel(const Elements& elements, const Vec3f& x, ElementId sender) {
 }
 
 }  // namespace
-
-float IndirectSampler::openness(const Link& l) {
-  if (l.visibility == Visibility::Clear) return 1.0f;
-  const auto n = static_cast<float>(l.samples);
-  return (maxChannel(l.V) * n + 0.5f) / (n + 1.0f);
-}
 
 IndirectSampler::IndirectSampler(const Scene& scene, const Elements& elements, const Links& links,
                                  const RayTracer& tracer)

@@ -120,9 +120,6 @@ class IndirectSampler {
   bool exact(ElementId sender) const;
   /// Whether a term needs no ray.
   bool known(const Term& t) const { return t.open >= 1.0f && exact(t.sender); }
-  /// Chance that light passes, as the link's rays leave it: one that saw nothing may still be open. 1: it surely
-  /// passes.
-  static float openness(const Link&);
   float faintest(ElementId receiver) const;
   float level(ElementId receiver) const;
   float strength(ElementId receiver, ElementId sender) const;

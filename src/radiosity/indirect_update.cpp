@@ -6,6 +6,7 @@
 #include "radiosity/indirect_sampler.hpp"
 #include "radiosity/links_below.hpp"
 #include "radiosity/row_terms.hpp"
+#include "radiosity/visibility.hpp"
 
 namespace deltalux {
 

@@ -325,12 +325,6 @@ constexpr float kSameTransfer = 0.05f;  // relative difference of kernels that i
 constexpr float kSameKernel = 2.0f;     // factors within which rays are still well shared out
 constexpr float kSameOpenness = 6.0f;
 
-/// Chance that light passes, with what few samples leave open.
-float openness(const Link& l) {
-  const auto n = static_cast<float>(l.samples);
-  return l.visibility == Visibility::Sampled ? (maxChannel(l.V) * n + 0.5f) / (n + 1.0f) : maxChannel(l.V);
-}
-
 /// Whether a second look has found what the first did. Light changes all the while; a move is no reason to refine for
 /// it.
 bool sameTransfer(const Link& before, const Link& after) {

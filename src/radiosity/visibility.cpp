@@ -49,6 +49,12 @@ Sample sampleOf(const Elements& elements, const Scene& scene, ElementId receiver
 
 }  // namespace
 
+float openness(const Link& l) {
+  if (l.visibility == Visibility::Clear) return 1.0f;
+  const auto n = static_cast<float>(l.samples);
+  return (maxChannel(l.V) * n + 0.5f) / (n + 1.0f);
+}
+
 bool samplesMeet(const Elements& elements, const Scene& scene, const Link& link, const SpaceChange& space) {
   if (elements.isDistant(link.sender)) {
     const ElementGeometry &r = elements.shape(link.receiver), &s = elements.shape(link.sender);

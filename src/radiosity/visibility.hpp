@@ -27,6 +27,9 @@ VisibilityEstimate sampleVisibility(const Elements&, const Scene&, const RayTrac
 VisibilityEstimate resampleVisibility(const Elements&, const Scene&, const RayTracer&, const Link&, const SpaceChange&,
                                       int& rays);
 
+/// Chance that light passes a link, as its rays leave it: where none passed it may still be open. 1: it surely passes.
+float openness(const Link&);
+
 /// Whether a ray that the link's visibility was sampled by meets what has moved.
 bool samplesMeet(const Elements&, const Scene&, const Link&, const SpaceChange&);
 

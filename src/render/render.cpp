@@ -2,6 +2,7 @@
 #include <deltalux/render.hpp>
 
 #include "base/check.hpp"
+#include "base/morton.hpp"
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
 #include "render/eye_path.hpp"
@@ -19,11 +20,7 @@ constexpr int kLearningShare = 2, kFewestLearning = 4, kMostLearning = 64;  // r
 /// Numbers pixels along a curve that keeps neighbours together: a pixel takes its stratified numbers from where its
 /// neighbours' end, so that errors of neighbours cancel and what noise there is, is fine. [Ahmed20]
 std::uint32_t pixelInOrder(int x, int y) {
-  std::uint32_t order = 0;
-  for (int bit = 0; bit < 16; ++bit)
-    order |= (static_cast<std::uint32_t>(x) >> bit & 1u) << (2 * bit) | (static_cast<std::uint32_t>(y) >> bit & 1u)
-                                                                            << (2 * bit + 1);
-  return order;
+  return static_cast<std::uint32_t>(morton(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)));
 }
 
 class Painter {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/morton.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -17,22 +19,12 @@ constexpr double kSmallest = 1.0 / 64;   // side of a square
 constexpr float kFaintShare = 1e-3f;     // of all rays: squares that get fewer stay whole
 constexpr int kFewestRays = 256;         // to learn from
 
-/// Bits of x at the even places of the result.
-std::uint64_t spread(std::uint32_t x) {
-  std::uint64_t b = x;
-  b = (b | b << 16) & 0x0000ffff0000ffffull;
-  b = (b | b << 8) & 0x00ff00ff00ff00ffull;
-  b = (b | b << 4) & 0x0f0f0f0f0f0f0f0full;
-  b = (b | b << 2) & 0x3333333333333333ull;
-  return (b | b << 1) & 0x5555555555555555ull;
-}
-
 /// Senders side by side stand side by side; cells of a sky along a curve that fills it.
 std::pair<std::uint32_t, std::uint64_t> placeInOrder(const Elements& elements, ElementId e) {
   if (!elements.isDistant(e)) return {0, e.value};
   const PatchDomain& d = elements.domain[e.index()];
   const auto bits = [](float x) { return static_cast<std::uint32_t>(static_cast<double>(x) * 0x1p30); };
-  return {1 + elements.light[e.index()].value, spread(bits(d.u0)) | spread(bits(d.v0)) << 1};
+  return {1 + elements.light[e.index()].value, morton(bits(d.u0), bits(d.v0))};
 }
 
 }  // namespace
