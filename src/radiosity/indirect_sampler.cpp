@@ -199,6 +199,7 @@ IndirectSampler::Found IndirectSampler::find(const Dealt& d, const SenderSample&
 }
 
 SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index) const {
+  if (!(elements_.shape(sender).area > 0)) return {};  // removed
   const bool curvedLeaf = !elements_.at(leaf).flat, curvedSender = !exact(sender);
   if (curvedLeaf && !curvedSender && isCloseToNodes(leaf, sender)) return shootMeasuring(leaf, sender, index);
   if (!curvedLeaf && curvedSender && isClosePatch(leaf, sender)) return shootBack(leaf, sender, index);

@@ -240,6 +240,20 @@ TEST(Update, RemovingAndComingBack) {
     EXPECT_NEAR(test::meshMean(engine, PrimitiveId(wall)) / test::meshMean(fresh, PrimitiveId(wall)), 1.0, 0.01);
 }
 
+TEST(Update, RemovingWhatIsRoundAndCloseLeavesNothingOfIt) {
+  Scene scene = roomWithBox();
+  test::addShape(scene, test::addMaterial(scene, "gray", test::lambert(0.4f)), Sphere{{2.3, 2.6, 0.26}, 0.25, false});
+  scene.primitives.back().object = internObject(scene, "ball", '.');
+  Engine engine = test::solved(scene, 0.1);
+  const Restore back = engine.apply(RemoveObject{"ball"});
+  engine.update();
+  const auto [gone, terms] = termsThatAreStale(engine.solution().get());
+  EXPECT_EQ(gone, 0u) << "of " << terms;
+  engine.apply(back);
+  engine.update();
+  EXPECT_EQ(termsThatAreStale(engine.solution().get()).first, 0u);
+}
+
 TEST(Update, ManyRandomMovesHoldTogetherAndEndWhereAFreshSolveDoes) {
   Engine engine = test::solved(roomWithBox(), 0.05);
   Rng rng(17);
