@@ -160,7 +160,7 @@ void runReplay(const UpdateOptions& options, const CLI::App& command) {
     if (options.check) {
       Engine fresh(engine.solution().scene(), engine.solution().settings());
       const SolveReport solved = fresh.solve(&progress);
-      run.report.check = compareSolutions(engine.solution(), fresh.solution(), 2000, &progress);
+      run.report.check = compareSolutions(engine.solution(), fresh.solution(), {}, &progress);
       run.report.check->solveS = solved.times.total;
     }
   }

@@ -36,10 +36,12 @@ std::vector<ProbePoint> pointsByArea(const Solution& s, std::size_t count) {
 
 }  // namespace
 
-CheckReport compareSolutions(const SolutionView& updated, const SolutionView& fresh, std::size_t count,
+CheckReport compareSolutions(const SolutionView& updated, const SolutionView& fresh, const CheckSettings& settings,
                              Progress* progress) {
-  const std::vector<ProbePoint> points = pointsByArea(fresh.get(), count);
-  const auto a = probe(updated, points, {}, progress), b = probe(fresh, points, {}, progress);
+  const std::vector<ProbePoint> points = pointsByArea(fresh.get(), settings.points);
+  ProbeSettings meter;
+  meter.error = settings.error;
+  const auto a = probe(updated, points, meter, progress), b = probe(fresh, points, meter, progress);
   const auto gray = [](const ProbeResult& r) { return deltalux::gray(RgbSum(r.irradiance)); };
   double mean = 0;
   for (const ProbeResult& r : b) mean += gray(r) / double(points.size());

@@ -8,6 +8,7 @@
 #include "engine/motion.hpp"
 #include "particles/transfer.hpp"
 #include "support/solved.hpp"
+#include "support/update_checks.hpp"
 
 namespace deltalux {
 namespace {
@@ -72,7 +73,7 @@ TEST(Motion, SettlesToWhatOneUpdateGives) {
   EXPECT_EQ(a.particles.hash(), b.particles.hash());
   EXPECT_EQ(a.particles.hash(), traceParticles(a.scene, *makeEmbreeTracer(a.scene), {20000, a.settings.seed}).hash());
   // Rows are dealt out by the light there is, which the frames had already moved.
-  const CheckReport check = compareSolutions(dragged.solution(), at_once.solution());
+  const CheckReport check = compareSolutions(dragged.solution(), at_once.solution(), test::kQuickCheck);
   EXPECT_LT(check.medianRelDiff, 0.005);
   EXPECT_LT(check.p95RelDiff, 0.03);
   EXPECT_EQ(a.caustics.count(), b.caustics.count());
@@ -115,7 +116,7 @@ void expectSame(const Engine& a, const Engine& b) {
   EXPECT_NO_THROW(a.solution().get().transfers.validate(a.solution().get().elements, a.solution().get().links));
   EXPECT_EQ(a.solution().get().particles.hash(), b.solution().get().particles.hash());
   // Rows are dealt out by the light there is, which the frames had already moved.
-  const CheckReport check = compareSolutions(a.solution(), b.solution());
+  const CheckReport check = compareSolutions(a.solution(), b.solution(), test::kQuickCheck);
   EXPECT_LT(check.medianRelDiff, 0.005);
   EXPECT_LT(check.p95RelDiff, 0.03);
 }
@@ -165,7 +166,7 @@ TEST(Motion, FramesAloneGetThere) {
   dragged.frame(kAllTime);  // settles
   EXPECT_EQ(dragged.solution().get().particles.hash(), at_once.solution().get().particles.hash());
   // Only updates split the mesh where particles have landed.
-  EXPECT_LT(compareSolutions(dragged.solution(), at_once.solution()).p95RelDiff, 0.1);
+  EXPECT_LT(compareSolutions(dragged.solution(), at_once.solution(), test::kQuickCheck).p95RelDiff, 0.1);
   dragged.update();
   expectSame(dragged, at_once);
 }
@@ -209,7 +210,7 @@ TEST(Motion, OtherEditsWaitForTheEnd) {
   engine.update();
   fresh.update();
   EXPECT_EQ(engine.solution().get().particles.hash(), fresh.solution().get().particles.hash());
-  EXPECT_LT(compareSolutions(engine.solution(), fresh.solution()).p95RelDiff, 1e-3);
+  EXPECT_LT(compareSolutions(engine.solution(), fresh.solution(), test::kQuickCheck).p95RelDiff, 1e-3);
 }
 
 }  // namespace

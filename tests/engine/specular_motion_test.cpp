@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "support/solved.hpp"
+#include "support/update_checks.hpp"
 
 namespace deltalux {
 namespace {
@@ -44,7 +45,7 @@ void expectFresh(Engine& engine, const Edit& edit, double p95) {
   const Solution& t = fresh.solution().get();
   EXPECT_EQ(s.particles.hash(), t.particles.hash());
   EXPECT_NEAR(landedFlux(s) / landedFlux(t), 1.0, 0.01);
-  const CheckReport check = compareSolutions(engine.solution(), fresh.solution());
+  const CheckReport check = compareSolutions(engine.solution(), fresh.solution(), test::kQuickCheck);
   EXPECT_TRUE(check.particlesIdentical);
   EXPECT_LT(check.medianRelDiff, 0.005);
   EXPECT_LT(check.p95RelDiff, p95);
