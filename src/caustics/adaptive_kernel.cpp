@@ -1,31 +1,84 @@
 #include "caustics/adaptive_kernel.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include "caustics/walls.hpp"
-#include "caustics/wide_flow.hpp"
 
 namespace deltalux {
 
 namespace {
-constexpr double kPrecision = 1e-3;  // of light that only shows where edges are
-constexpr double kMatters = 0.5;     // of what most of the light looks like: differences that are an edge
+
+constexpr double kMatters = 0.5;  // of what most of the light looks like: differences that are an edge
+
+std::vector<float> channelOf(const CellLight& light, int channel) {
+  std::vector<float> result(light.E.size());
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = light.E[i][channel];
+  return result;
+}
+
+std::vector<float> times(std::vector<float> values, float factor) {
+  for (float& v : values) v *= factor;
+  return values;
+}
+
+/// A grid's cells, and the flow that smooths its light.
+class Smoothing {
+ public:
+  /// The mean E is 1 from here on, and so is the mean cell's area where noise is concerned.
+  Smoothing(const CellGrid& grid, const CellLight& light, BandwidthRule rule)
+      : raster_(grid), mean_(static_cast<float>(gray(light.flux) / grid.totalArea())) {
+    if (!(mean_ > 0)) return;
+    rule.darkest /= mean_;
+    const Channels told{
+        raster_.laidOut(times(light.gray, 1 / mean_)),
+        raster_.laidOut(times(light.squares, static_cast<float>(1 / (grid.meanArea() * mean_ * mean_))))};
+    Slots first = told[0];
+    const Walls walls = blurredWalls(raster_, told);
+    HeatFlow(raster_, walls.bandwidth, &walls.openness).apply(first, 1.0);
+    const double darkness = rule.error * (kMatters * medianOfFlux(raster_.areas(), first) + rule.darkest);
+    const Borders openness = sharpWalls(raster_, first, darkness);
+    const Slots conductivity = chooseBandwidths(raster_, HeatFlow(raster_, {}, &openness), told, rule);
+    flow_.emplace(raster_, conductivity, &openness);
+  }
+
+  /// By slot, of values by cell.
+  Channels smoothed(std::span<const std::vector<float>> cells) const {
+    Channels result;
+    for (const std::vector<float>& values : cells) result.push_back(raster_.laidOut(values));
+    if (flow_) flow_->apply(result, 1.0);
+    return result;
+  }
+
+  /// Of a slot's value; what cancels there may be negative by a rounding.
+  float at(const Channels& values, std::size_t channel, std::uint32_t cell) const {
+    return std::max(values[channel][raster_.slotOf(cell)], 0.0f);
+  }
+
+ private:
+  CellRaster raster_;
+  float mean_;
+  std::optional<HeatFlow> flow_;
+};
+
 }  // namespace
 
 std::vector<Rgb> reconstructAdaptive(const CellGrid& grid, const CellLight& light, const BandwidthRule& rule) {
-  std::vector<float> first = light.gray;
-  const Walls walls = blurredWalls(grid, light);
-  HeatFlow(grid, walls.bandwidth, walls.openness).apply(first, 1.0, kPrecision);
+  const Smoothing smoothing(grid, light, rule);
+  const std::vector<float> cells[] = {channelOf(light, 0), channelOf(light, 1), channelOf(light, 2)};
+  const Channels E = smoothing.smoothed(cells);
+  std::vector<Rgb> result(grid.size());
+  for (std::uint32_t i = 0; i < grid.size(); ++i)
+    for (int c = 0; c < 3; ++c) result[i][c] = smoothing.at(E, static_cast<std::size_t>(c), i);
+  return result;
+}
 
-  const double darkness = rule.error * (kMatters * medianOfFlux(grid, first) + rule.darkest);
-  const std::vector<float> openness = sharpWalls(grid, first, darkness);
-  CellPyramid pyramid(grid, openness);
-  Channels channels(3, std::vector<float>(grid.size()));
-  for (std::size_t i = 0; i < grid.size(); ++i)
-    for (int c = 0; c < 3; ++c) channels[c][i] = light.E[i][c];
-  flowWidely(pyramid, channels, chooseBandwidths(pyramid, light, rule));
-  std::vector<Rgb> E(grid.size());
-  for (std::size_t i = 0; i < grid.size(); ++i)  // the series' last digits may be negative
-    for (int c = 0; c < 3; ++c) E[i][c] = std::max(channels[c][i], 0.0f);
-  return E;
+std::vector<float> reconstructGray(const CellGrid& grid, const CellLight& light, const BandwidthRule& rule) {
+  const Smoothing smoothing(grid, light, rule);
+  const Channels E = smoothing.smoothed(std::span(&light.gray, 1));
+  std::vector<float> result(grid.size());
+  for (std::uint32_t i = 0; i < grid.size(); ++i) result[i] = smoothing.at(E, 0, i);
+  return result;
 }
 
 }  // namespace deltalux

@@ -116,8 +116,8 @@ class AdaptiveTextures {
   void takeRegionsOut(const ChartSurface& surface, ChartPart& whole) {
     const CellGrid grid = surface.grid(whole);
     const CellLight light = collect(grid, whole.impacts);
-    const std::vector<Rgb> E = reconstructAdaptive(grid, light, rule_);
-    const double difference = kMatters * rule_.error * (medianOfFlux(grid, grayOf(E)) + rule_.background);
+    const std::vector<float> E = reconstructGray(grid, light, rule_);
+    const double difference = kMatters * rule_.error * (medianOfFlux(grid.areas(), E) + rule_.background);
     for (const TexelBox& box : markedBoxes(grid, cellsOffMedian(grid, E, difference), kMargin)) {
       if (particlesIn(box, grid, whole) < kLeastParticles) continue;
       ChartPart region = surface.takeOut(whole, grid, box, glm::ivec2(1));

@@ -2,102 +2,146 @@
 
 #include <algorithm>
 
+#include "caustics/vector_math.hpp"
+
 namespace deltalux {
 
 namespace {
 
 constexpr double kNarrowest = 0.5;       // standard deviation in cells
 constexpr double kWidest = 8;            // in cells
-constexpr double kConfidence = 3;        // standard deviations of a difference that noise explains
+constexpr double kConfidence = 2.85;     // standard deviations of a difference that noise explains, had it Gaussian
+                                         // kernels: 3 of those of ours
 constexpr double kLeastParticles = 4.0;  // that a kernel expects when it is asked
-constexpr double kEnough = 16;           // particles that tell how noisy they are
+constexpr float kEnough = 16;            // particles that tell how noisy they are
 constexpr double kQuiet = 0.5;           // of the target error: noise that a kernel need not grow to reduce
 constexpr double kCut = 0.9;             // of the mean area: less is cut by an outline
 constexpr double kFew = 0.02;            // of the cells: not worth another level
 constexpr double kBlend = 1.0;           // standard deviation in cells, of the blending of widths
+constexpr float kTiny = 1e-30f;
+constexpr std::size_t kChunk = 256;  // slots whose numbers stay close by
 
-/// The overlaps of a level's kernel with all narrower ones', and theirs with themselves.
+/// What a level's kernel has in common with the narrower ones, for cells of one area.
 struct Overlaps {
-  std::vector<double> both, narrow;
+  std::vector<float> asked;   // E^2 / squares of a narrow kernel that expects enough particles
+  std::vector<float> factor;  // of squares: the variance of the difference times kConfidence^2
+  float own = 0;
 
-  Overlaps(const std::vector<ScaleLevel>& levels, double area) {
-    for (const ScaleLevel& l : levels)
-      both.push_back(kernelOverlap(levels.back().width, l.width, area)), narrow.push_back(l.overlap);
+  Overlaps(const std::vector<ScaleLevel>& levels, double meanArea, double cell) {
+    const ScaleLevel& wide = levels.back();
+    own = static_cast<float>(wide.overlap * meanArea);
+    for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+      const double narrow = kernelOverlap(levels[k].width, levels[k].width, cell);
+      const double both = kernelOverlap(levels[k].width, wide.width, meanArea);
+      asked.push_back(static_cast<float>(kLeastParticles * narrow * meanArea));
+      factor.push_back(static_cast<float>(kConfidence * kConfidence * (narrow + wide.overlap - 2 * both) * meanArea));
+    }
   }
 };
-
-/// Whether a narrower kernel denies the widest one.
-bool contradicted(const std::vector<ScaleLevel>& levels, std::size_t cell, const Overlaps& overlaps) {
-  const ScaleLevel& wide = levels.back();
-  const double squares = wide.squares(cell), E = wide.E(cell), seen = E * E / (kLeastParticles * squares);
-  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
-    const double overlap = overlaps.narrow[k];
-    if (seen < overlap) continue;  // it expects too few particles to be asked
-    const double variance = squares * (overlap + wide.overlap - 2 * overlaps.both[k]);
-    const double difference = E - levels[k].light[0][cell];
-    if (difference * difference > kConfidence * kConfidence * variance) return true;
-  }
-  return false;
-}
 
 /// Widths are looked for level by level; few cells that want yet another are left with what there is.
 class WidthSearch {
  public:
-  WidthSearch(const CellGraph& grid, const BandwidthRule& rule)
-      : grid_(grid), rule_(rule), width_(grid.size(), 0.0), around_(grid.size(), -1.0) {
-    for (std::uint32_t i = 0; i < grid.size(); ++i) open_.push_back(i);
+  WidthSearch(const CellRaster& raster, const BandwidthRule& rule)
+      : raster_(raster),
+        allowed_(static_cast<float>(kQuiet * rule.error)),
+        darkest_(static_cast<float>(rule.darkest)),
+        log_(raster.slots(), static_cast<float>(std::log(kNarrowest))),
+        around_(raster.slots(), -1.0f),
+        open_(raster.slots(), 0.0f) {
+    const double cut = kCut * raster.meanArea();
+    for (std::size_t i = 0; i < raster.slots(); ++i) {
+      if (raster.areas()[i] <= 0) continue;
+      ++cells_;
+      if (raster.cellAreas()[i] < cut)
+        cut_.push_back(i);  // cells that an outline cuts are noisier than others
+      else
+        open_[i] = 1;
+    }
   }
 
   /// Whether most cells are content with the last of these levels, or a narrower one.
   bool judge(const std::vector<ScaleLevel>& levels) {
-    const Overlaps whole(levels, grid_.meanArea());
-    std::erase_if(open_, [&](std::uint32_t cell) {
-      if (grid_.area(cell) >= kCut * grid_.meanArea()) return decide(levels, cell, whole);
-      // Cells that an outline cuts are noisier than others.
-      Overlaps cut = whole;
-      for (std::size_t k = 0; k < levels.size(); ++k)
-        cut.narrow[k] = kernelOverlap(levels[k].width, levels[k].width, grid_.area(cell));
-      return decide(levels, cell, cut);
+    const auto log = static_cast<float>(std::log(levels.back().width / std::sqrt(raster_.meanArea())));
+    const Overlaps whole(levels, raster_.meanArea(), raster_.meanArea());
+    const std::size_t end = raster_.rowBegin(raster_.rows());
+    std::size_t left = 0;
+    for (std::size_t begin = raster_.rowBegin(0); begin < end; begin += kChunk)
+      left += decide(levels, whole, log, begin, std::min(kChunk, end - begin));
+    std::erase_if(cut_, [&](std::size_t i) {
+      open_[i] = 1;
+      const Overlaps cell(levels, raster_.meanArea(), raster_.cellAreas()[i]);
+      const bool stays = decide(levels, cell, log, i, 1) > 0;
+      open_[i] = 0;
+      return !stays;
     });
-    return static_cast<double>(open_.size()) <= kFew * static_cast<double>(grid_.size());
+    return static_cast<double>(left + cut_.size()) <= kFew * static_cast<double>(cells_);
   }
 
-  const std::vector<double>& widths() const { return width_; }
+  /// Logarithms of the widths in cells.
+  Slots& logs() { return log_; }
 
  private:
-  /// The width of the widest kernel that all narrower ones bear out.
-  bool decide(const std::vector<ScaleLevel>& levels, std::uint32_t cell, const Overlaps& overlaps) {
-    const ScaleLevel& last = levels.back();
-    if (contradicted(levels, cell, overlaps)) return true;
-    width_[cell] = last.width;
-    // Where no particle fell, narrow kernels know no noise: the first that holds some tells.
-    if (around_[cell] < 0 && last.count(cell) >= kEnough) around_[cell] = last.squares(cell);
-    const double allowed = kQuiet * rule_.error * (last.E(cell) + rule_.darkest);
-    return around_[cell] >= 0 && std::max(last.squares(cell), around_[cell]) * last.overlap <= allowed * allowed;
+  /// The width of the widest kernel that all narrower ones bear out. How many of the slots want a wider one.
+  std::size_t decide(const std::vector<ScaleLevel>& levels, const Overlaps& overlaps, float log, std::size_t begin,
+                     std::size_t count) {
+    const float *light = levels.back().light[0].data() + begin, *square = levels.back().light[1].data() + begin;
+    float E[kChunk], squares[kChunk], expected[kChunk], denied[kChunk];
+    for (std::size_t i = 0; i < count; ++i) {
+      E[i] = std::max(light[i], 0.0f), squares[i] = std::max(square[i], kTiny);
+      expected[i] = E[i] * E[i] / squares[i], denied[i] = 0.0f;
+    }
+    for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+      const float asked = overlaps.asked[k], factor = overlaps.factor[k];
+      const float* const narrow = levels[k].light[0].data() + begin;
+      for (std::size_t i = 0; i < count; ++i) {
+        const float d = E[i] - narrow[i];
+        const float over = d * d > factor * squares[i] ? 1.0f : 0.0f;
+        denied[i] = expected[i] >= asked ? std::max(denied[i], over) : denied[i];
+      }
+    }
+    float *__restrict const width = log_.data() + begin, *__restrict const around = around_.data() + begin,
+                           *__restrict const open = open_.data() + begin;
+    const float own = overlaps.own, enough = kEnough * own, allowed = allowed_, darkest = darkest_;
+    float left = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float going = (1 - denied[i]) * open[i];
+      width[i] = going > 0 ? log : width[i];
+      // Where no particle fell, narrow kernels know no noise: the first that holds some tells.
+      const float tells = expected[i] >= enough ? squares[i] : -1.0f, known = around[i] < 0 ? tells : around[i];
+      around[i] = going > 0 ? known : around[i];
+      const float limit = allowed * (E[i] + darkest), noise = std::max(squares[i], known) * own;
+      const float content = noise <= limit * limit ? 1.0f : 0.0f;
+      open[i] = known < 0 ? going : (1 - content) * going;
+    }
+    for (std::size_t i = 0; i < count; ++i) left += open[i];
+    return static_cast<std::size_t>(left);
   }
 
-  const CellGraph& grid_;
-  const BandwidthRule& rule_;
-  std::vector<double> width_;   // by cell
-  std::vector<double> around_;  // by cell: density of squares; negative while nothing tells
-  std::vector<std::uint32_t> open_;
+  const CellRaster& raster_;
+  float allowed_, darkest_;
+  Slots log_;                     // by slot: logarithm of the width
+  Slots around_;                  // by slot: density of squares; negative while nothing tells
+  Slots open_;                    // by slot: 1 while it wants a wider kernel; not those cut by an outline
+  std::vector<std::size_t> cut_;  // of those, which do
+  std::size_t cells_ = 0;
 };
 
 }  // namespace
 
-std::vector<float> chooseBandwidths(CellPyramid& pyramid, const CellLight& light, const BandwidthRule& rule) {
-  const CellGraph& graph = pyramid.graph(0);
-  ScaleSpace space(pyramid, light, kWidest);
-  WidthSearch search(graph, rule);
+Slots chooseBandwidths(const CellRaster& raster, const HeatFlow& even, const Channels& light,
+                       const BandwidthRule& rule) {
+  ScaleSpace space(raster, even, light, kWidest);
+  WidthSearch search(raster, rule);
   while (space.widen() && !search.judge(space.levels())) {
   }
-  const double area = graph.meanArea(), narrowest = kNarrowest * std::sqrt(area);
-  std::vector<float> logs;
-  for (const double width : search.widths()) logs.push_back(static_cast<float>(std::log(std::max(width, narrowest))));
   // Choices are noisy too: their logarithms blend with their neighbours'.
-  pyramid.evenFlow(0).apply(logs, 0.5 * kBlend * kBlend * area);
-  for (float& l : logs) l = 0.5f * std::exp(2 * l);
-  return logs;
+  Slots D = std::move(search.logs());
+  raster.even(D);
+  even.apply(D, 0.5 * kBlend * kBlend * raster.meanArea());
+  const auto half = static_cast<float>(0.5 * raster.meanArea());
+  for (float& d : D) d = half * expOf(2 * d);
+  return D;
 }
 
 }  // namespace deltalux

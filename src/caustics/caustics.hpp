@@ -35,7 +35,7 @@ using SurfaceSides = std::vector<bool>;
 SurfaceSides sidesWithTextures(const Scene&, const Elements&, std::vector<Impact>, double error);
 
 /// The textures of these sides; those without an impact have none. The same for any number of threads.
-/// Cost: about 1.5 microseconds a texel.
+/// Cost: about 0.4 microseconds a texel.
 Caustics makeCaustics(const Scene&, const Elements&, std::vector<Impact>, double error, const SurfaceSides&);
 
 /// Gray irradiance of all light but the particles', by side: errors are measured against it, too. [W/m2]

@@ -40,14 +40,14 @@ double typicalIrradiance(std::span<const double> flux, std::span<const double> s
   return total > 0 && whole > 0 ? std::max(pairs / total, total / whole) : 0.0;
 }
 
-double medianOfFlux(const CellGrid& grid, const std::vector<float>& E) {
+double medianOfFlux(std::span<const float> areas, std::span<const float> E) {
   struct Cell {
     float E;
     double flux;
   };
   std::vector<Cell> cells(E.size());
   double wanted = 0;
-  for (std::size_t i = 0; i < E.size(); ++i) cells[i] = {E[i], double(E[i]) * grid.area(i)}, wanted += cells[i].flux;
+  for (std::size_t i = 0; i < E.size(); ++i) cells[i] = {E[i], double(E[i]) * areas[i]}, wanted += cells[i].flux;
   wanted *= 0.5;
   // As when sorting, but only the part that holds the median is looked at again.
   auto begin = cells.begin(), end = cells.end();

@@ -40,7 +40,7 @@ double typicalIrradiance(const CellGrid&, const CellLight&);
 double typicalIrradiance(std::span<const double> flux, std::span<const double> squares, std::span<const float> areas);
 
 /// The gray irradiance below which half of the flux lies: what most of the light looks like, whatever its peaks.
-double medianOfFlux(const CellGrid&, const std::vector<float>& E);
+double medianOfFlux(std::span<const float> areas, std::span<const float> E);
 
 std::vector<float> grayOf(const std::vector<Rgb>& E);
 

@@ -31,17 +31,18 @@ Departure departure(const CellGrid& grid, const CellLight& light) {
   const double grain = light.grain();
   if (!(result.area > 0) || !(grain > 0)) return result;
 
-  std::vector<float> smooth = light.gray;
+  const CellRaster raster(grid);
+  Slots smoothed = raster.laidOut(light.gray);
   const double reach = kCoarse * std::sqrt(result.area);
-  HeatFlow(grid, std::vector<float>(grid.size(), 1.0f)).apply(smooth, 0.5 * reach * reach, 1e-4);
+  HeatFlow(raster, {}).apply(smoothed, 0.5 * reach * reach);
   result.cells = static_cast<double>(grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const double area = grid.area(i);
-    const double expected = std::max(double(smooth[i]), kLeastExpected * grain / area), count = expected * area / grain;
-    const double difference = light.gray[i] - smooth[i];
+    const double area = grid.area(i), smooth = smoothed[raster.slotOf(static_cast<std::uint32_t>(i))];
+    const double expected = std::max(smooth, kLeastExpected * grain / area), count = expected * area / grain;
+    const double difference = light.gray[i] - smooth;
     result.chiSquare += difference * difference * area / (grain * expected);
     result.variance += 2 + 1 / count;
-    result.squares += area * difference * difference - grain * std::max(double(smooth[i]), 0.0);
+    result.squares += area * difference * difference - grain * std::max(smooth, 0.0);
   }
   return result;
 }

@@ -80,18 +80,18 @@ std::vector<char> litCells(const std::vector<Rgb>& E, double share) {
   return lit;
 }
 
-std::vector<char> cellsOffMedian(const CellGrid& grid, const std::vector<Rgb>& E, double difference) {
+std::vector<char> cellsOffMedian(const CellGrid& grid, const std::vector<float>& E, double difference) {
   std::vector<std::uint32_t> order(E.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return gray(E[a]) < gray(E[b]); });
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return E[a] < E[b]; });
   double below = 0, median = 0;
   for (const std::uint32_t i : order) {
     below += grid.area(i);
-    median = gray(E[i]);
+    median = E[i];
     if (below >= 0.5 * grid.totalArea()) break;
   }
   std::vector<char> marked;
-  for (const Rgb& e : E) marked.push_back(std::abs(gray(e) - median) > difference);
+  for (const float e : E) marked.push_back(std::abs(e - median) > difference);
   return marked;
 }
 

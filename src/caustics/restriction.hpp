@@ -23,8 +23,8 @@ bool holds(const TexelBox&, int x, int y, int width);
 
 /// Cells above `share` of the largest value.
 std::vector<char> litCells(const std::vector<Rgb>& E, double share);
-/// Cells that differ from the median over the area by more than `difference` [W/m2], in gray.
-std::vector<char> cellsOffMedian(const CellGrid&, const std::vector<Rgb>& E, double difference);
+/// Cells that differ from the median over the area by more than `difference` [W/m2].
+std::vector<char> cellsOffMedian(const CellGrid&, const std::vector<float>& E, double difference);
 
 /// Disjoint boxes around all patches of marked cells, widened by `margin` texels.
 std::vector<TexelBox> markedBoxes(const CellGrid&, const std::vector<char>& marked, int margin);

@@ -15,13 +15,14 @@
 namespace deltalux {
 
 struct Walls {
-  std::vector<float> openness;   // of each border
-  std::vector<float> bandwidth;  // of each cell: half the variance of a kernel that holds kParticles [unit^2]
+  Borders openness;
+  Slots bandwidth;  // half the variance of a kernel that holds kParticles [unit^2]
 };
 
-Walls blurredWalls(const CellGraph&, const CellLight&);
+/// `light`: gray E and density of squares, both of which the mean cell's area and the mean E were made 1 for.
+Walls blurredWalls(const CellRaster&, const Channels& light);
 
-/// `darkness`: differences below it do not matter [W/m2].
-std::vector<float> sharpWalls(const CellGraph&, const std::vector<float>& E, double darkness);
+/// `darkness`: differences below it do not matter [of E].
+Borders sharpWalls(const CellRaster&, const Slots& E, double darkness);
 
 }  // namespace deltalux

@@ -52,7 +52,7 @@ TEST(Restriction, LitIsAShareOfTheMaximumAndOffTheMedianADifference) {
   const CellGrid grid = test::gridOver(square, chartsOf(square), 2, 2);
   const std::vector<Rgb> E{Rgb(1.0f), Rgb(1.0f), Rgb(1.3f), Rgb(100.0f)};
   EXPECT_EQ(litCells(E, 0.02), (std::vector<char>{0, 0, 0, 1}));
-  EXPECT_EQ(cellsOffMedian(grid, E, 0.2), (std::vector<char>{0, 0, 1, 1}));
+  EXPECT_EQ(cellsOffMedian(grid, grayOf(E), 0.2), (std::vector<char>{0, 0, 1, 1}));
 }
 
 TEST(Restriction, TheRegionsMatrixMapsItsBoxToTheUnitSquare) {
