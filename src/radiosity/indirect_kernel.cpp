@@ -1,4 +1,4 @@
-// Kernels of rows at a leaf, and rays that start at the sender.
+// Kernels of rows at a leaf.
 #include <algorithm>
 #include <cmath>
 
@@ -72,55 +72,6 @@ float IndirectSampler::kernelOverPairs(ElementId leaf, ElementId sender) const {
     sum += closePair(elements_, scene_, x, sender, k % kClosePairs, u[0], u[1]).weight;
   }
   return static_cast<float>(sum / kSets);
-}
-
-bool IndirectSampler::isClosePatch(ElementId leaf, ElementId sender) const {
-  return elements_.isPatch(sender) && areClose(elements_, leaf, sender);  // also when it has been split since
-}
-
-/// Whether the sender is so close to some of a curved leaf that its nodes, which stand for half its extent, do not tell
-/// the kernel.
-bool IndirectSampler::isCloseToNodes(ElementId leaf, ElementId sender) const {
-  if (!isClosePatch(leaf, sender)) return false;
-  const ElementGeometry& s = elements_.shape(sender);
-  const ElementNodes& n = elements_.nodes[leaf.index()];
-  const float reach = 2.0f * s.radius + elements_.shape(leaf).radius;
-  return std::any_of(n.position, n.position + 4, [&](const Vec3f& p) {
-    const Vec3f d = p - s.center;
-    return glm::dot(d, d) < reach * reach;
-  });
-}
-
-SenderSample IndirectSampler::along(const ClosePair& pair, ElementId sender) const {
-  SenderSample s;
-  s.leaf = sender, s.weight = pair.weight / elements_.shape(sender).area;
-  s.ray = segment(pair.from.position, pair.from.normal, pair.to.position, pair.to.normal);
-  return s;
-}
-
-/// From a curved leaf to a flat sender close by: nodes do not tell their kernel.
-SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, int index) const {
-  const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
-  const auto pointAt = [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); };
-  const auto pair = sampleClosePair(elements_, scene_, pointAt, sender, key, index);
-  if (!pair) return {};
-  SenderSample s = along(*pair, sender);
-  s.measures = true;
-  return s;
-}
-
-/// From a point of a curved sender close by to the leaf.
-SenderSample IndirectSampler::shootBack(ElementId leaf, ElementId sender, int index) const {
-  const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
-  const auto u = stratified4(key, index);
-  const PatchPoint y = samplePatch(elements_, scene_, sender, u[0], u[1]);
-  const auto pair = sampleClosePair(
-      elements_, scene_, [&](double, double) { return y; }, leaf, key, index);
-  if (!pair) return {};
-  SenderSample s;
-  s.leaf = sender, s.weight = pair->weight / elements_.shape(leaf).area;
-  s.ray = segment(pair->to.position, pair->to.normal, y.position, y.normal);
-  return s;
 }
 
 }  // namespace deltalux

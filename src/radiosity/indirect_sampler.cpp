@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/random.hpp"
+#include "radiosity/facing.hpp"
 #include "radiosity/kernel.hpp"
 #include "radiosity/links_below.hpp"
 #include "radiosity/sender_sampling.hpp"
@@ -15,21 +16,32 @@ namespace deltalux {
 namespace {
 
 constexpr float kLeastKernel = 0.1f;  // relative to that of a sender that faces the place with a quarter of its area
+constexpr float kNoneFaces = 0.25f;   // of that where no node does face it
 constexpr float kFaint = 0.1f;   // of the light here: radiosity that senders are credited with, so that rows hold what
                                  // may light up later, and what is all but dark gets no few heavy samples
 constexpr float kUneven = 2.0f;  // rays of clusters and curved senders, whose points differ most, against others
-constexpr float kPartsShare = 2.0f;         // rays of a sender above which it is taken apart
-constexpr float kWholeShare = 0.25f;        // the same for senders that need no ray: their radiosity counts as even
-constexpr float kLookedAt = 8;              // times its rays' worth: chance that what changed is looked at
-constexpr float kBlocked = 0x1.fffffep-1f;  // of a ray: furthest place of what blocks it
-constexpr int kFacingTries = 16;            // more points of a sender when some face away
+constexpr float kPartsShare = 2.0f;   // rays of a sender above which it is taken apart
+constexpr float kWholeShare = 0.25f;  // the same for senders that need no ray: their radiosity counts as even
+constexpr float kLookedAt = 8;        // times its rays' worth: chance that what changed is looked at
 
-/// Transfer that clusters and curved senders are credited with: their nodes may all face away where some part does not.
-float leastKernel(const Elements& elements, const Vec3f& x, ElementId sender) {
+/// The mean of d^2 over a leaf that its parts would see a sender by: a long one that the sender is close to is seen
+/// from there, not from its middle.
+float squaredDistance(const ElementGeometry& leaf, const Vec3f& x, const ElementGeometry& sender) {
+  const Vec3f d = sender.center - x;
+  const float squared = std::max(glm::dot(d, d), sender.radius * sender.radius);
+  const Vec3f near = sender.center - glm::clamp(sender.center, leaf.lower, leaf.upper);
+  const float width = leaf.area / std::max(leaf.radius, 1e-30f);
+  const float close = std::max({glm::length(near), sender.radius, width});
+  return std::min(squared, close * std::max(close, leaf.radius));
+}
+
+/// Transfer that clusters and curved senders are credited with, of the kernel K over their nodes: those may all face
+/// away where some part does not.
+float atLeast(const Elements& elements, ElementId leaf, const Vec3f& x, ElementId sender, float K) {
   const ElementGeometry& g = elements.shape(sender);
-  const Vec3f d = g.center - x;
-  const float squared = std::max(glm::dot(d, d), g.radius * g.radius);
-  return kLeastKernel * (elements.isCluster(sender) ? 1.0f : g.area / float(kPi)) / squared;
+  const float least = kLeastKernel * (K > 0 ? 1.0f : kNoneFaces);
+  return std::max(K, least * (elements.isCluster(sender) ? 1.0f : g.area / float(kPi)) /
+                         squaredDistance(elements.shape(leaf), x, g));
 }
 
 }  // namespace
@@ -64,14 +76,20 @@ float IndirectSampler::strength(ElementId receiver, ElementId sender) const {
 
 bool IndirectSampler::exact(ElementId sender) const { return elements_.isPatch(sender) && elements_.at(sender).flat; }
 
+/// Whether nothing can come from a sender that may be credited with more than its nodes show.
+bool IndirectSampler::averted(ElementId leaf, ElementId sender) const {
+  const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(sender);
+  return turnsAway(r, s) || (elements_.isPatch(sender) && turnsAway(s, r));
+}
+
 template <class KernelOf>
 IndirectSampler::Term IndirectSampler::term(ElementId leaf, LinkId link, ElementId sender, float open,
                                             const KernelOf& kernelOf) const {
   Term t{link, sender, 0.0f, open, 0.0f};
   const float B = strength(leaf, sender);
-  if (!(B > 0)) return t;
+  if (!(B > 0) || (!exact(sender) && averted(leaf, sender))) return t;
   t.K = static_cast<float>(kernelOf(sender, open >= 1.0f));
-  if (!exact(sender)) t.K = std::max(t.K, leastKernel(elements_, elements_.shape(leaf).center, sender));
+  if (!exact(sender)) t.K = atLeast(elements_, leaf, elements_.shape(leaf).center, sender, t.K);
   t.weight = t.K * B * std::sqrt(open) * (exact(sender) ? 1.0f : kUneven);
   return t;
 }
@@ -111,21 +129,19 @@ std::vector<IndirectSampler::Term> IndirectSampler::apart(ElementId leaf, std::v
   return parts;
 }
 
-/// What a part of a sender may bring, by its centre alone.
+/// What a part of a sender may bring to the middle of the leaf; of flat parts, by their centre alone.
 float IndirectSampler::guess(ElementId leaf, const PatchPoint& x, ElementId part) const {
   const float B = strength(leaf, part);
-  if (!(B > 0)) return 0.0f;
-  const ElementGeometry& g = elements_.shape(part);
-  float K = 0;
-  if (elements_.isCluster(part)) {
-    K = static_cast<float>(kernelAtPoint(elements_, scene_, x.position, x.normal, part));
-  } else {
-    const Vec3f d = g.center - x.position;
-    const float squared = glm::dot(d, d);
-    K = static_cast<float>(pointKernel(elements_, scene_, x.position, x.normal, part, g.center, g.normal)) * g.area *
-        squared / (squared + g.area / float(kPi));
+  if (!(B > 0) || averted(leaf, part)) return 0.0f;
+  if (!exact(part)) {
+    const auto K = static_cast<float>(kernelAtPoint(elements_, scene_, x.position, x.normal, part));
+    return kUneven * B * atLeast(elements_, leaf, x.position, part, K);
   }
-  return std::max(K, leastKernel(elements_, x.position, part)) * B * (exact(part) ? 1.0f : kUneven);
+  const ElementGeometry& g = elements_.shape(part);
+  const Vec3f d = g.center - x.position;
+  const float squared = glm::dot(d, d);
+  const auto K = static_cast<float>(pointKernel(elements_, scene_, x.position, x.normal, part, g.center, g.normal));
+  return B * atLeast(elements_, leaf, x.position, part, K * g.area * squared / (squared + g.area / float(kPi)));
 }
 
 template <class KernelOf, class Visit>
@@ -168,67 +184,6 @@ void IndirectSampler::deal(ElementId leaf, const PatchPoint& center, const std::
   dealOut(shares, rays, elements_.key[leaf.index()], [&](std::uint32_t i, int own) {
     dealBelow(leaf, center, terms[i], terms[i].weight / step, own, kernelOf, visit);
   });
-}
-
-template <class PointAt>
-SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index, const PointAt& pointAt) const {
-  const bool flat = exact(sender);
-  const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
-  SenderSample s;
-  if (flat && isClosePatch(leaf, sender))
-    if (const auto pair = sampleClosePair(elements_, scene_, pointAt, sender, key, index)) return along(*pair, sender);
-  for (int tries = 0; tries < (flat ? kFacingTries : 1); ++tries) {
-    const auto u = stratified4(combineKeys(key, tries), index);
-    s = sampleLeafOf(elements_, scene_, pointAt(u[2], u[3]), sender, u[0], u[1]);
-    if (s.weight > 0) return s;
-  }
-  s.leaf = {};
-  return s;
-}
-
-IndirectSampler::Found IndirectSampler::find(const Dealt& d, const SenderSample& s, std::uint64_t& traced) const {
-  if (known(d.term)) return {Rgb(d.term.K)};
-  if (!s.leaf.valid()) return {Rgb(0.0f)};
-  const bool isKnown = exact(d.term.sender) && !s.measures;
-  const float K = isKnown ? d.term.K : elements_.shape(d.term.sender).area * static_cast<float>(s.weight);
-  if (d.term.open >= 1.0f) return {Rgb(d.gain * K), &s.ray};
-  ++traced;
-  const Passing p = tracer_.passing(s.ray);
-  if (!endsAtOne(scene_, p)) return {d.gain * K * p.share, &s.ray};
-  return {Rgb(0.0f), &s.ray, std::min(p.t / s.ray.tFar, kBlocked), p.blocker};
-}
-
-SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index) const {
-  if (!(elements_.shape(sender).area > 0)) return {};  // removed
-  const bool curvedLeaf = !elements_.at(leaf).flat, curvedSender = !exact(sender);
-  if (curvedLeaf && !curvedSender && isCloseToNodes(leaf, sender)) return shootMeasuring(leaf, sender, index);
-  if (!curvedLeaf && curvedSender && isClosePatch(leaf, sender)) return shootBack(leaf, sender, index);
-  return shoot(leaf, sender, index, [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); });
-}
-
-void IndirectSampler::remember(ElementId leaf, std::size_t term, const Found& f, TransferRow& row) const {
-  const ElementGeometry& g = elements_.shape(leaf);
-  const Vec3f from = 0.5f * (g.lower + g.upper);
-  row.rays.resize(row.terms.size());
-  const Vec3f d = f.ray ? f.seen * (at(*f.ray, f.ray->tFar) - from) : Vec3f(0.0f);
-  row.rays[term] = f.ray ? rayCode(d, f.seen < 1) : rayCode({}, 0, true);
-  if (f.ray && !f.blocker.valid()) return row.reach.add(g, from + d);
-  row.reach.objects.add(scene_, elements_.domain[row.terms[term].sender.index()].primitive);
-  if (f.blocker.valid()) row.reach.objects.add(scene_, f.blocker);
-}
-
-void IndirectSampler::append(ElementId leaf, const Dealt& d, TransferRow& row, std::uint64_t& traced) const {
-  append(leaf, d, known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index), row, traced);
-}
-
-void IndirectSampler::append(ElementId leaf, const Dealt& d, const SenderSample& s, TransferRow& row,
-                             std::uint64_t& traced) const {
-  const Found found = find(d, s, traced);
-  const bool some = !isBlack(found.T);
-  row.terms.push_back(
-      {d.term.link, d.term.sender, d.gain, static_cast<std::uint16_t>(d.index), some, d.term.open >= 1.0f});
-  remember(leaf, row.terms.size() - 1, found, row);
-  if (some) row.transfers.push_back({d.term.sender, found.T});
 }
 
 TransferRow IndirectSampler::atLeaf(ElementId leaf, int rays, std::uint64_t& traced) const {
@@ -293,8 +248,7 @@ Rgb IndirectSampler::atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal
   RgbSum E(0.0);
   std::uint64_t traced = 0;
   deal(leaf, x, terms, total / rays, rays, kernelOf, [&](const Dealt& d) {
-    const auto s =
-        known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index, [&](double, double) { return x; });
+    const auto s = known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index, &x);
     const Rgb T = find(d, s, traced).T;
     E += RgbSum(T * elements_.radiometry[d.term.sender.index()].B);
   });

@@ -77,9 +77,10 @@ class IndirectSampler {
   template <class KernelOf, class Visit>
   void dealBelow(ElementId leaf, const PatchPoint& x, const Term&, double expected, int rays, const KernelOf&,
                  const Visit&) const;
-  /// The ray of a dealt term; no leaf where its points do not face each other.
-  template <class PointAt>
-  SenderSample shoot(ElementId leaf, ElementId sender, int index, const PointAt&) const;
+  /// The ray of a dealt term, from a point or anywhere on the leaf (null); no leaf where no points face each other.
+  struct Place;
+  SenderSample shoot(ElementId leaf, ElementId sender, int index, const PatchPoint* at) const;
+  SenderSample shootMeasured(ElementId sender, std::uint64_t key, int index, int tries, const Place&) const;
   SenderSample shoot(ElementId leaf, ElementId sender, int index) const;
   SenderSample shootBack(ElementId leaf, ElementId sender, int index) const;
   SenderSample shootMeasuring(ElementId leaf, ElementId sender, int index) const;
@@ -118,6 +119,7 @@ class IndirectSampler {
   float kernelOverNodes(ElementId at, ElementId of) const;
   float kernelOverPairs(ElementId leaf, ElementId sender) const;
   bool exact(ElementId sender) const;
+  bool averted(ElementId leaf, ElementId sender) const;
   /// Whether a term needs no ray.
   bool known(const Term& t) const { return t.open >= 1.0f && exact(t.sender); }
   float faintest(ElementId receiver) const;

@@ -52,6 +52,9 @@ Sample sampleOf(const Elements& elements, const Scene& scene, ElementId receiver
 float openness(const Link& l) {
   if (l.visibility == Visibility::Clear) return 1.0f;
   const auto n = static_cast<float>(l.samples);
+  // Many links are blocked for good: where none of 4, 8, 16 rays passed, 0.10, 0.037, 0.012 of all others do, in a
+  // cabin of wooden walls and furniture.
+  if (n > 0 && isBlack(l.V)) return 4.9f / (n * (n + 8.7f));
   return (maxChannel(l.V) * n + 0.5f) / (n + 1.0f);
 }
 
