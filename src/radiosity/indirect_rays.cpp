@@ -1,0 +1,158 @@
+// Rays of rows: between which points of leaf and sender each passes, what it brings, and what a row remembers of it.
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.hpp"
+#include "radiosity/indirect_sampler.hpp"
+#include "radiosity/visibility.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr int kFacingTries = 16;            // more points of a flat sender when some face away
+constexpr int kTries = 2;                   // points of a curved one, of which one is picked
+constexpr int kCloseTries = 8;              // so where it is close
+constexpr float kBlocked = 0x1.fffffep-1f;  // of a ray: furthest place of what blocks it
+
+}  // namespace
+
+/// Where rays of a leaf start: at a point that is given, or anywhere on it.
+struct IndirectSampler::Place {
+  const IndirectSampler& sampler;
+  ElementId leaf;
+  const PatchPoint* given;
+
+  PatchPoint operator()(double a, double b) const {
+    return given ? *given : samplePatch(sampler.elements_, sampler.scene_, leaf, a, b);
+  }
+};
+
+bool IndirectSampler::isClosePatch(ElementId leaf, ElementId sender) const {
+  return elements_.isPatch(sender) && areClose(elements_, leaf, sender);  // also when it has been split since
+}
+
+/// Whether the sender is so close to some of a curved leaf that its nodes, which stand for half its extent, do not tell
+/// the kernel.
+bool IndirectSampler::isCloseToNodes(ElementId leaf, ElementId sender) const {
+  if (!isClosePatch(leaf, sender)) return false;
+  const ElementGeometry& s = elements_.shape(sender);
+  const ElementNodes& n = elements_.nodes[leaf.index()];
+  const float reach = 2.0f * s.radius + elements_.shape(leaf).radius;
+  return std::any_of(n.position, n.position + 4, [&](const Vec3f& p) {
+    const Vec3f d = p - s.center;
+    return glm::dot(d, d) < reach * reach;
+  });
+}
+
+SenderSample IndirectSampler::along(const ClosePair& pair, ElementId sender) const {
+  SenderSample s;
+  s.leaf = sender, s.weight = pair.weight / elements_.shape(sender).area;
+  s.ray = segment(pair.from.position, pair.from.normal, pair.to.position, pair.to.normal);
+  return s;
+}
+
+/// From a curved leaf to a flat sender close by: nodes do not tell their kernel.
+SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, int index) const {
+  const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
+  const auto pointAt = [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); };
+  const auto pair = sampleClosePair(elements_, scene_, pointAt, sender, key, index);
+  if (!pair) return {};
+  SenderSample s = along(*pair, sender);
+  s.measures = true;
+  return s;
+}
+
+/// From a point of a curved sender close by to the leaf.
+SenderSample IndirectSampler::shootBack(ElementId leaf, ElementId sender, int index) const {
+  const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
+  const auto u = stratified4(key, index);
+  const PatchPoint y = samplePatch(elements_, scene_, sender, u[0], u[1]);
+  const auto pair = sampleClosePair(
+      elements_, scene_, [&](double, double) { return y; }, leaf, key, index);
+  if (!pair) return {};
+  SenderSample s;
+  s.leaf = sender, s.weight = pair->weight / elements_.shape(leaf).area;
+  s.ray = segment(pair->to.position, pair->to.normal, y.position, y.normal);
+  return s;
+}
+
+SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index) const {
+  if (!(elements_.shape(sender).area > 0)) return {};  // removed
+  const bool curvedLeaf = !elements_.at(leaf).flat, curvedSender = !exact(sender);
+  if (curvedLeaf && !curvedSender && isCloseToNodes(leaf, sender)) return shootMeasuring(leaf, sender, index);
+  if (!curvedLeaf && curvedSender && isClosePatch(leaf, sender)) return shootBack(leaf, sender, index);
+  return shoot(leaf, sender, index, nullptr);
+}
+
+SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index, const PatchPoint* at) const {
+  const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
+  const Place place{*this, leaf, at};
+  if (!exact(sender))
+    return shootMeasured(sender, key, index, isClosePatch(leaf, sender) ? kCloseTries : kTries, place);
+  if (isClosePatch(leaf, sender))
+    if (const auto pair = sampleClosePair(elements_, scene_, place, sender, key, index)) return along(*pair, sender);
+  for (int tries = 0; tries < kFacingTries; ++tries) {
+    const auto u = stratified4(combineKeys(key, tries), index);
+    const SenderSample s = sampleLeafOf(elements_, scene_, place(u[2], u[3]), sender, u[0], u[1]);
+    if (s.weight > 0) return s;
+  }
+  return {};
+}
+
+/// Of a few pairs of points one in proportion to its kernel; their mean is its weight [TCE05].
+SenderSample IndirectSampler::shootMeasured(ElementId sender, std::uint64_t key, int index, int tries,
+                                            const Place& place) const {
+  SenderSample picked;
+  double total = 0;
+  for (int i = 0; i < tries; ++i) {
+    const auto u = stratified4(combineKeys(key, static_cast<std::uint64_t>(i)), index);
+    const SenderSample s = sampleLeafOf(elements_, scene_, place(u[2], u[3]), sender, u[0], u[1]);
+    if (!(s.weight > 0)) continue;
+    total += s.weight;
+    if (!(picked.weight > 0) ||
+        toUnit(mix64(combineKeys(key, static_cast<std::uint64_t>(index * tries + i)))) * total < s.weight)
+      picked = s;
+  }
+  picked.weight = total / tries;
+  return picked;
+}
+
+IndirectSampler::Found IndirectSampler::find(const Dealt& d, const SenderSample& s, std::uint64_t& traced) const {
+  if (known(d.term)) return {Rgb(d.term.K)};
+  if (!s.leaf.valid()) return {Rgb(0.0f)};
+  const bool isKnown = exact(d.term.sender) && !s.measures;
+  const float K = isKnown ? d.term.K : elements_.shape(d.term.sender).area * static_cast<float>(s.weight);
+  if (d.term.open >= 1.0f) return {Rgb(d.gain * K), &s.ray};
+  ++traced;
+  const Passing p = tracer_.passing(s.ray);
+  if (!endsAtOne(scene_, p)) return {d.gain * K * p.share, &s.ray};
+  return {Rgb(0.0f), &s.ray, std::min(p.t / s.ray.tFar, kBlocked), p.blocker};
+}
+
+void IndirectSampler::remember(ElementId leaf, std::size_t term, const Found& f, TransferRow& row) const {
+  const ElementGeometry& g = elements_.shape(leaf);
+  const Vec3f from = 0.5f * (g.lower + g.upper);
+  row.rays.resize(row.terms.size());
+  const Vec3f d = f.ray ? f.seen * (at(*f.ray, f.ray->tFar) - from) : Vec3f(0.0f);
+  row.rays[term] = f.ray ? rayCode(d, f.seen < 1) : rayCode({}, 0, true);
+  if (f.ray && !f.blocker.valid()) return row.reach.add(g, from + d);
+  row.reach.objects.add(scene_, elements_.domain[row.terms[term].sender.index()].primitive);
+  if (f.blocker.valid()) row.reach.objects.add(scene_, f.blocker);
+}
+
+void IndirectSampler::append(ElementId leaf, const Dealt& d, TransferRow& row, std::uint64_t& traced) const {
+  append(leaf, d, known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index), row, traced);
+}
+
+void IndirectSampler::append(ElementId leaf, const Dealt& d, const SenderSample& s, TransferRow& row,
+                             std::uint64_t& traced) const {
+  const Found found = find(d, s, traced);
+  const bool some = !isBlack(found.T);
+  row.terms.push_back(
+      {d.term.link, d.term.sender, d.gain, static_cast<std::uint16_t>(d.index), some, d.term.open >= 1.0f});
+  remember(leaf, row.terms.size() - 1, found, row);
+  if (some) row.transfers.push_back({d.term.sender, found.T});
+}
+
+}  // namespace deltalux
