@@ -29,10 +29,11 @@ std::vector<Box> newlyLit(const SceneUpdate& edits, const Scene& scene) {
 void addLanding(std::vector<SurfaceSide>& sides, const Solution& s, const ParticleUpdate& update) {
   std::vector<std::uint32_t> paths(update.all ? s.particles.paths() : update.paths.size());
   for (std::uint32_t i = 0; i < paths.size(); ++i) paths[i] = update.all ? i : update.paths[i].path;
-  const SideLocator locator(s.elements, s.scene);
+  if (paths.empty()) return;
+  const SideElements known(s.elements, s.scene);
   addReachedSides(sides, s.particles, paths, s.scene, *s.tracer,
                   [&](PrimitiveId primitive, std::uint32_t triangle, bool front) {
-                    return locator.side(primitive, triangle, front).valid();
+                    return known.side(primitive, triangle, front).valid();
                   });
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/paged_array.hpp"
 #include "base/parallel.hpp"
 #include "hierarchy/patch.hpp"
 #include "radiosity/push_pull.hpp"
@@ -118,24 +119,25 @@ void LightSettling::addRelit(const Parts& parts, Elements& elements, std::vector
 LightSettling::Work LightSettling::firstWork(const Parts& parts, Elements& elements, const LightChanges& changes) {
   follow(elements);
   Work work;
-  std::vector<char> marked(elements.size(), 0);
   for (const ElementId e : changes.rows)
     if (parts.rows.find(e))
-      marked[e.index()] = 1;
+      work.rows.push_back(e);
     else
       from_[e.index()] = 0, misses_[e.index()] = 0;
-  addMarked(marked, work.rows);
+  std::sort(work.rows.begin(), work.rows.end());
+  work.rows.erase(std::unique(work.rows.begin(), work.rows.end()), work.rows.end());
 
   const std::vector<ElementId>& surfaces = parts.particles.surfaces();
   const std::vector<ElementId>& placed = changes.allParticles ? surfaces : changes.surfaces;
   parallelFor(placed.size(), 16, [&](std::size_t i) { learn(placed[i], parts, elements); });
-  std::vector<char> under(elements.size(), 0);
-  for (const ElementId e : changes.lights ? surfaces : placed) under[e.index()] = 1;
+  PagedArray<char> under(elements.size());
+  for (const ElementId e : changes.lights ? surfaces : placed) under.at(e.index()) = 1;
   // Another part of a leaf may be covered than before: the same particles are spread over what is not.
   for (const ElementId e : changes.rows)
-    if (const ElementId s = surfaceOf(elements, e); !under[s.index()])
-      under[s.index()] = std::binary_search(surfaces.begin(), surfaces.end(), s);
-  addMarked(under, work.surfaces);
+    if (const ElementId s = surfaceOf(elements, e);
+        !under[s.index()] && std::binary_search(surfaces.begin(), surfaces.end(), s))
+      under.at(s.index()) = 1;
+  under.forEach([&](std::size_t e, char) { work.surfaces.emplace_back(e); });
 
   work.leaves = changes.rows;
   if (changes.lights) addRelit(parts, elements, work.leaves);
@@ -153,7 +155,7 @@ LightSettling::Work LightSettling::firstWork(const Parts& parts, Elements& eleme
 
 /// Adds the leaves where what is gathered is another. `anew`: the rows are others than they were.
 void LightSettling::gather(const Parts& parts, Elements& elements, Work& work, bool anew) {
-  std::vector<char> marks(elements.size(), 0);
+  std::vector<char> other(work.rows.size(), 0);
   parallelFor(work.rows.size(), 64, [&](std::size_t i) {
     const std::size_t e = work.rows[i].index();
     const Rgb before = elements.radiometry[e].indirect;
@@ -161,12 +163,17 @@ void LightSettling::gather(const Parts& parts, Elements& elements, Work& work, b
     if (anew) learn(row);
     parts.rows.gatherIndirect(row, elements, seen_);
     misses_[e] = 0;
-    marks[e] = differ(before, elements.radiometry[e].indirect);
+    other[i] = differ(before, elements.radiometry[e].indirect);
   });
-  parts.particles.apply(work.surfaces, elements, {seen_, parts.scene}, kSame, marks);
-  for (const ElementId e : work.leaves) marks[e.index()] = 1;
-  work.leaves.clear();
-  addMarked(marks, work.leaves);
+  for (std::size_t i = 0; i < other.size(); ++i)
+    if (other[i]) work.leaves.push_back(work.rows[i]);
+  if (!work.surfaces.empty()) {
+    std::vector<char> marks(elements.size(), 0);
+    parts.particles.apply(work.surfaces, elements, {seen_, parts.scene}, kSame, marks);
+    addMarked(marks, work.leaves);
+  }
+  std::sort(work.leaves.begin(), work.leaves.end());
+  work.leaves.erase(std::unique(work.leaves.begin(), work.leaves.end()), work.leaves.end());
   addOtherSides(elements, work.leaves);
 }
 
@@ -213,8 +220,9 @@ LightSettling::News LightSettling::publish(const Elements& elements, double tole
 
 LightSettling::Work LightSettling::readersOf(const News& news, const Parts& parts, const Elements& elements,
                                              double tolerated, double& missed) {
-  std::vector<char> matters(elements.size(), 0);
-  std::vector<double> amount(elements.size(), 0.0);  // that is not reflected
+  std::vector<char>& matters = matters_;
+  std::vector<double>& amount = amount_;  // that is not reflected
+  matters.assign(elements.size(), 0), amount.assign(elements.size(), 0.0);
   const double area = std::accumulate(area_.begin(), area_.end(), 1e-30);
   const auto dark = static_cast<float>(kDark * std::accumulate(power_.begin(), power_.end(), 0.0) / area);
   parallelFor(elements.size(), 1024, [&](std::size_t e) {

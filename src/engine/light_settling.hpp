@@ -76,6 +76,8 @@ class LightSettling {
   std::vector<Rgb> seen_;                         // radiosity that is gathered
   std::vector<char> listed_;                      // in unheard_
   std::vector<ElementId> unheard_;                // patches whose radiosity may be another than seen
+  std::vector<char> matters_;                     // for readersOf(), as is
+  std::vector<double> amount_;
 
   std::array<double, kRegions> area_{}, power_{};  // of regions' leaves, and what they send, about [W, gray]
 };

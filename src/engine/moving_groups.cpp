@@ -11,14 +11,28 @@ void MovingGroups::separate(RayTracer& tracer, const Scene& scene, std::span<con
   const auto size = static_cast<std::size_t>(std::count(groups_.begin(), groups_.end(), group));
   if (group != GroupId(0) && size == primitives.size() && std::all_of(primitives.begin(), primitives.end(), together))
     return;
+  setApart(tracer, scene, primitives);
+}
+
+void MovingGroups::setApart(RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> primitives) {
+  if (separated_ == kMost) {
+    tracer.rejoin();
+    groups_.clear(), separated_ = 0;
+  }
   groups_.resize(scene.primitives.size(), GroupId(0));
   const GroupId own = tracer.separate(primitives);
   for (const PrimitiveId p : primitives) groups_[p.index()] = own;
+  ++separated_;
 }
 
-void MovingGroups::rebuild(RayTracer& tracer, std::span<const PrimitiveId> moved) {
+void MovingGroups::rebuild(RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> moved) {
+  std::vector<PrimitiveId> loose;
+  for (const PrimitiveId p : moved)
+    if (groupOf(p) == GroupId(0)) loose.push_back(p);
+  if (!loose.empty()) setApart(tracer, scene, loose);
   std::vector<GroupId> groups;
   for (const PrimitiveId p : moved) groups.push_back(groupOf(p));
+  if (!loose.empty()) std::erase(groups, groupOf(loose[0]));  // just built, as is what was rejoined
   std::sort(groups.begin(), groups.end());
   groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
   for (const GroupId g : groups) tracer.rebuild(g);

@@ -23,8 +23,10 @@ void RowQueue::addWork(RowWork more, const Links& links) {
   }
   // Links beyond those that a move knew are new to it.
   LinkChanges &to = work_.marks.changes, &from = more.marks.changes;
-  to.resize(links.size(), LinkChange::Changed), from.resize(links.size(), LinkChange::Changed);
-  for (std::size_t i = 0; i < to.size(); ++i) to[i] = std::max(to[i], from[i]);
+  const std::size_t known = to.size();
+  to.grow(links.size());
+  for (std::size_t i = known; i < links.size(); ++i) to.at(i) = LinkChange::Changed;
+  from.forEach([&](std::size_t i, LinkChange change) { to.at(i) = std::max(to[i], change); });
   work_.space.add(more.space);
   std::vector<char> listed(links.size(), 0);
   work_.changed.insert(work_.changed.end(), more.changed.begin(), more.changed.end());

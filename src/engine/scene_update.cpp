@@ -36,12 +36,12 @@ bool haveElements(const Elements& elements, const Scene& scene, const SceneUpdat
   const bool nothing = update.moved.empty() && update.movedLights.empty();
   if (!elements.sceneRoot.valid()) return nothing;  // nothing was lit
   std::vector<char> has(scene.lights.size(), 0);    // by light: an element of its kind
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const LightId light = elements.light[i];
+  for (const ElementId e : elements.inputs) {
+    const LightId light = elements.light[e.index()];
     if (!light.valid()) continue;
     // A surface that is no more is a dark point, whose element is a patch still; and the other way round.
     const bool surface = std::holds_alternative<AreaLight>(scene[light].emitter);
-    if (surface == elements.isPatch(ElementId(i))) has[light.index()] = 1;
+    if (surface == elements.isPatch(e)) has[light.index()] = 1;
   }
   return std::all_of(update.movedLights.begin(), update.movedLights.end(),
                      [&](LightId light) { return has[light.index()] || edits::isDark(scene[light]); });

@@ -212,9 +212,8 @@ bool Engine::State::settleRows(Progress* progress) {
 RgbSum Engine::State::directPower() const {
   const Elements& e = solution->elements;
   RgbSum sum(0.0);
-  for (std::size_t i = 0; i < e.size(); ++i)
-    if (solution->elements.isReceivingLeaf(ElementId(i)))
-      sum += double(e.geometry[i].litArea()) * RgbSum(e.radiometry[i].direct);
+  for (const ElementId i : e.inputs)
+    if (e.receives(i)) sum += double(e.shape(i).litArea()) * RgbSum(e.radiometry[i.index()].direct);
   return sum;
 }
 

@@ -127,7 +127,6 @@ struct Engine::State {
   std::vector<ElementId> renewRows(const RowWork& work, const ConcernedLeaves& leaves, StepReport& step);
   /// Rows that wait from before follow all at once.
   std::vector<ElementId> renewWaitingRows(StepReport& step);
-  static std::vector<char> subtrees(const Elements& elements, const std::vector<ElementId>& tops);
   /// Hands on what has changed, where light was settled before; all light otherwise.
   void settleAfter(const LightChanges&, Progress* progress);
   /// Nobody traces now, and who holds the solution holds the engine's tracer.

@@ -72,7 +72,7 @@ void Engine::State::takeIn(StepReport& step, bool inMotion) {
   backlog.reflecting.insert(backlog.reflecting.end(), reflecting.begin(), reflecting.end());
   std::vector<PrimitiveId> moved;
   for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
-  groups.rebuild(tracer(), moved);
+  groups.rebuild(tracer(), solution->scene, moved);
   backlog.add(edits);
   if (!tracing) return;
   const Clock time;
@@ -193,6 +193,7 @@ std::vector<ElementId> Engine::State::relight(const SceneUpdate& edits) {
   for (const LightId light : edits.movedLights)
     if (Rgb& sampled = s.sampledScale[light.index()]; gray(s.scene[light].scale) > gray(sampled))
       sampled = s.scene[light].scale;
+  if (edits.materials.empty()) return reflecting;
   std::vector<PrimitiveId> repainted;
   for (std::size_t i = 0; i < s.scene.primitives.size(); ++i)
     if (std::find(edits.materials.begin(), edits.materials.end(), s.scene.primitives[i].material) !=
@@ -218,13 +219,14 @@ Engine::State::Motion Engine::State::leave(const SceneUpdate& edits, StepReport&
   for (const SceneChange::Moved& m : edits.moved) {
     primitives.push_back(m.primitive);
     before.add(m.before), motion.all.add(m.before);
+    motion.all.addMoved(m.primitive, s.scene);
   }
   for (const PrimitiveId id : primitives)
     if (const Box box = bounds(s.scene[id].shape); !box.empty()) after.add(box), motion.all.add(box);
   motion.inputs = elementsOf(s.elements, primitives);
   const std::vector<ElementId> lights = elementsOf(s.elements, edits.movedLights);
   motion.inputs.insert(motion.inputs.end(), lights.begin(), lights.end());
-  motion.all.setMoved(subtrees(s.elements, motion.inputs), s.elements, s.scene);
+  motion.all.addMoved(motion.inputs, s.elements, s.scene);
   if (primitives.empty() && motion.inputs.empty()) return motion;
   motion.marks = LineSpace(s.links, s.elements, s.scene, motion.all, before, after).visit();
   reshape(s.elements, s.scene, motion.inputs);
@@ -239,10 +241,10 @@ RowWork Engine::State::arrive(Motion& motion, const Growth& growth, StepReport& 
   LinkMarks& marks = motion.marks;
   if (marks.changes.empty() || !growth.woken.empty()) {
     SpaceChange woken;
-    woken.setMoved(subtrees(s.elements, growth.woken), s.elements, s.scene);
+    woken.addMoved(growth.woken, s.elements, s.scene);
     add(LineSpace(s.links, s.elements, s.scene, woken, {}, {}).visit(), marks);
     motion.inputs.insert(motion.inputs.end(), growth.woken.begin(), growth.woken.end());
-    motion.all.setMoved(subtrees(s.elements, motion.inputs), s.elements, s.scene);
+    motion.all.addMoved(motion.inputs, s.elements, s.scene);
   }
   if (growth.root.valid()) addRootLinks(s.links, s.elements, growth.root);
   step.linksVisited = marks.visited;
@@ -259,7 +261,7 @@ RowWork Engine::State::arrive(Motion& motion, const Growth& growth, StepReport& 
   step.linksChanged = work.changed.size();
   step.times.refine = refining.seconds();
   const Clock gathering;
-  work.leaves = s.transfers.concerned(s.elements, s.links, marks, work.changed, motion.all);
+  work.leaves = s.transfers.concerned(s.elements, s.links, work.changed, motion.all);
   work.marks = std::move(marks), work.space = std::move(motion.all);
   step.leavesExamined = std::max(work.leaves.byLights.size(), work.leaves.byLeaves.size());
   step.times.gather += gathering.seconds();
@@ -282,16 +284,6 @@ std::vector<ElementId> Engine::State::renewRows(const RowWork& work, const Conce
 std::vector<ElementId> Engine::State::renewWaitingRows(StepReport& step) {
   RowQueue waiting = std::exchange(backlog.rows, {});
   return renewRows(waiting.work(), waiting.take(waiting.size(), solution->elements), step);
-}
-
-std::vector<char> Engine::State::subtrees(const Elements& elements, const std::vector<ElementId>& tops) {
-  std::vector<char> in(elements.size(), 0);
-  for (const ElementId e : tops) in[e.index()] = 1;
-  for (std::size_t i = 0; i < in.size(); ++i) {
-    const ElementTopology& t = elements.topology[i];
-    if (t.parent.valid() && t.depth > 0 && in[t.parent.index()]) in[i] = 1;
-  }
-  return in;
 }
 
 void Engine::State::settleAfter(const LightChanges& changes, Progress* progress) {

@@ -284,10 +284,9 @@ std::vector<ElementId> elementsOf(const Elements& elements, std::span<const Surf
   std::map<std::tuple<PrimitiveId, std::uint32_t, bool>, std::size_t> index;
   for (std::size_t i = 0; i < sides.size(); ++i)
     index[place(sides[i].primitive, sides[i].triangle, sides[i].front)] = i;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const ElementId e(i);
-    if (!elements.isInputLevel(e) || elements.at(e).emitter) continue;
-    const PatchDomain& d = elements.domain[i];
+  for (const ElementId e : elements.inputs) {
+    if (!elements.isPatch(e) || elements.at(e).emitter) continue;
+    const PatchDomain& d = elements.domain[e.index()];
     const auto at = index.find(place(d.primitive, d.triangle, elements.at(e).front));
     if (at != index.end()) found[at->second] = e;
   }

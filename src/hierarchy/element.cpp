@@ -20,6 +20,8 @@ ElementId Elements::addChildren(ElementId parent, ElementKind kind, std::size_t 
     if (kind == ElementKind::Cluster) {
       slot[i] = static_cast<std::uint32_t>(clusters.size());
       clusters.emplace_back();
+    } else if (!parent.valid()) {
+      inputs.emplace_back(i);
     }
   }
   if (parent.valid()) {
@@ -35,10 +37,17 @@ std::vector<ElementId> Elements::sceneRoots() const {
   return roots;
 }
 
+void Elements::listInputs() {
+  inputs.clear();
+  for (std::size_t i = 0; i < size(); ++i)
+    if (const ElementId e(i); topology[i].depth == 0 && !isCluster(e)) inputs.push_back(e);
+}
+
 std::size_t Elements::memoryBytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(topology) + bytes(geometry) + bytes(nodes) + bytes(domain) + bytes(moments) + bytes(light) +
-         bytes(radiometry) + bytes(slot) + bytes(clusters) + bytes(key) + bytes(outlines) + bytes(frames);
+         bytes(radiometry) + bytes(slot) + bytes(clusters) + bytes(key) + bytes(outlines) + bytes(frames) +
+         bytes(inputs);
 }
 
 }  // namespace deltalux

@@ -112,6 +112,7 @@ class Elements {
   std::vector<ElementId> distant;  // suns and dome roots
   std::vector<ElementId> asleep;   // input-level patches that edits have left in the dark: blockers for now; ascending
   Box sceneBox;                    // of all surfaces; the far boxes of distant elements are measured from it
+  std::vector<ElementId> inputs;   // all of the input level: patches, points and distant roots; follows from the others
 
   std::size_t size() const { return topology.size(); }
   /// Appends `count` contiguous elements as the children of `parent` (none: invalid); returns the first.
@@ -129,6 +130,8 @@ class Elements {
   /// Takes diffuse light: a patch, of surfaces that are not lamps or glass.
   bool receives(ElementId e) const { return isPatch(e) && !at(e).emitter && !at(e).blocker; }
   bool isReceivingLeaf(ElementId e) const { return receives(e) && isLeaf(e); }
+  /// Lists `inputs` anew.
+  void listInputs();
   bool isInputLevel(ElementId e) const { return isPatch(e) && at(e).depth == 0; }
   ElementId child(ElementId e, std::size_t i) const {
     return ElementId(at(e).firstChild.value + static_cast<std::uint32_t>(i));

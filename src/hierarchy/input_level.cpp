@@ -193,19 +193,18 @@ std::vector<ElementId> elementsOf(const Elements& elements, std::span<const Prim
   std::vector<PrimitiveId> sorted(primitives.begin(), primitives.end());
   std::sort(sorted.begin(), sorted.end());
   std::vector<ElementId> out;
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    if (elements.isInputLevel(ElementId(i)) &&
-        std::binary_search(sorted.begin(), sorted.end(), elements.domain[i].primitive))
-      out.emplace_back(i);
+  for (const ElementId e : elements.inputs)
+    if (elements.isPatch(e) && std::binary_search(sorted.begin(), sorted.end(), elements.domain[e.index()].primitive))
+      out.push_back(e);
   return out;
 }
 
 std::vector<ElementId> elementsOf(const Elements& elements, std::span<const LightId> lights) {
   std::vector<ElementId> out;
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    if (elements.topology[i].depth == 0 && elements.light[i].valid() &&
-        std::find(lights.begin(), lights.end(), elements.light[i]) != lights.end())
-      out.emplace_back(i);
+  for (const ElementId e : elements.inputs)
+    if (const LightId light = elements.light[e.index()];
+        light.valid() && std::find(lights.begin(), lights.end(), light) != lights.end())
+      out.push_back(e);
   return out;
 }
 

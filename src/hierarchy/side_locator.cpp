@@ -11,7 +11,8 @@ std::size_t surfacesOf(const Shape& shape) {
 }
 }  // namespace
 
-SideLocator::SideLocator(const Elements& elements, const Scene& scene) : elements_(elements), scene_(scene) {
+SideElements::SideElements(const Elements& elements, const Scene& scene) {
+  first_.reserve(scene.primitives.size() + 1);
   std::size_t total = 0;
   for (const Primitive& p : scene.primitives) {
     first_.push_back(static_cast<std::uint32_t>(total));
@@ -19,13 +20,16 @@ SideLocator::SideLocator(const Elements& elements, const Scene& scene) : element
   }
   first_.push_back(static_cast<std::uint32_t>(total));
   sides_.resize(total);
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const ElementTopology& t = elements.topology[i];
-    if (t.kind != ElementKind::Patch || t.depth > 0 || t.emitter || t.blocker) continue;
-    const PatchDomain& d = elements.domain[i];
-    const std::size_t at = indexOf(d.primitive, d.triangle, t.front);
-    if (at < sides_.size()) sides_[at] = ElementId(i);
+  for (const ElementId e : elements.inputs) {
+    if (!elements.receives(e)) continue;
+    const PatchDomain& d = elements.domain[e.index()];
+    const std::size_t at = indexOf(d.primitive, d.triangle, elements.at(e).front);
+    if (at < sides_.size()) sides_[at] = e;
   }
+}
+
+SideLocator::SideLocator(const Elements& elements, const Scene& scene)
+    : SideElements(elements, scene), elements_(elements), scene_(scene) {
   for (const PlaneFrame& f : elements.frames) {
     const Vec3 n = glm::cross(f.edgeU, f.edgeV);
     const double squared = std::max(glm::dot(n, n), 1e-300);
@@ -36,12 +40,12 @@ SideLocator::SideLocator(const Elements& elements, const Scene& scene) : element
 }
 
 /// Beyond all sides for surfaces that were removed: their elements stay, without a shape.
-std::size_t SideLocator::indexOf(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
+std::size_t SideElements::indexOf(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
   const std::size_t at = first_[primitive.index()] + 2 * std::size_t(triangle) + (front ? 0 : 1);
   return at < first_[primitive.index() + 1] ? at : sides_.size();
 }
 
-ElementId SideLocator::side(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
+ElementId SideElements::side(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
   const std::size_t at = indexOf(primitive, triangle, front);
   return at < sides_.size() ? sides_[at] : ElementId();
 }

@@ -11,25 +11,34 @@ struct LeafPoint {
   Vec2 uv{0};
 };
 
-class SideLocator {
+/// Sides and their elements.
+class SideElements {
+ public:
+  SideElements(const Elements&, const Scene&);
+
+  /// The input-level element of a side; invalid when light does not reach it, when it is glass, or was removed.
+  ElementId side(PrimitiveId, std::uint32_t triangle, bool front) const;
+
+ private:
+  std::size_t indexOf(PrimitiveId, std::uint32_t triangle, bool front) const;
+
+  std::vector<std::uint32_t> first_;  // per primitive: its first entry in sides_; and the end
+  std::vector<ElementId> sides_;      // front and back of every surface or triangle
+};
+
+class SideLocator : public SideElements {
  public:
   /// Both must outlive this.
   SideLocator(const Elements&, const Scene&);
 
-  /// The input-level element of a side; invalid when light does not reach it, when it is glass, or was removed.
-  ElementId side(PrimitiveId, std::uint32_t triangle, bool front) const;
   /// The leaf under `side` whose domain holds the surface point `p`, or is nearest to it.
   LeafPoint locate(ElementId side, const Vec3& p) const;
   /// The same for parameters that are known.
   ElementId leafAt(ElementId side, const Vec2& uv) const;
 
  private:
-  std::size_t indexOf(PrimitiveId, std::uint32_t triangle, bool front) const;
-
   const Elements& elements_;
   const Scene& scene_;
-  std::vector<std::uint32_t> first_;          // per primitive: its first entry in sides_; and the end
-  std::vector<ElementId> sides_;              // front and back of every surface or triangle
   std::vector<Vec3> dualU_, dualV_, origin_;  // per frame: p -> (dot(p - origin, dualU), dot(p - origin, dualV))
 };
 

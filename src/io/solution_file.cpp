@@ -85,8 +85,9 @@ SolutionView readSolution(std::string_view bytes, const std::string& file) {
   } catch (const std::logic_error& error) {
     throw InputError(file, 0, std::string("does not hold together: ") + error.what(), "solve the scene again");
   }
+  solution->elements.listInputs();
   solution->links.listArriving();
-  solution->transfers.listRows();
+  solution->transfers.listRows(solution->elements);
   solution->tracer = makeEmbreeTracer(solution->scene);
   return SolutionView(std::move(solution));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What a move has done to the links that arrive at a leaf or above it: whether any was touched, and which have changed;
-// of links from lights and of those from surfaces apart.
+// Which links that a move has changed arrive at a leaf or above it; of links from lights and of those from surfaces
+// apart.
 #include <algorithm>
 #include <array>
 #include <span>
@@ -12,30 +12,29 @@ namespace deltalux {
 
 class ArrivingLinks {
  public:
-  /// `changed`: the topmost changed links. All must outlive this.
-  ArrivingLinks(const Elements& elements, const Links& links, const LinkMarks& marks, std::span<const LinkId> changed)
-      : elements_(elements), flags_(elements.size(), 0) {
-    for (const LinkId id : marks.touched)
-      if (links[id].state != LinkState::Free) add(links[id].receiver, kTouched, elements.at(links[id].sender).emitter);
+  /// `changed`: the topmost changed links. Elements must outlive this.
+  ArrivingLinks(const Elements& elements, const Links& links, std::span<const LinkId> changed)
+      : elements_(elements), flags_(elements.size()) {
     for (const LinkId id : changed) {
       const bool ofLights = elements.at(links[id].sender).emitter;
-      add(links[id].receiver, kChanged | kOwn, ofLights);
       changed_[ofLights].push_back({links[id].receiver, id});
+      markBelow(links[id].receiver, ofLights);
+      add(links[id].receiver, kOwn, ofLights);
     }
     for (auto& list : changed_) std::sort(list.begin(), list.end());
-    for (std::size_t e = 0; e < flags_.size(); ++e)  // parents stand before their children
-      if (const ElementId up = elements.topology[e].parent; up.valid())
-        add(ElementId(e), flags_[up.index()] & kInherited, false);
   }
 
-  bool touched(ElementId leaf, bool ofLights) const { return flags_[leaf.index()] & kTouched << ofLights; }
-  bool changed(ElementId leaf, bool ofLights) const { return flags_[leaf.index()] & kChanged << ofLights; }
+  /// visit(element, whether from lights, whether from surfaces) of all at which some arrive, or above which.
+  template <class Visit>
+  void forEach(const Visit& visit) const {
+    flags_.forEach([&](std::size_t e, char flags) { visit(ElementId(e), flags & kBelow << 1, flags & kBelow); });
+  }
 
-  /// The changed links, from the leaf upwards.
+  /// From the leaf upwards.
   std::vector<LinkId> changedAt(ElementId leaf, bool ofLights) const {
     std::vector<LinkId> out;
     const auto& list = changed_[ofLights];
-    for (ElementId e = leaf; e.valid() && changed(e, ofLights); e = elements_.at(e).parent) {
+    for (ElementId e = leaf; e.valid() && flags_[e.index()] & kBelow << ofLights; e = elements_.at(e).parent) {
       if (!(flags_[e.index()] & kOwn << ofLights)) continue;
       auto it = std::lower_bound(list.begin(), list.end(), std::pair(e, LinkId(0u)));
       for (; it != list.end() && it->first == e; ++it) out.push_back(it->second);
@@ -45,14 +44,27 @@ class ArrivingLinks {
 
  private:
   // Shifted by one for links from lights.
-  static constexpr int kTouched = 1, kChanged = 4, kOwn = 16, kInherited = 15;
+  static constexpr int kBelow = 1, kOwn = 4;
 
-  void add(ElementId e, int flags, bool ofLights) {
-    flags_[e.index()] = static_cast<std::uint8_t>(flags_[e.index()] | flags << ofLights);
+  void add(ElementId e, int flag, bool ofLights) {
+    char& flags = flags_.at(e.index());
+    flags = static_cast<char>(flags | flag << ofLights);
+  }
+
+  /// What is marked has all below it marked.
+  void markBelow(ElementId top, bool ofLights) {
+    std::vector<ElementId> stack{top};
+    while (!stack.empty()) {
+      const ElementId e = stack.back();
+      stack.pop_back();
+      if (flags_[e.index()] & kBelow << ofLights) continue;
+      add(e, kBelow, ofLights);
+      for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) stack.push_back(elements_.child(e, i));
+    }
   }
 
   const Elements& elements_;
-  std::vector<std::uint8_t> flags_;                                   // by element: of itself and of what is above it
+  PagedArray<char> flags_;                                            // by element
   std::array<std::vector<std::pair<ElementId, LinkId>>, 2> changed_;  // by receiver
 };
 

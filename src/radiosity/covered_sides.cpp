@@ -59,8 +59,8 @@ class Search {
         openSky_(std::any_of(scene.lights.begin(), scene.lights.end(),
                              [](const Light& light) { return std::holds_alternative<DomeLight>(light.emitter); })) {
     for (const PrimitiveId id : moved) moves_[id.index()] = 1;
-    for (std::size_t i = 0; i < elements.size(); ++i)
-      if (const ElementId e(i); isSide(e) && !isAsleep(e)) state_[indexOf(e)] = State::Lit;
+    for (const ElementId e : elements.inputs)
+      if (isSide(e) && !isAsleep(e)) state_[indexOf(e)] = State::Lit;
   }
 
   /// Of what moved: all dark sides but those that only see the like.
@@ -132,8 +132,7 @@ class Search {
     std::vector<Box> within;
     for (const Box& box : joined(own)) within.push_back(widened(box));
     std::vector<std::size_t> closed;
-    for (std::size_t i = 0; i < elements_.size(); ++i) {
-      const ElementId e(i);
+    for (const ElementId e : elements_.inputs) {
       if (!isSide(e) || isAsleep(e) || elements_.at(e).blocker) continue;
       for (const Box& box : within)
         if (holds(box, elements_.box(e)) && noRayLeaves(widened(box, kNear), indexOf(e))) {
@@ -152,8 +151,7 @@ class Search {
  private:
   std::size_t primitiveOf(std::size_t side) const { return estimator_.sides()[side].primitive.index(); }
   bool isSide(ElementId e) const {
-    return elements_.isInputLevel(e) && !elements_.at(e).emitter &&
-           area(scene_[elements_.domain[e.index()].primitive].shape) > 0;
+    return elements_.isInputLevel(e) && !elements_.at(e).emitter && elements_.shape(e).area > 0;
   }
   bool isAsleep(ElementId e) const { return std::binary_search(elements_.asleep.begin(), elements_.asleep.end(), e); }
   std::size_t indexOf(ElementId e) const {

@@ -37,13 +37,10 @@ void creditLights(Elements& elements) {
 }
 
 DirectSenders::DirectSenders(const Elements& elements, const Links& links, const Scene& scene, Strength strengthOf)
-    : elements_(elements), links_(links), scene_(scene), strengthOf_(strengthOf) {
-  lightCount_.assign(elements.size(), 0);
-  for (std::size_t i = elements.size(); i-- > 0;) {
-    const ElementTopology& t = elements.topology[i];
-    if (!t.emitter || t.kind == ElementKind::Distant || t.depth > 0) continue;
-    if (t.kind != ElementKind::Cluster) lightCount_[i] = 1;
-    if (t.parent.valid()) lightCount_[t.parent.index()] += lightCount_[i];
+    : elements_(elements), links_(links), scene_(scene), strengthOf_(strengthOf), lightCount_(elements.size()) {
+  for (const ElementId e : elements.inputs) {
+    if (!elements.at(e).emitter || elements.isDistant(e)) continue;
+    for (ElementId up = e; up.valid(); up = elements.at(up).parent) ++lightCount_.at(up.index());
   }
 }
 

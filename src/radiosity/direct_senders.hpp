@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/paged_array.hpp"
 #include "hierarchy/link.hpp"
 
 namespace deltalux {
@@ -51,7 +52,7 @@ class DirectSenders {
   const Links& links_;
   const Scene& scene_;
   Strength strengthOf_;
-  std::vector<std::uint32_t> lightCount_;  // per element of the light tree: lights below it, itself included
+  PagedArray<std::uint32_t> lightCount_;  // per element of the light tree: lights below it, itself included
 };
 
 }  // namespace deltalux

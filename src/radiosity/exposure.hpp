@@ -27,7 +27,7 @@ class Exposure {
   const Scene& scene_;
   const Elements& elements_;
   const RayTracer& tracer_;
-  SideLocator locator_;
+  SideElements sides_;
   int points_;
 };
 

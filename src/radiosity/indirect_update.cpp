@@ -26,7 +26,7 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(ElementId leaf, con
   space.meetsRays(r, row.rays, candidates);
   // Senders that moved, behind what blocks their rays or without one.
   const auto met = static_cast<std::ptrdiff_t>(candidates.size());
-  if (space.objects().meets(row.reach.objects))
+  if (space.meets(row.reach.objects))
     for (std::uint32_t i = 0; i < row.terms.size(); ++i)
       if (blocked(row.rays[i]) && space.moved(row.terms[i].sender)) candidates.push_back(i);
   std::inplace_merge(candidates.begin(), candidates.begin() + met, candidates.end());

@@ -83,7 +83,6 @@ LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, 
                                                    });
   report.rays = direct.rays, report.split = direct.split;
   std::sort(rows_.begin(), rows_.end(), [](const LeafRow& a, const LeafRow& b) { return a.leaf < b.leaf; });
-  listRows();
   gatherDirect(elements);
   pull(elements);
 
@@ -93,11 +92,13 @@ LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, 
   parallelFor(rows_.size(), kBlock,
               [&](std::size_t i) { rows_[i].indirect = sampler.atLeaf(rows_[i].leaf, ofLeaf, rays[i / kBlock]); });
   for (const std::uint64_t n : rays) report.rays += n;
+  listRows(elements);
   return report;
 }
 
 std::size_t LeafTransfers::memoryBytes() const {
-  std::size_t bytes = rows_.capacity() * sizeof(LeafRow) + rowOf_.capacity() * sizeof rowOf_[0];
+  std::size_t bytes =
+      rows_.capacity() * sizeof(LeafRow) + rowOf_.capacity() * sizeof rowOf_[0] + reaches_.memoryBytes();
   for (const LeafRow& r : rows_)
     for (const TransferRow* row : {&r.direct, &r.indirect})
       bytes += row->terms.capacity() * sizeof(RowTerm) + row->transfers.capacity() * sizeof(LeafTransfer) +
@@ -131,9 +132,12 @@ void LeafTransfers::validate(const Elements& elements, const Links& links) const
     require(leaf.index() < elements.size() && elements.isReceivingLeaf(leaf), "transfers: of leaves");
     require(!has[leaf.index()], "transfers: each leaf once");
     has[leaf.index()] = 1;
-    require(rowOf_.empty() || find(leaf) == &rows_[i], "transfers: leaves know their rows");
     validateRow(rows_[i].direct, true, elements, links);
     validateRow(rows_[i].indirect, false, elements, links);
+    if (rowOf_.empty()) continue;  // just read
+    require(find(leaf) == &rows_[i], "transfers: leaves know their rows");
+    for (const TransferRow* row : {&rows_[i].direct, &rows_[i].indirect})
+      require(reaches_.holds(elements, leaf, *row), "transfers: surfaces know what their rows reach");
   }
 }
 

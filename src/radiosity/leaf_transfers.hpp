@@ -14,6 +14,7 @@
 #include "radiosity/direct_rows.hpp"
 #include "radiosity/leaf_row.hpp"
 #include "radiosity/line_space.hpp"
+#include "radiosity/surface_reaches.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
@@ -49,10 +50,10 @@ class LeafTransfers {
   LeafTransferReport build(Elements& elements, const Links&, const Scene&, const RayTracer&,
                            const LeafTransferSettings&);
 
-  /// Which rows a move of geometry can have changed: of leaves that moved or are new, and of those below receivers of
-  /// touched and changed links. Rows of patches that are leaves no more are dropped. `changed`: topmost changed links.
-  ConcernedLeaves concerned(const Elements&, const Links&, const LinkMarks&, std::span<const LinkId> changed,
-                            const SpaceChange&);
+  /// Which rows a move of geometry can have changed: of leaves that moved or are new, of those below receivers of
+  /// changed links, and those whose rays meet what moved, or lead to it. Rows of patches that are leaves no more are
+  /// dropped. `changed`: topmost changed links.
+  ConcernedLeaves concerned(const Elements&, const Links&, std::span<const LinkId> changed, const SpaceChange&);
   /// Makes the rows of these leaves anew, or the terms of them over links that have changed or whose rays meet what
   /// moved. Other rows stand as they are; their turn may come in a later call, also after further moves, when `marks`,
   /// `changed` and `space` are those of all moves since.
@@ -66,8 +67,8 @@ class LeafTransfers {
   const LeafRow* find(ElementId leaf) const {
     return leaf.index() < rowOf_.size() && rowOf_[leaf.index()] != kNone ? &rows_[rowOf_[leaf.index()]] : nullptr;
   }
-  /// Lists which row is whose anew.
-  void listRows();
+  /// Lists which row is whose, and what they reach, anew.
+  void listRows(const Elements&);
   std::size_t memoryBytes() const;
 
   /// Fills `direct` of the leaves from the present B of emitters.
@@ -90,8 +91,10 @@ class LeafTransfers {
   void dropNoLeaves(const Elements&);
   void setRow(ElementId leaf, std::size_t row);
 
-  std::vector<LeafRow> rows_;         // one a leaf
-  std::vector<std::uint32_t> rowOf_;  // by element: index of its row, or none; follows from the rows
+  std::vector<LeafRow> rows_;  // one a leaf
+  // These follow from the rows.
+  std::vector<std::uint32_t> rowOf_;  // by element: index of its row, or none
+  SurfaceReaches reaches_;
 };
 
 }  // namespace deltalux

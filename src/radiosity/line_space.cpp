@@ -6,6 +6,10 @@
 
 namespace deltalux {
 
+namespace {
+constexpr float kBeside = 1.05f;  // of the angle of a sky's cell: no direction of it is farther from its centre
+}  // namespace
+
 struct LineSpace::Finding {
   bool met = false, touched = false, moved = false, anew = false, lit = false;
 };
@@ -18,15 +22,11 @@ LineSpace::LineSpace(const Links& links, const Elements& elements, const Scene& 
       change_(change),
       before_(before),
       after_(after),
-      involved_(elements.size(), 0) {
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    const ElementId e(i);
-    if (!change.moved(e)) continue;
-    involved_[i] = 1;
-    if (elements.at(e).depth > 0) continue;
+      above_(elements.size(), 0) {
+  for (const ElementId e : change.inputs()) {
     if (elements.isPatch(e) && !elements.at(e).emitter) blockers_.push_back(e);
-    for (ElementId up = elements.at(e).parent; up.valid() && !involved_[up.index()]; up = elements.at(up).parent)
-      involved_[up.index()] = 1;
+    for (ElementId up = elements.at(e).parent; up.valid() && !above_[up.index()]; up = elements.at(up).parent)
+      above_.at(up.index()) = 1;
   }
 }
 
@@ -38,11 +38,13 @@ bool LineSpace::heldBack(const Link& l) const {
 LineSpace::Finding LineSpace::examine(LinkId id) const {
   const Link& l = links_[id];
   Finding f;
-  f.moved = involved_[l.receiver.index()] || involved_[l.sender.index()];
+  f.moved = involved(l.receiver) || involved(l.sender);
   bool left = false, arrives = false;
   if (!f.moved) {
     const ElementGeometry &r = elements_.shape(l.receiver), &s = elements_.shape(l.sender);
-    if (!elements_.isDistant(l.sender) && !change_.meets(r.center, r.radius, s.center, s.radius)) return f;
+    if (elements_.isDistant(l.sender) ? !change_.meetsBeam(r, s.center, kBeside * s.radius)
+                                      : !change_.meets(r.center, r.radius, s.center, s.radius))
+      return f;
     const Shaft shaft(r, s);
     left = before_.meets(shaft), arrives = after_.meets(shaft);
   }
@@ -51,8 +53,8 @@ LineSpace::Finding LineSpace::examine(LinkId id) const {
   // What samples tell stands as long as no ray of theirs meets what moved. Where few were taken, little comes over the
   // link or it was split for its kernel: what they tell only shares out the rays of rows.
   const auto resampled = [&] {
-    return !f.moved && l.visibility == Visibility::Sampled && l.samples > kFewSamples &&
-           samplesMeet(elements_, scene_, l, change_);
+    return !f.moved && l.visibility == Visibility::Sampled && l.samples > kFewSamples && (left || l.sampleMask != 0) &&
+           samplesMeet(elements_, scene_, l, change_, before_);
   };
   switch (l.state) {
     case LinkState::Free:
@@ -68,7 +70,7 @@ LineSpace::Finding LineSpace::examine(LinkId id) const {
       break;
     case LinkState::Active:
       f.touched = l.visibility != Visibility::Blocked;
-      f.lit = elements_.at(l.sender).emitter && involved_[l.sender.index()];
+      f.lit = elements_.at(l.sender).emitter && involved(l.sender);
       f.anew = (l.visibility == Visibility::Clear && arrives) ||
                (l.visibility == Visibility::Blocked && left && heldBack(l)) || resampled();
       break;
@@ -78,7 +80,7 @@ LineSpace::Finding LineSpace::examine(LinkId id) const {
 
 LinkMarks LineSpace::visit() const {
   LinkMarks marks;
-  marks.changes.resize(links_.size(), LinkChange::None);
+  marks.changes = LinkChanges(links_.size(), LinkChange::None);
   std::vector<LinkId> level = links_.roots, next;
   std::vector<Finding> findings;
   while (!level.empty()) {
@@ -91,7 +93,7 @@ LinkMarks LineSpace::visit() const {
       const LinkId id = level[i];
       if (!f.met) continue;
       if (f.touched) {
-        marks.changes[id.index()] = LinkChange::Touched;
+        marks.changes.at(id.index()) = LinkChange::Touched;
         marks.touched.push_back(id);
       }
       if (f.moved || f.anew) {
@@ -106,8 +108,9 @@ LinkMarks LineSpace::visit() const {
 }
 
 void add(const LinkMarks& more, LinkMarks& marks) {
-  marks.changes.resize(more.changes.size(), LinkChange::None);
-  for (std::size_t i = 0; i < marks.changes.size(); ++i) marks.changes[i] = std::max(marks.changes[i], more.changes[i]);
+  if (marks.changes.empty()) marks.changes = LinkChanges(more.changes.size(), LinkChange::None);
+  more.changes.forEach(
+      [&](std::size_t i, LinkChange change) { marks.changes.at(i) = std::max(marks.changes[i], change); });
   const auto append = [](const std::vector<LinkId>& from, std::vector<LinkId>& to) {
     to.insert(to.end(), from.begin(), from.end());
   };

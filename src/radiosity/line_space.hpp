@@ -35,12 +35,14 @@ class LineSpace {
   struct Finding;
   Finding examine(LinkId) const;
   bool heldBack(const Link&) const;
+  /// It moves, or some of it.
+  bool involved(ElementId e) const { return change_.moved(e) || above_[e.index()]; }
 
   const Links& links_;
   const Elements& elements_;
   const Scene& scene_;
   const SpaceChange &change_, &before_, &after_;
-  std::vector<char> involved_;       // by element: what moves, and clusters with some of it
+  PagedArray<char> above_;           // by element: a cluster with some of what moves
   std::vector<ElementId> blockers_;  // input-level patches of what moved
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/paged_array.hpp"
 #include "hierarchy/patch.hpp"
 
 namespace deltalux {
@@ -183,16 +184,16 @@ void addOtherSides(const Elements& elements, std::vector<ElementId>& leaves) {
 }
 
 RgbSum pull(Elements& elements, std::span<const ElementId> leaves) {
-  std::vector<char> marked(elements.size(), 0);
+  PagedArray<char> marked(elements.size());
   const auto mark = [&](ElementId e) {
-    for (; e.valid() && !marked[e.index()]; e = elements.at(e).parent) marked[e.index()] = 1;
+    for (; e.valid() && !marked[e.index()]; e = elements.at(e).parent) marked.at(e.index()) = 1;
   };
   std::vector<ElementId> lit(leaves.begin(), leaves.end());
   addOtherSides(elements, lit);
   for (const ElementId leaf : lit) mark(leaf);
   std::vector<std::uint32_t> touched;
-  for (std::size_t i = elements.size(); i-- > 0;)
-    if (marked[i]) touched.push_back(static_cast<std::uint32_t>(i));
+  marked.forEach([&](std::size_t i, char) { touched.push_back(static_cast<std::uint32_t>(i)); });
+  std::reverse(touched.begin(), touched.end());
   RgbSum change(0.0);
   for (const std::uint32_t i : touched) pullExposure(elements, i), pullIrradiance(elements, i);
   for (const std::uint32_t i : touched) reflectAndPull(elements, i, change);

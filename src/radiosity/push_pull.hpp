@@ -4,7 +4,7 @@
 // direction [GD01 2.1; Sillion 1995]. The one writer of B, tolerance and cluster intensities; of direct and indirect
 // while links are refined, and above the leaves once rows of transfers fill those (leaf_transfers.hpp). Means are over
 // the exposed parts of leaves (exposure.hpp). Cost: linear in elements; parents stand before their children, so both
-// ways are plain loops; or in what a change has touched, and one look at each element.
+// ways are plain loops; or in what a change has touched.
 #include <span>
 #include <vector>
 

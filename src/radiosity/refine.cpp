@@ -25,6 +25,8 @@ enum class Mark : char {
   Ends,     // so has an end
 };
 
+using Marks = PagedArray<Mark>;  // by link
+
 enum class Split : std::uint8_t { None, Receiver, Sender, Both };
 
 /// A range of blocker candidates in the arena of a level.
@@ -313,9 +315,9 @@ void carrying(const Links& links, LinkId id, std::vector<LinkId>& out) {
 }
 
 /// Marks the links above a marked one: they are on its path, or on its way.
-void markAbove(const Links& links, std::vector<Mark>& marks, LinkId id, Mark as) {
+void markAbove(const Links& links, Marks& marks, LinkId id, Mark as) {
   for (LinkId up = links[id].parent; up.valid(); up = links[up].parent) {
-    Mark& mark = marks[up.index()];
+    Mark& mark = marks.at(up.index());
     if (mark >= as && mark != Mark::Between) return;  // so is all above it
     mark = std::max(mark, as);
   }
@@ -350,7 +352,7 @@ bool samePlan(const Link& before, const Link& after) {
 class Descent {
  public:
   Descent(Links& links, Elements& elements, const Scene& scene, const RayTracer& tracer, const OracleSettings& settings,
-          std::vector<Mark> marks, const SpaceChange* change = nullptr)
+          Marks marks, const SpaceChange* change = nullptr)
       : links_(links),
         elements_(elements),
         scene_(scene),
@@ -471,7 +473,7 @@ class Descent {
   const Scene& scene_;
   const RayTracer& tracer_;
   const OracleSettings& settings_;
-  std::vector<Mark> marks_;
+  Marks marks_;
   const SpaceChange* change_;  // of links marked Between
   RefineReport report_;
 };
@@ -481,14 +483,15 @@ class Descent {
 RefineReport refine(Links& links, Elements& elements, const Scene& scene, const RayTracer& tracer,
                     const OracleSettings& settings, const std::function<bool()>& stop) {
   makeRootLinks(links, elements);
-  std::vector<Mark> marks(links.size(), Mark::None);
+  std::vector<char> unsettled(links.size(), 0);
   const Judge judge(elements, scene, tracer, settings);
-  parallelFor(links.size(), 4096, [&](std::size_t i) {
-    if (judge.unsettled(links.all[i])) marks[i] = Mark::Path;
-  });
-  for (std::size_t i = 0; i < links.size(); ++i)
-    if (links.all[i].state != LinkState::Interior && marks[i] != Mark::None)
-      markAbove(links, marks, LinkId(i), Mark::Path);
+  parallelFor(links.size(), 4096, [&](std::size_t i) { unsettled[i] = judge.unsettled(links.all[i]); });
+  Marks marks(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (!unsettled[i]) continue;
+    marks.at(i) = Mark::Path;
+    markAbove(links, marks, LinkId(i), Mark::Path);
+  }
   Descent descent(links, elements, scene, tracer, settings, std::move(marks));
   descent.stop = stop;
   return descent.run();
@@ -497,22 +500,22 @@ RefineReport refine(Links& links, Elements& elements, const Scene& scene, const 
 RefineReport rejudge(Links& links, Elements& elements, const Scene& scene, const RayTracer& tracer,
                      const OracleSettings& settings, const SpaceChange& change, LinkMarks& marked,
                      std::vector<LinkId>& changed) {
-  std::vector<Mark> marks(links.size(), Mark::None);
-  for (const LinkId id : marked.anew) marks[id.index()] = Mark::Between;
-  for (const LinkId id : marked.moved) marks[id.index()] = Mark::Ends;
+  Marks marks(links.size());
+  for (const LinkId id : marked.anew) marks.at(id.index()) = Mark::Between;
+  for (const LinkId id : marked.moved) marks.at(id.index()) = Mark::Ends;
   for (const LinkId id : marked.moved) markAbove(links, marks, id, Mark::Path);
   for (const LinkId id : marked.anew)
     markAbove(links, marks, id, links[id].visibility == Visibility::Sampled ? Mark::Way : Mark::Path);
   const std::size_t known = marked.changes.size();
   for (const LinkId root : links.roots)
-    if (root.index() >= known) marks[root.index()] = Mark::Path;
+    if (root.index() >= known) marks.at(root.index()) = Mark::Path;
   Descent descent(links, elements, scene, tracer, settings, std::move(marks), &change);
   descent.renewed = [&](LinkId id) {
-    if (id.index() < known) marked.changes[id.index()] = LinkChange::Changed;
+    if (id.index() < known) marked.changes.at(id.index()) = LinkChange::Changed;
   };
   descent.changed = [&](LinkId id) {
     if (id.index() >= known || marked.changes[id.index()] == LinkChange::Changed) return;
-    marked.changes[id.index()] = LinkChange::Changed;
+    marked.changes.at(id.index()) = LinkChange::Changed;
     changed.push_back(id);
   };
   const RefineReport report = descent.run();

@@ -19,6 +19,8 @@ std::size_t sectorOf(DirectionCode code) {
 /// Cones around the sectors, of all directions whose codes fall into them.
 struct Sectors {
   std::array<float, RowReach::kSectors> x{}, y{}, z{}, cosine{}, sine{};
+  using Bounds = std::array<std::array<float, RowReach::kSectors>, 3>;
+  Bounds lower{}, upper{};  // by axis: of unit vectors, and the origin
 
   Sectors() {
     std::array<Vec3f, RowReach::kSectors> axis{};
@@ -27,7 +29,13 @@ struct Sectors {
       axis[s] = glm::normalize(axis[s]);
       x[s] = axis[s].x, y[s] = axis[s].y, z[s] = axis[s].z, cosine[s] = 1;
     }
-    forEachCode([&](std::size_t s, const Vec3f& d) { cosine[s] = std::min(cosine[s], glm::dot(axis[s], d)); });
+    forEachCode([&](std::size_t s, const Vec3f& d) {
+      cosine[s] = std::min(cosine[s], glm::dot(axis[s], d));
+      for (int k = 0; k < 3; ++k) {
+        lower[k][s] = std::min(lower[k][s], d[k] - kDirectionCodeError);
+        upper[k][s] = std::max(upper[k][s], d[k] + kDirectionCodeError);
+      }
+    });
     for (std::size_t s = 0; s < axis.size(); ++s) {
       const float angle = std::acos(cosine[s]) + kDirectionCodeError;
       cosine[s] = std::cos(angle), sine[s] = std::sin(angle);
@@ -51,10 +59,16 @@ const Sectors& sectors() {
 }
 
 /// Logarithm in quarters of octaves, rounded down; 0 for what is nearer than any ray goes.
+constexpr int kNearestBits = 4 * (127 - 20);  // of 2^-20
+
 std::uint8_t logarithm(float squared) {
-  constexpr int kNearest = -20;  // octaves
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::sqrt(squared)) >> 21;
-  return static_cast<std::uint8_t>(std::clamp(static_cast<int>(bits) - 4 * (127 + kNearest), 0, 254));
+  return static_cast<std::uint8_t>(std::clamp(static_cast<int>(bits) - kNearestBits, 0, 254));
+}
+
+/// Below which all are whose logarithms are less.
+float distanceBelow(std::uint8_t logarithm) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(logarithm + kNearestBits) << 21);
 }
 
 Vec3f middle(const ElementGeometry& g) { return 0.5f * (g.lower + g.upper); }
@@ -90,6 +104,24 @@ void RowReach::add(const ElementGeometry& leaf, const Vec3f& end) {
 void RowReach::add(const RowReach& more) {
   for (std::size_t s = 0; s < kSectors; ++s) furthest[s] = std::max(furthest[s], more.furthest[s]);
   objects.add(more.objects);
+}
+
+void RowReach::extend(const ElementGeometry& leaf, Vec3f& lower, Vec3f& upper) const {
+  constexpr std::size_t kLanes = 16;
+  const Sectors& all = sectors();
+  const Vec3f from = middle(leaf);
+  std::array<float, kSectors> far;
+  for (std::size_t s = 0; s < kSectors; ++s) far[s] = furthest[s] > 0 ? distanceBelow(furthest[s]) : 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::array<float, kLanes> least{}, most{};
+    for (std::size_t s = 0; s < kSectors; s += kLanes)
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        least[i] = std::min(least[i], far[s + i] * all.lower[axis][s + i]);
+        most[i] = std::max(most[i], far[s + i] * all.upper[axis][s + i]);
+      }
+    lower[axis] = std::min(lower[axis], from[axis] + *std::min_element(least.begin(), least.end()));
+    upper[axis] = std::max(upper[axis], from[axis] + *std::max_element(most.begin(), most.end()));
+  }
 }
 
 bool RowReach::meets(const ElementGeometry& leaf, const Vec3f& lower, const Vec3f& upper) const {

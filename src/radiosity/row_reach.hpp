@@ -4,7 +4,7 @@
 // octahedral map (direction_code.hpp); each keeps the furthest end of a ray, in quarters of octaves. Conservative: rays
 // start anywhere on the leaf, so bounds that are tested are grown by it. Rays that something blocks are apart: nothing
 // changes them but what that is part of, and what they lead to.
-// Cost: a ray some 10 nanoseconds, a test 50; 80 bytes a row.
+// Cost: a ray some 10 nanoseconds, a test 50; 200 bytes a row.
 #include <array>
 #include <cstdint>
 
@@ -23,6 +23,9 @@ class RowReach {
 
   /// Whether rays may pass through a box. Never false when one does.
   bool meets(const ElementGeometry& leaf, const Vec3f& lower, const Vec3f& upper) const;
+
+  /// Extends a box by all that rays that pass may pass through.
+  void extend(const ElementGeometry& leaf, Vec3f& lower, Vec3f& upper) const;
 
   std::array<std::uint8_t, kSectors> furthest{};  // 0: no ray that passes
   ObjectSet objects;                              // of rays that do not: what blocks them, and what they lead to

@@ -1,6 +1,7 @@
-// How rows follow moves of geometry: only those are looked at that touched or changed links bring light to, and of
-// those only terms are made anew that a changed link covers or whose ray meets what moved.
+// How rows follow moves of geometry: only those are looked at that changed links bring light to or whose rays may meet
+// what moved, and of those only terms are made anew that a changed link covers or whose ray does meet it.
 #include <algorithm>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "hierarchy/patch.hpp"
@@ -15,6 +16,7 @@ namespace deltalux {
 namespace {
 
 constexpr std::size_t kBlock = 64;
+constexpr int kByLights = 1, kByLeaves = 2;  // which row of a leaf is concerned
 
 /// Whether what moved may have covered some of the leaf, or may cover it now.
 bool uncovers(const Elements& elements, ElementId leaf, const SpaceChange& space) {
@@ -23,15 +25,40 @@ bool uncovers(const Elements& elements, ElementId leaf, const SpaceChange& space
   return space.meets(g.lower - kNear * g.radius, g.upper + kNear * g.radius);
 }
 
+/// Of the receiving leaves at or below `top` those that are not visited yet.
+template <class Visit>
+void visitLeaves(const Elements& elements, ElementId top, PagedArray<char>& visited, const Visit& visit) {
+  std::vector<ElementId> stack{top};
+  while (!stack.empty()) {
+    const ElementId e = stack.back();
+    stack.pop_back();
+    if (std::exchange(visited.at(e.index()), 1)) continue;
+    if (elements.isReceivingLeaf(e)) visit(e);
+    for (std::size_t i = 0; i < elements.at(e).childCount; ++i) stack.push_back(elements.child(e, i));
+  }
+}
+
 }  // namespace
 
 void LeafTransfers::dropNoLeaves(const Elements& elements) {
-  if (std::erase_if(rows_, [&](const LeafRow& r) { return !elements.isReceivingLeaf(r.leaf); }) > 0) listRows();
+  for (std::size_t e = 0; e < rowOf_.size(); ++e) {
+    if (rowOf_[e] == kNone || elements.isReceivingLeaf(ElementId(e))) continue;
+    const std::uint32_t row = std::exchange(rowOf_[e], kNone);
+    if (row + 1 < rows_.size()) {
+      rows_[row] = std::move(rows_.back());
+      setRow(rows_[row].leaf, row);
+    }
+    rows_.pop_back();
+  }
 }
 
-void LeafTransfers::listRows() {
+void LeafTransfers::listRows(const Elements& elements) {
   std::fill(rowOf_.begin(), rowOf_.end(), kNone);
-  for (std::size_t i = 0; i < rows_.size(); ++i) setRow(rows_[i].leaf, i);
+  reaches_ = {};
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    setRow(rows_[i].leaf, i);
+    reaches_.add(elements, rows_[i].leaf, rows_[i].direct, rows_[i].indirect);
+  }
 }
 
 void LeafTransfers::setRow(ElementId leaf, std::size_t row) {
@@ -39,30 +66,47 @@ void LeafTransfers::setRow(ElementId leaf, std::size_t row) {
   rowOf_[leaf.index()] = static_cast<std::uint32_t>(row);
 }
 
-ConcernedLeaves LeafTransfers::concerned(const Elements& elements, const Links& links, const LinkMarks& marks,
+ConcernedLeaves LeafTransfers::concerned(const Elements& elements, const Links& links,
                                          std::span<const LinkId> changedLinks, const SpaceChange& space) {
   dropNoLeaves(elements);
-  const ArrivingLinks arriving(elements, links, marks, changedLinks);
-  const bool inScene = space.within(elements.sceneBox);  // else rays to lights at infinity may go on to it
-  std::vector<char> byLights(elements.size(), 0), byLeaves(elements.size(), 0);
-  parallelFor(elements.size(), 1024, [&](std::size_t i) {
-    const ElementId e(i);
-    if (!elements.isReceivingLeaf(e)) return;
-    const LeafRow* row = find(e);
-    const bool anew = !row || space.moved(e);
-    const auto reached = [&](bool ofLights) {
-      if (!arriving.touched(e, ofLights)) return false;
-      return (ofLights && !inScene) ||
-             space.meets(elements.shape(e), ofLights ? row->direct.reach : row->indirect.reach);
-    };
-    byLights[i] = anew || arriving.changed(e, true) || uncovers(elements, e, space) || reached(true);
-    byLeaves[i] = anew || arriving.changed(e, false) || reached(false);
+  PagedArray<char> found(elements.size());  // bits: kBy
+  const auto add = [&](ElementId leaf, int by) {
+    found.at(leaf.index()) = static_cast<char>(found[leaf.index()] | by);
+  };
+
+  const ArrivingLinks arriving(elements, links, changedLinks);
+  arriving.forEach([&](ElementId e, bool fromLights, bool fromLeaves) {
+    if (elements.isReceivingLeaf(e)) add(e, (fromLights ? kByLights : 0) | (fromLeaves ? kByLeaves : 0));
   });
+  PagedArray<char> visited(elements.size());
+  for (const ElementId input : space.inputs())
+    visitLeaves(elements, input, visited, [&](ElementId e) { add(e, kByLights | kByLeaves); });
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    if (const ElementId e(i); !find(e) && elements.isReceivingLeaf(e)) add(e, kByLights | kByLeaves);
+
+  const bool inScene = space.within(elements.sceneBox);  // else rays to lights at infinity may go on to it
+  std::vector<ElementId> near;
+  visited = PagedArray<char>(elements.size());
+  reaches_.forEachMet(space, !inScene, [&](ElementId input) {
+    visitLeaves(elements, input, visited, [&](ElementId e) {
+      if (find(e)) near.push_back(e);
+    });
+  });
+  std::vector<char> met(near.size(), 0);
+  parallelFor(near.size(), kBlock, [&](std::size_t i) {
+    const ElementGeometry& g = elements.shape(near[i]);
+    const LeafRow& row = *find(near[i]);
+    const bool byLights = !inScene || uncovers(elements, near[i], space) || space.meets(g, row.direct.reach);
+    met[i] = static_cast<char>((byLights ? kByLights : 0) | (space.meets(g, row.indirect.reach) ? kByLeaves : 0));
+  });
+  for (std::size_t i = 0; i < near.size(); ++i)
+    if (met[i]) add(near[i], met[i]);
+
   ConcernedLeaves out;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (byLights[i]) out.byLights.emplace_back(i);
-    if (byLeaves[i]) out.byLeaves.emplace_back(i);
-  }
+  found.forEach([&](std::size_t e, char by) {
+    if (by & kByLights) out.byLights.emplace_back(e);
+    if (by & kByLeaves) out.byLeaves.emplace_back(e);
+  });
   return out;
 }
 
@@ -72,7 +116,7 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
                                        const SpaceChange& space, const ConcernedLeaves& leaves) {
   LeafUpdateReport report;
   const std::size_t known = elements.size();
-  const ArrivingLinks arriving(elements, links, marks, changedLinks);
+  const ArrivingLinks arriving(elements, links, changedLinks);
   const auto isNew = [&](ElementId leaf) { return !find(leaf) || space.moved(leaf); };
 
   std::vector<char> anew(leaves.byLights.size(), 0);
@@ -137,6 +181,8 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
   }
   std::sort(report.leaves.begin(), report.leaves.end());
   report.leaves.erase(std::unique(report.leaves.begin(), report.leaves.end()), report.leaves.end());
+  for (const ElementId leaf : report.leaves)
+    if (const LeafRow* row = find(leaf)) reaches_.add(elements, leaf, row->direct, row->indirect);
   dropNoLeaves(elements);
   return report;
 }

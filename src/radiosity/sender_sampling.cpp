@@ -12,7 +12,8 @@ namespace {
 
 double fraction(double x) { return x - std::floor(x); }
 
-/// The child that holds the share `a` of the area; `a` is used up in part. Invalid when nothing has area.
+}  // namespace
+
 ElementId childByArea(const Elements& elements, ElementId e, double& a) {
   double rest = a * elements.shape(e).area;
   ElementId picked;
@@ -28,8 +29,6 @@ ElementId childByArea(const Elements& elements, ElementId e, double& a) {
   if (picked.valid()) a = std::clamp(rest / part, 0.0, 0x1.fffffep-1);
   return picked;
 }
-
-}  // namespace
 
 std::array<double, 4> stratified4(std::uint64_t key, int i) {
   static constexpr std::array<double, 4> step = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,

@@ -11,6 +11,9 @@ namespace deltalux {
 /// powers of the generalised golden ratio [Roberts 2018]).
 std::array<double, 4> stratified4(std::uint64_t key, int i);
 
+/// The child that holds the share `a` of the area, in [0,1); `a` is used up in part. Invalid when nothing has area.
+ElementId childByArea(const Elements&, ElementId, double& a);
+
 /// A surface point of any element by two numbers in [0,1), uniform by area; clusters pick surfaces by area.
 PatchPoint samplePoint(const Elements&, const Scene&, ElementId, double a, double b);
 

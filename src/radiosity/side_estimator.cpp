@@ -32,7 +32,6 @@ SideEstimator::SideEstimator(const Scene& scene, const RayTracer& tracer)
   for (std::size_t i = sides_.size(); i-- > 0;) first_[sides_[i].primitive.index()] = static_cast<std::uint32_t>(i);
   for (const SurfaceSide& s : sides_)
     if (!s.front) twoSided_[s.primitive.index()] = true;  // has back sides too
-  diagonal_ = bounds(scene).diagonal();
   rays_ = std::clamp<std::size_t>(kPathBudget / std::max<std::size_t>(sides_.size(), 1), kFewestOfTriangle, kMost);
   estimates_.resize(sides_.size());
 }
@@ -40,6 +39,11 @@ SideEstimator::SideEstimator(const Scene& scene, const RayTracer& tracer)
 std::size_t SideEstimator::indexOf(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
   const std::size_t base = first_[primitive.index()];
   return twoSided_[primitive.index()] ? base + 2 * triangle + (front ? 0u : 1u) : base + triangle;
+}
+
+double SideEstimator::diagonal() const {
+  std::call_once(measured_, [&] { diagonal_ = bounds(scene_).diagonal(); });
+  return diagonal_;
 }
 
 bool SideEstimator::reached(std::size_t i) const {
@@ -172,7 +176,7 @@ void SideEstimator::estimate(std::size_t i) {
   if (!isBlack(e.E))
     for (const std::size_t j : seen) met_[j].store(1, std::memory_order_relaxed);
   e.typical = static_cast<float>(std::max(0.0, gray(total) - own) + root * root);
-  e.meanFreePath = static_cast<float>(found > 0 ? path / double(found) : diagonal_);
+  e.meanFreePath = static_cast<float>(found > 0 ? path / double(found) : diagonal());
 }
 
 /// First surface that is not a pane.

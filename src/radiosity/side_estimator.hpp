@@ -8,6 +8,7 @@
 // Cost: about 2^17 paths of up to four vertices for all sides together, and in large scenes 24 of every side (8 of a
 // mesh's triangle): fewer, and sides that little light reaches are lost.
 #include <atomic>
+#include <mutex>
 
 #include "base/random.hpp"
 #include "hierarchy/build.hpp"
@@ -49,6 +50,7 @@ class SideEstimator {
     Vec3 position, normal;
   };
 
+  double diagonal() const;
   bool isGlass(std::size_t i) const { return !twoSided_[sides_[i].primitive.index()]; }
   bool isLit(std::size_t i) const { return !isBlack(estimates_[i].E) || lit_[i]; }
   bool hidden(const SurfaceSide&, const Origin&) const;
@@ -66,7 +68,8 @@ class SideEstimator {
   std::vector<std::uint32_t> first_;
   std::vector<char> twoSided_;
   std::size_t rays_ = 0;  // paths of a side
-  double diagonal_ = 0;
+  mutable std::once_flag measured_;
+  mutable double diagonal_ = 0;  // once it is asked for
   std::vector<Estimate> estimates_;
   std::vector<std::atomic<char>> lit_, met_;  // by a ray from a lit point; by a path of a lit side
 };

@@ -10,20 +10,49 @@ namespace {
 
 constexpr float kSlack = 1e-5f;  // of the coordinates: boxes are grown by what single precision loses
 
-bool segmentMeets(const Vec3f& lower, const Vec3f& upper, const Ray& ray, float radius = 0.0f) {
+bool segmentMeets(const Vec3f& lower, const Vec3f& upper, const Ray& ray) {
   float near = ray.tNear, far = ray.tFar;
   for (int i = 0; i < 3; ++i) {
     if (std::abs(ray.direction[i]) < 1e-12f) {
-      if (ray.origin[i] < lower[i] - radius || ray.origin[i] > upper[i] + radius) return false;
+      if (ray.origin[i] < lower[i] || ray.origin[i] > upper[i]) return false;
       continue;
     }
     const float inverse = 1.0f / ray.direction[i];
-    const float a = (lower[i] - radius - ray.origin[i]) * inverse, b = (upper[i] + radius - ray.origin[i]) * inverse;
+    const float a = (lower[i] - ray.origin[i]) * inverse, b = (upper[i] - ray.origin[i]) * inverse;
     near = std::max(near, std::min(a, b));
     far = std::min(far, std::max(a, b));
   }
   return near <= far;
 }
+
+/// Whether balls along a segment that begins at its origin, whose radius goes evenly from one to another, may meet a
+/// box. The centres of those that do lie where the segment meets the box as it is larger by their largest radius: no
+/// others count, and they may be smaller.
+bool ballsMeet(const Vec3f& lower, const Vec3f& upper, const Ray& axis, float from, float to) {
+  constexpr float kWorth = 0.8f, kRounding = 1.0001f, kLeast = 1e-12f;
+  Vec3f enter, leave, scale;
+  for (int i = 0; i < 3; ++i) {
+    const float d = axis.direction[i], inverse = 1.0f / std::copysign(std::max(std::abs(d), kLeast), d);
+    const float a = (lower[i] - axis.origin[i]) * inverse, b = (upper[i] - axis.origin[i]) * inverse;
+    enter[i] = std::min(a, b), leave[i] = std::max(a, b), scale[i] = std::abs(inverse);
+  }
+  float near = 0, far = axis.tFar;
+  const auto meets = [&](float radius) {
+    for (int i = 0; i < 3; ++i) {
+      near = std::max(near, enter[i] - radius * scale[i]);
+      far = std::min(far, leave[i] + radius * scale[i]);
+    }
+    return near <= far;
+  };
+  const float radius = std::max(from, to);
+  if (!meets(radius)) return false;
+  const float slope = (to - from) / axis.tFar, within = kRounding * (from + slope * (slope > 0 ? far : near));
+  return within > kWorth * radius || meets(within);
+}
+
+constexpr float kWidest = 1.0f;  // angle of a beam, in radians: wider ones meet everything
+
+float tangent(float angle) { return angle / (1.0f - 0.36f * angle * angle); }  // from above
 
 }  // namespace
 
@@ -36,20 +65,44 @@ void SpaceChange::add(const Box& box) {
   all_.upper = glm::max(all_.upper, parts_.back().upper);
 }
 
-void SpaceChange::setMoved(std::vector<char> moved, const Elements& elements, const Scene& scene) {
-  moved_ = std::move(moved);
-  for (std::size_t i = 0; i < moved_.size(); ++i)
-    if (moved_[i] && elements.topology[i].depth == 0 && elements.isPatch(ElementId(i)))
-      objects_.add(scene, elements.domain[i].primitive);
+void SpaceChange::addMoved(std::span<const ElementId> inputs, const Elements& elements, const Scene& scene) {
+  moved_.grow(elements.size());
+  for (const ElementId input : inputs) {
+    if (elements.isPatch(input)) addMoved(elements.domain[input.index()].primitive, scene);
+    std::vector<ElementId> stack{input};
+    while (!stack.empty()) {
+      const ElementId e = stack.back();
+      stack.pop_back();
+      moved_.at(e.index()) = 1;
+      for (std::size_t c = 0; c < elements.at(e).childCount; ++c) stack.push_back(elements.child(e, c));
+    }
+  }
+  addInputs(inputs);
+}
+
+void SpaceChange::addInputs(std::span<const ElementId> inputs) {
+  inputs_.insert(inputs_.end(), inputs.begin(), inputs.end());
+  std::sort(inputs_.begin(), inputs_.end());
+  inputs_.erase(std::unique(inputs_.begin(), inputs_.end()), inputs_.end());
+}
+
+void SpaceChange::addMoved(PrimitiveId primitive, const Scene& scene) { addObject(ObjectSet::top(scene, primitive)); }
+
+void SpaceChange::addObject(ObjectId top) {
+  const auto at = std::lower_bound(tops_.begin(), tops_.end(), top);
+  if (at != tops_.end() && *at == top) return;
+  tops_.insert(at, top);
+  objects_.emplace_back().add(top);
 }
 
 void SpaceChange::add(const SpaceChange& more) {
-  objects_.add(more.objects_);
+  for (const ObjectId top : more.tops_) addObject(top);
   parts_.insert(parts_.end(), more.parts_.begin(), more.parts_.end());
   all_.lower = glm::min(all_.lower, more.all_.lower);
   all_.upper = glm::max(all_.upper, more.all_.upper);
-  moved_.resize(std::max(moved_.size(), more.moved_.size()), 0);
-  for (std::size_t i = 0; i < more.moved_.size(); ++i) moved_[i] |= more.moved_[i];
+  moved_.grow(more.moved_.size());
+  more.moved_.forEach([&](std::size_t i, char moved) { moved_.at(i) |= moved; });
+  addInputs(more.inputs_);
 }
 
 float SpaceChange::nearness(const Vec3f& center, float radius) const {
@@ -80,14 +133,22 @@ bool SpaceChange::meets(const Vec3f& lower, const Vec3f& upper) const {
 }
 
 bool SpaceChange::meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const {
-  // The hull lies within the larger radius of the axis: the axis must meet a box that is larger by that.
-  return meets(Ray{a, 0.0f, b - a, 1.0f}, std::max(radiusA, radiusB));
+  return meets(Ray{a, 0.0f, b - a, 1.0f}, radiusA, radiusB);
 }
 
-bool SpaceChange::meets(const Ray& axis, float radius) const {
-  if (parts_.empty() || !segmentMeets(all_.lower, all_.upper, axis, radius)) return false;
-  return parts_.size() == 1 || std::any_of(parts_.begin(), parts_.end(),
-                                           [&](const Part& p) { return segmentMeets(p.lower, p.upper, axis, radius); });
+bool SpaceChange::meets(const Ray& axis, float from, float to) const {
+  const auto meet = [&](const Part& p) { return ballsMeet(p.lower, p.upper, axis, from, to); };
+  if (parts_.empty() || !meet(all_)) return false;
+  return parts_.size() == 1 || std::any_of(parts_.begin(), parts_.end(), meet);
+}
+
+std::optional<double> SpaceChange::seenFrom(const Vec3f& center, float radius, Vec3& axis) const {
+  constexpr double kWide = 0.9;  // sine
+  const Vec3 d = 0.5 * (Vec3(all_.lower) + Vec3(all_.upper)) - Vec3(center);
+  const double distance = glm::length(d), size = 0.5 * glm::length(Vec3(all_.upper) - Vec3(all_.lower)) + radius;
+  if (parts_.empty() || !(size < kWide * distance)) return std::nullopt;
+  axis = d / distance;
+  return std::asin(size / distance);
 }
 
 bool SpaceChange::within(const Box& box) const {
@@ -135,11 +196,23 @@ void SpaceChange::meetsRays(const ElementGeometry& from, std::span<const RayCode
 
 bool SpaceChange::meetsBeam(const Vec3f& center, float radius, const Vec3f& direction, float angle) const {
   if (parts_.empty()) return false;
-  if (angle > 1.0f) return true;
-  // As wide as the beam is where the boxes end; the tangent from above.
-  const float furthest = glm::length(glm::max(glm::abs(all_.lower - center), glm::abs(all_.upper - center)));
-  const float wide = radius + furthest * angle / (1.0f - 0.36f * angle * angle);
-  return meets(Ray{center, 0.0f, direction, furthest + radius}, wide);
+  if (angle > kWidest) return true;
+  const float end = furthest(center) + radius;
+  return meets(Ray{center, 0.0f, direction, end}, radius, radius + end * tangent(angle));
+}
+
+bool SpaceChange::meetsBeam(const ElementGeometry& from, const Vec3f& direction, float angle) const {
+  if (parts_.empty()) return false;
+  if (angle > kWidest) return true;
+  const Vec3f center = 0.5f * (from.lower + from.upper), half = 0.5f * (from.upper - from.lower);
+  const float end = angle > 0 ? furthest(center) + glm::length(half) : std::numeric_limits<float>::max();
+  return ballsMeet(all_.lower - half, all_.upper + half, Ray{center, 0.0f, direction, end}, 0.0f,
+                   angle > 0 ? end * tangent(angle) : 0.0f);
+}
+
+/// How far the boxes reach from a point.
+float SpaceChange::furthest(const Vec3f& from) const {
+  return glm::length(glm::max(glm::abs(all_.lower - from), glm::abs(all_.upper - from)));
 }
 
 }  // namespace deltalux

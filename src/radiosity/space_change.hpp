@@ -1,9 +1,12 @@
 #pragma once
 // Where a scene has changed: the bounds of what moved, before and after, and what that does to the links.
+#include <algorithm>
 #include <deltalux/math.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "base/paged_array.hpp"
 #include "hierarchy/link.hpp"
 #include "radiosity/ray_code.hpp"
 #include "radiosity/row_reach.hpp"
@@ -18,12 +21,17 @@ class SpaceChange {
   void add(const Box&);
   /// What another change moved too.
   void add(const SpaceChange&);
-  /// By element: whether it is what moved, or part of it.
-  void setMoved(std::vector<char> moved, const Elements&, const Scene&);
+  /// What moved: elements of the input level and all below them, and what has none.
+  void addMoved(std::span<const ElementId> inputs, const Elements&, const Scene&);
+  void addMoved(PrimitiveId, const Scene&);
 
-  bool moved(ElementId e) const { return e.index() < moved_.size() && moved_[e.index()]; }
-  /// What objects moved in part.
-  const ObjectSet& objects() const { return objects_; }
+  bool moved(ElementId e) const { return moved_[e.index()]; }
+  /// Of the input level, in the order of ids.
+  const std::vector<ElementId>& inputs() const { return inputs_; }
+  /// Whether one of the objects that moved, in whole or in part, may be in a set.
+  bool meets(const ObjectSet& set) const {
+    return std::any_of(objects_.begin(), objects_.end(), [&](const ObjectSet& one) { return set.holds(one); });
+  }
 
   bool empty() const { return parts_.empty(); }
   /// The largest share that the bounds of one thing take of the hemisphere around a ball, about; 1 for those near by.
@@ -35,10 +43,13 @@ class SpaceChange {
   bool meets(const Vec3f& lower, const Vec3f& upper) const;
   /// Of what the rays of a leaf's row pass through, end at, or would.
   bool meets(const ElementGeometry& leaf, const RowReach& reach) const {
-    return objects_.meets(reach.objects) || (!parts_.empty() && reach.meets(leaf, all_.lower, all_.upper));
+    return meets(reach.objects) || (!parts_.empty() && reach.meets(leaf, all_.lower, all_.upper));
   }
   /// Of the convex hull of two balls.
   bool meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const;
+  /// A cone of directions that holds all in which it is seen from a ball: its half angle (radians), and `axis`; nothing
+  /// when that is no help.
+  std::optional<double> seenFrom(const Vec3f& center, float radius, Vec3& axis) const;
   /// Whether all lies in the box.
   bool within(const Box&) const;
   /// Whether there is something, all of it behind a plane (unit normal).
@@ -47,18 +58,26 @@ class SpaceChange {
   void meetsRays(const ElementGeometry& from, std::span<const RayCode>, std::vector<std::uint32_t>& out) const;
   /// Of what leaves a ball in directions within an angle of `direction` (unit; the angle in radians).
   bool meetsBeam(const Vec3f& center, float radius, const Vec3f& direction, float angle) const;
+  /// The same of what leaves an element's box, for the bounds of all that moves together.
+  bool meetsBeam(const ElementGeometry& from, const Vec3f& direction, float angle) const;
 
  private:
-  /// Of a ray with a radius.
-  bool meets(const Ray& axis, float radius) const;
+  /// Of balls along a ray, from one radius to another.
+  bool meets(const Ray& axis, float from, float to) const;
 
   struct Part {
     Vec3f lower, upper;
   };
   Part all_{Vec3f(std::numeric_limits<float>::infinity()), Vec3f(-std::numeric_limits<float>::infinity())};
   std::vector<Part> parts_;
-  std::vector<char> moved_;
-  ObjectSet objects_;
+  std::vector<ElementId> inputs_;
+  PagedArray<char> moved_;
+  void addInputs(std::span<const ElementId>);
+  void addObject(ObjectId top);
+  float furthest(const Vec3f& from) const;
+
+  std::vector<ObjectId> tops_;      // of what moved; ascending
+  std::vector<ObjectSet> objects_;  // each of one of them
 };
 
 /// What a link has come to, by its index.
@@ -68,7 +87,7 @@ enum class LinkChange : std::uint8_t {
   Changed,  // its transfer, its visibility or its place in the tree is another
 };
 
-using LinkChanges = std::vector<LinkChange>;  // links beyond its end are new: Changed
+using LinkChanges = PagedArray<LinkChange>;  // links beyond its end are new: Changed
 
 inline LinkChange changeOf(const LinkChanges& changes, LinkId id) {
   return id.index() < changes.size() ? changes[id.index()] : LinkChange::Changed;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "base/random.hpp"
+#include "hierarchy/direction_window.hpp"
 #include "hierarchy/patch.hpp"
 #include "radiosity/kernel.hpp"
 #include "radiosity/sender_sampling.hpp"
@@ -19,10 +21,9 @@ struct Sample {
   std::size_t quadrant = 0;  // of the receiver
 };
 
-/// Sample i of a link whose keys make up `key`.
-Sample sampleOf(const Elements& elements, const Scene& scene, ElementId receiver, ElementId sender, std::uint64_t key,
-                int i) {
-  const auto u = stratified4(key, i);
+/// A link's sample, by its numbers.
+Sample sampleOf(const Elements& elements, const Scene& scene, ElementId receiver, ElementId sender,
+                const std::array<double, 4>& u) {
   const PatchPoint x = samplePoint(elements, scene, receiver, u[0], u[1]);
   Sample s;
   s.quadrant = (u[0] < 0.5 ? 0u : 1u) + (u[1] < 0.5 ? 0u : 2u);
@@ -47,6 +48,24 @@ Sample sampleOf(const Elements& elements, const Scene& scene, ElementId receiver
   return s;
 }
 
+/// Whether the ray of a sample, by its numbers, may meet something moving: told by what its points are on, down from
+/// the ends of the link.
+bool mayMeet(const Elements& elements, const Scene& scene, ElementId receiver, ElementId sender,
+             std::array<double, 4> u, const SpaceChange& space) {
+  const bool distant = elements.isDistant(sender);
+  const Vec3f w = distant ? directionOf(elements, scene, sender, u[2], u[3]) : Vec3f(0.0f);
+  for (;;) {
+    const ElementGeometry &r = elements.shape(receiver), &s = elements.shape(sender);
+    if (distant ? !space.meetsBeam(r, w, 0.0f) : !space.meets(r.center, r.radius, s.center, s.radius)) return false;
+    const bool split = elements.isCluster(receiver), other = elements.isCluster(sender);
+    if (!split && !other) return true;
+    const bool atReceiver = split && (!other || r.radius >= s.radius);
+    ElementId& end = atReceiver ? receiver : sender;
+    end = childByArea(elements, end, atReceiver ? u[0] : u[2]);
+    if (!end.valid()) return true;
+  }
+}
+
 }  // namespace
 
 float openness(const Link& l) {
@@ -58,14 +77,22 @@ float openness(const Link& l) {
   return (maxChannel(l.V) * n + 0.5f) / (n + 1.0f);
 }
 
-bool samplesMeet(const Elements& elements, const Scene& scene, const Link& link, const SpaceChange& space) {
+bool samplesMeet(const Elements& elements, const Scene& scene, const Link& link, const SpaceChange& all,
+                 const SpaceChange& before) {
+  std::optional<DirectionWindow> window;
   if (elements.isDistant(link.sender)) {
-    const ElementGeometry &r = elements.shape(link.receiver), &s = elements.shape(link.sender);
-    if (!space.meetsBeam(r.center, r.radius, s.center, s.radius)) return false;
+    const ElementGeometry& r = elements.shape(link.receiver);
+    Vec3 axis;
+    if (const auto angle = all.seenFrom(r.center, r.radius, axis))
+      window.emplace(elements, scene, link.sender, axis, *angle);
   }
   const std::uint64_t key = combineKeys(elements.key[link.receiver.index()], elements.key[link.sender.index()]);
   for (int i = 0; i < link.samples; ++i) {
-    const Sample s = sampleOf(elements, scene, link.receiver, link.sender, key, i);
+    const auto u = stratified4(key, i);
+    if (window && !window->holds(u[2], u[3])) continue;
+    const SpaceChange& space = link.sampleMask >> i & 1u ? all : before;
+    if (!mayMeet(elements, scene, link.receiver, link.sender, u, space)) continue;
+    const Sample s = sampleOf(elements, scene, link.receiver, link.sender, u);
     if (s.weight > 0 && space.meets(s.ray)) return true;
   }
   return false;
@@ -79,7 +106,7 @@ Samples samplesOf(const Elements& elements, const Scene& scene, ElementId receiv
   const std::uint64_t key = combineKeys(elements.key[receiver.index()], elements.key[sender.index()]);
   Samples samples;
   samples.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) samples.push_back(sampleOf(elements, scene, receiver, sender, key, i));
+  for (int i = 0; i < count; ++i) samples.push_back(sampleOf(elements, scene, receiver, sender, stratified4(key, i)));
   return samples;
 }
 

@@ -30,7 +30,8 @@ VisibilityEstimate resampleVisibility(const Elements&, const Scene&, const RayTr
 /// Chance that light passes a link, as its rays leave it: where none passed it may still be open. 1: it surely passes.
 float openness(const Link&);
 
-/// Whether a ray that the link's visibility was sampled by meets what has moved.
-bool samplesMeet(const Elements&, const Scene&, const Link&, const SpaceChange&);
+/// Whether a ray that the link's visibility was sampled by may fare otherwise after a move: one that passed meets what
+/// moves where it is or will be; one that did not, where it is: nothing that comes lets it pass.
+bool samplesMeet(const Elements&, const Scene&, const Link&, const SpaceChange& all, const SpaceChange& before);
 
 }  // namespace deltalux

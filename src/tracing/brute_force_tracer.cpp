@@ -155,6 +155,7 @@ class BruteForceTracer final : public RayTracer {
 
   GroupId separate(std::span<const PrimitiveId> primitives) override {
     const GroupId fresh(groups_++);
+    addNew();
     for (Snapshot& s : snapshots_)
       if (std::find(primitives.begin(), primitives.end(), s.primitive) != primitives.end()) s.group = fresh;
     rebuild(fresh);
@@ -163,10 +164,15 @@ class BruteForceTracer final : public RayTracer {
 
   void rebuild(GroupId group) override {
     DELTALUX_CHECK(group.index() < groups_, "no such group");
-    for (std::size_t i = snapshots_.size(); i < scene_.primitives.size(); ++i)
-      snapshots_.push_back({PrimitiveId(i), GroupId(0), {}});
+    addNew();
     for (Snapshot& s : snapshots_)
       if (s.group == group) s.shape = scene_[s.primitive].shape;
+  }
+
+  void rejoin() override {
+    groups_ = 1;
+    for (Snapshot& s : snapshots_) s.group = GroupId(0);
+    rebuild(GroupId(0));
   }
 
  private:
@@ -175,6 +181,11 @@ class BruteForceTracer final : public RayTracer {
     GroupId group;
     Shape shape;
   };
+
+  void addNew() {
+    for (std::size_t i = snapshots_.size(); i < scene_.primitives.size(); ++i)
+      snapshots_.push_back({PrimitiveId(i), GroupId(0), {}});
+  }
 
   bool isPane(const Snapshot& s) const { return isThinGlass(scene_.materialOf(s.primitive)); }
 

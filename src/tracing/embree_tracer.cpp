@@ -101,6 +101,13 @@ class EmbreeTracer final : public RayTracer {
     join();
   }
 
+  void rejoin() override {
+    instances_.reset();
+    groupOf_.clear(), groups_.resize(1);
+    build(0);
+    join();
+  }
+
  private:
   /// What hits need from the tables is under way while the next rays are traced.
   void traceFew(std::span<const Ray> rays, Hit* hits) const {

@@ -53,6 +53,8 @@ class RayTracer {
   /// Takes the present shapes of the scene's primitives of `group` in, and whether they are panes; the rest is
   /// untouched. Primitives added to the scene since belong to group 0.
   virtual void rebuild(GroupId group) = 0;
+  /// Puts everything back into group 0, and takes it in; there are no other groups then.
+  virtual void rejoin() = 0;
   /// transmittance() against the primitives of one group only.
   virtual Rgb transmittance(const Ray&, GroupId group) const = 0;
 };

@@ -87,7 +87,7 @@ std::pair<std::size_t, std::size_t> termsThatAreStale(const Solution& s) {
   Elements elements = s.elements;
   LeafTransfers transfers = s.transfers;
   LinkMarks all;
-  all.changes.assign(s.links.size(), LinkChange::Touched);
+  all.changes = LinkChanges(s.links.size(), LinkChange::Touched);
   SpaceChange everywhere;
   everywhere.add(elements.sceneBox);
   ConcernedLeaves leaves;

@@ -52,7 +52,7 @@ TEST(DirectionCode, IsCloseToItsDirection) {
 /// Where a hull of balls or a beam is said to meet nothing, no ray in it does; and it is often said.
 TEST(SpaceChange, HullsAndBeamsHoldTheirRays) {
   Rng rng(7);
-  int hulls = 0, beams = 0, unseen = 0;
+  int hulls = 0, beams = 0, boxBeams = 0, unseen = 0, outside = 0;
   for (int k = 0; k < 2000; ++k) {
     const SpaceChange space = boxes(rng, 2);
     const Vec3f a = point(rng, 2.0f), b = point(rng, 2.0f);
@@ -60,7 +60,10 @@ TEST(SpaceChange, HullsAndBeamsHoldTheirRays) {
     const float ra = upTo(0.3), rb = upTo(0.3), angle = upTo(0.6);
     const Vec3f axis = glm::normalize(b - a);
     const bool hull = space.meets(a, ra, b, rb), beam = space.meetsBeam(a, ra, axis, angle);
-    hulls += !hull, beams += !beam;
+    const bool boxBeam = space.meetsBeam(boxAround(a, ra), axis, angle);
+    Vec3 middle;
+    const auto seen = space.seenFrom(a, ra, middle);
+    hulls += !hull, beams += !beam, boxBeams += !boxBeam;
     for (int i = 0; i < 20; ++i) {
       const Vec3f p = inBall(rng, a, ra), q = inBall(rng, b, rb);
       const Vec3f d = inBall(rng, Vec3f(0.0f), 1.0f), across = glm::normalize(glm::cross(axis, d));
@@ -70,11 +73,18 @@ TEST(SpaceChange, HullsAndBeamsHoldTheirRays) {
       unseen += !near;
       EXPECT_TRUE(near || !far);
       EXPECT_FALSE(!hull && space.meets(Ray{p, 0.0f, q - p, 1.0f}));
-      EXPECT_FALSE(!beam && space.meets(Ray{p, 0.0f, std::cos(off) * axis + std::sin(off) * across, 1e30f}));
+      const Vec3f w = std::cos(off) * axis + std::sin(off) * across;
+      EXPECT_FALSE(!beam && space.meets(Ray{p, 0.0f, w, 1e30f}));
+      EXPECT_FALSE(!boxBeam && space.meets(Ray{a + point(rng, ra), 0.0f, w, 1e30f}));
+      const bool within = !seen || glm::dot(Vec3(w), middle) > std::cos(*seen) - 1e-5;
+      outside += !within;
+      EXPECT_TRUE(within || !space.meets(Ray{p, 0.0f, w, 1e30f}));
     }
   }
   EXPECT_GT(hulls, 500);
   EXPECT_GT(beams, 500);
+  EXPECT_GT(boxBeams, 500);
+  EXPECT_GT(outside, 20 * 500);
   EXPECT_GT(unseen, 20 * 500);
 }
 
@@ -102,6 +112,9 @@ TEST(SpaceChange, CodesAndReachHoldRaysWithEnds) {
       unmet += !open, apart += open && !blocked;
       reach.add(leaf, to), any |= meets;
     }
+    Vec3f lower = leaf.lower, upper = leaf.upper;
+    reach.extend(leaf, lower, upper);
+    EXPECT_TRUE(!any || space.meets(lower, upper));
     const bool reached = space.meets(leaf, reach);
     EXPECT_TRUE(reached || !any);
     unreached += !reached;

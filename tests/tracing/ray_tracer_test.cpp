@@ -276,6 +276,16 @@ TEST_F(Groups, GroupsOfGroups) {
   expectSameAsFresh(*tracer);
 }
 
+TEST_F(Groups, RejoinedIsAFreshTracer) {
+  const auto tracer = makeEmbreeTracer(scene_);
+  tracer->separate(movable_);
+  move(glm::translate(Mat4(1), Vec3(1, 1, 0)));
+  tracer->rejoin();
+  expectSameAsFresh(*tracer);
+  EXPECT_EQ(tracer->separate(movable_), GroupId(1));
+  expectSameAsFresh(*tracer);
+}
+
 TEST_F(Groups, RemovedThingsAreGone) {
   const auto tracer = makeEmbreeTracer(scene_);
   const GroupId group = tracer->separate(movable_);

@@ -22,6 +22,8 @@
 
 namespace deltalux {
 
+inline constexpr std::uint64_t kLargeTable = 4096;
+
 /// Types whose bytes are their value.
 template <class T>
 inline constexpr bool kPlain = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
@@ -134,6 +136,8 @@ void transferVector(Archive& archive, Vector& v) {
     transferRecordSize(archive, sizeof(Item));
     if constexpr (Archive::kReads) {
       archive.require(count <= archive.left() / sizeof(Item));
+      // Room for what edits add to large tables, so that none has to move as a whole for it.
+      if (count >= kLargeTable) v.reserve(count + count / 16);
       v.resize(count);
     }
     if (count > 0) archive.bytes(v.data(), count * sizeof(Item));

@@ -22,7 +22,7 @@ void members(auto& archive, Is<SolveReport> auto& r) {
 
 void members(auto& archive, Is<Elements> auto& e) {
   auto& [topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines, frames,
-         sceneRoot, grown, lightRoot, distant, asleep, sceneBox] = e;
+         sceneRoot, grown, lightRoot, distant, asleep, sceneBox, inputs] = e;  // the last follows from the others
   transferAll(archive, topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines,
               frames, sceneRoot, grown, lightRoot, distant, asleep, sceneBox);
 }
@@ -48,7 +48,7 @@ void members(auto& archive, Is<LeafRow> auto& r) {
 }
 struct StoredTransfers {
   static void transfer(auto& archive, auto& t) {
-    auto& [rows, rowOf] = t;  // the latter follows from the first
+    auto& [rows, rowOf, reaches] = t;  // the others follow from the first
     transferAll(archive, rows);
   }
 };

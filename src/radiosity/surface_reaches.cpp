@@ -1,0 +1,50 @@
+#include "radiosity/surface_reaches.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr float kBeside = 0.1f;  // of a leaf's radius: as near is upon it
+constexpr int kFinest = 3;       // subdivisions of the input level
+
+ElementId partOf(const Elements& elements, ElementId leaf) {
+  while (elements.at(leaf).depth > kFinest) leaf = elements.at(leaf).parent;
+  return leaf;
+}
+
+}  // namespace
+
+void SurfaceReaches::add(const Elements& elements, ElementId leaf, const TransferRow& direct,
+                         const TransferRow& indirect) {
+  const ElementGeometry& g = elements.shape(leaf);
+  const ElementId part = partOf(elements, leaf);
+  if (part.index() >= slot_.size()) slot_.resize(elements.size(), kNone);
+  std::uint32_t& slot = slot_[part.index()];
+  if (slot == kNone) {
+    slot = static_cast<std::uint32_t>(surfaces_.size());
+    surfaces_.push_back({part, g.lower, g.upper, {}});
+  }
+  Surface& s = surfaces_[slot];
+  s.lower = glm::min(s.lower, g.lower - kBeside * g.radius), s.upper = glm::max(s.upper, g.upper + kBeside * g.radius);
+  for (const RowReach* reach : {&direct.reach, &indirect.reach}) {
+    reach->extend(g, s.lower, s.upper);
+    s.objects.add(reach->objects);
+  }
+}
+
+bool SurfaceReaches::holds(const Elements& elements, ElementId leaf, const TransferRow& row) const {
+  const ElementId part = partOf(elements, leaf);
+  if (part.index() >= slot_.size() || slot_[part.index()] == kNone) return false;
+  const Surface& s = surfaces_[slot_[part.index()]];
+  const ElementGeometry& g = elements.shape(leaf);
+  Vec3f lower = g.lower, upper = g.upper;
+  row.reach.extend(g, lower, upper);
+  return s.objects.holds(row.reach.objects) && glm::all(glm::lessThanEqual(s.lower, lower)) &&
+         glm::all(glm::lessThanEqual(upper, s.upper));
+}
+
+std::size_t SurfaceReaches::memoryBytes() const {
+  return surfaces_.capacity() * sizeof surfaces_[0] + slot_.capacity() * sizeof slot_[0];
+}
+
+}  // namespace deltalux

@@ -1,0 +1,43 @@
+#pragma once
+// How far all rows of a surface reach together: a box around the surface and the ends of all rays that pass, and what
+// objects stand in the way of the others. What moves elsewhere leaves all of its rows as they are, so a move looks at
+// each surface, and at the rows of few: in a large scene at those around it. Surfaces are of the input level, or
+// parts of those that are split often: the more leaves, the more there is that some of them reach. What is known
+// only grows, as rows do.
+// Cost: some nanoseconds a surface and move; 160 bytes a surface, 4 an element.
+#include <vector>
+
+#include "radiosity/leaf_row.hpp"
+#include "radiosity/space_change.hpp"
+
+namespace deltalux {
+
+class SurfaceReaches {
+ public:
+  /// Takes in what a row reaches, of a leaf of these elements.
+  void add(const Elements&, ElementId leaf, const TransferRow& direct, const TransferRow& indirect);
+
+  /// visit(element) of all surfaces that something moving may touch, or whose rows it may. `everywhere`: all
+  /// surfaces that have rows.
+  template <class Visit>
+  void forEachMet(const SpaceChange& space, bool everywhere, const Visit& visit) const {
+    for (const Surface& s : surfaces_)
+      if (everywhere || space.meets(s.objects) || space.meets(s.lower, s.upper)) visit(s.element);
+  }
+  /// Whether what the row of a leaf reaches is known.
+  bool holds(const Elements&, ElementId leaf, const TransferRow&) const;
+  std::size_t memoryBytes() const;
+
+ private:
+  struct Surface {
+    ElementId element;
+    Vec3f lower, upper;
+    ObjectSet objects;
+  };
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  std::vector<Surface> surfaces_;
+  std::vector<std::uint32_t> slot_;  // by element: in surfaces_
+};
+
+}  // namespace deltalux
