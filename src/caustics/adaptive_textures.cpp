@@ -16,22 +16,23 @@ constexpr int kFirstTexels = 16 * 16;        // of the grid that resolution star
 constexpr int kChoiceTexels = 48 * 48;       // at most, to choose by
 constexpr int kCoarseTexels = 128 * 128;     // at most, to find regions with and to show the rest
 constexpr int kFineTexels = 256 * 256;       // at most, of one texture
+constexpr double kEnough = 1.05;             // times the texels that there are: more are not worth another cut
 constexpr double kCoarsePerTexel = 12;       // particles in a coarse texel where the light falls
 constexpr double kFinePerTexel = 2;          // in a fine one: smaller ones tell noise from light no better
 constexpr std::size_t kLeastParticles = 64;  // of a region of its own
 constexpr int kMargin = 2;                   // coarse texels around a region
 constexpr double kMatters = 0.5;             // of the target error: differences that a region is made for
 
-/// Cuts the part into texels that hold `perTexel` particles where they are dense, at most `most`. [GD01 3.2]
-void resolve(const ChartSurface& surface, ChartPart& part, double perTexel, int most) {
+/// Cuts the part into texels that hold `perTexel` particles where they are dense, from `least` to `most` of them.
+/// Whether they were as many as they should be. [GD01 3.2]
+bool resolve(const ChartSurface& surface, ChartPart& part, double perTexel, int least, int most) {
   const double area = part.region.size().x * part.region.size().y;
-  for (int count = std::min(kFirstTexels, most);;) {
+  for (int count = std::min(least, most);;) {
     surface.recut(part, squareTexels(part.region.size(), area / count, most));
-    if (count >= most) return;
     const double wanted = area / texelArea(part, perTexel);
-    if (wanted < count + 1) return;
-    // Peaks show themselves as texels shrink: by steps.
-    count = static_cast<int>(std::min({wanted, 4.0 * count, double(most)}));
+    if (wanted < kEnough * count) return true;
+    if (count >= most) return false;
+    count = static_cast<int>(std::min(wanted, double(most)));  // peaks show themselves as texels shrink
   }
 }
 
@@ -56,7 +57,7 @@ class AdaptiveTextures {
   /// Places the particles and cuts coarse textures. What they show that a mesh would not.
   Departure place(std::span<const Impact> impacts) {
     auto placed = placeImpacts(shape_, result_.charts, impacts);
-    parts_.resize(placed.size());
+    parts_.resize(placed.size()), resolved_.assign(placed.size(), 0);
     Departure total;
     std::vector<double> flux(placed.size(), 0.0), areas(placed.size(), 0.0);
     double grain = 0;
@@ -64,7 +65,7 @@ class AdaptiveTextures {
       if (placed[c].empty()) continue;
       const ChartSurface surface(shape_, result_.charts, c);
       parts_[c] = surface.whole(glm::ivec2(1), std::move(placed[c]));
-      resolve(surface, parts_[c], kCoarsePerTexel, kChoiceTexels);
+      resolved_[c] = resolve(surface, parts_[c], kCoarsePerTexel, kFirstTexels, kChoiceTexels);
       const CellGrid grid = surface.grid(parts_[c]);
       const CellLight light = collect(grid, parts_[c].impacts);
       total += departure(grid, light);
@@ -82,7 +83,7 @@ class AdaptiveTextures {
     for (std::uint32_t c = 0; c < parts_.size(); ++c) {
       if (parts_[c].impacts.empty()) continue;
       const ChartSurface surface(shape_, result_.charts, c);
-      resolve(surface, parts_[c], kCoarsePerTexel, kCoarseTexels);
+      if (!resolved_[c]) resolve(surface, parts_[c], kCoarsePerTexel, kChoiceTexels, kCoarseTexels);
       takeRegionsOut(surface, parts_[c]);
       coarsen(surface, parts_[c]);
       put(surface, parts_[c]);
@@ -118,20 +119,25 @@ class AdaptiveTextures {
     const CellLight light = collect(grid, whole.impacts);
     const std::vector<float> E = reconstructGray(grid, light, rule_);
     const double difference = kMatters * rule_.error * (medianOfFlux(grid.areas(), E) + rule_.background);
-    for (const TexelBox& box : markedBoxes(grid, cellsOffMedian(grid, E, difference), kMargin)) {
-      if (particlesIn(box, grid, whole) < kLeastParticles) continue;
+    const std::vector<TexelBox> boxes = markedBoxes(grid, cellsOffMedian(grid, E, difference), kMargin);
+    if (boxes.empty()) return;
+    std::vector<std::uint32_t> particles(whole.areas.size(), 0);
+    for (const ChartImpact& impact : whole.impacts) ++particles[grid.texelNear(impact.st)];
+    for (const TexelBox& box : boxes) {
+      if (particlesIn(box, grid, particles) < kLeastParticles) continue;
       ChartPart region = surface.takeOut(whole, grid, box, glm::ivec2(1));
-      resolve(surface, region, kFinePerTexel, kFineTexels);
+      resolve(surface, region, kFinePerTexel, kFirstTexels, kFineTexels);
       put(surface, region);
     }
   }
 
-  static std::size_t particlesIn(const TexelBox& box, const CellGrid& grid, const ChartPart& part) {
-    return static_cast<std::size_t>(std::count_if(part.impacts.begin(), part.impacts.end(), [&](const auto& impact) {
-      const std::uint32_t texel = grid.texelNear(impact.st);
-      if (texel == CellGrid::kNone) return false;
-      return holds(box, static_cast<int>(texel) % grid.width(), static_cast<int>(texel) / grid.width(), grid.width());
-    }));
+  static std::size_t particlesIn(const TexelBox& box, const CellGrid& grid,
+                                 const std::vector<std::uint32_t>& particles) {
+    std::size_t sum = 0;
+    for (int y = box.y0; y < box.y1; ++y)
+      for (int x = box.x0; x < box.x1; ++x)
+        sum += particles[static_cast<std::size_t>(y) * grid.width() + x % grid.width()];
+    return sum;
   }
 
   void put(const ChartSurface& surface, const ChartPart& part) {
@@ -145,6 +151,7 @@ class AdaptiveTextures {
   BandwidthRule rule_;
   SurfaceCaustics result_;
   std::vector<ChartPart> parts_;  // by chart
+  std::vector<char> resolved_;    // whether a part has all the texels it should
 };
 
 }  // namespace

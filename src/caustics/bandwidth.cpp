@@ -9,7 +9,8 @@ namespace deltalux {
 namespace {
 
 constexpr double kNarrowest = 0.5;       // standard deviation in cells
-constexpr double kWidest = 8;            // in cells
+constexpr double kWidest = 6;            // in cells
+constexpr double kFactor = 1.6;          // between widths
 constexpr double kConfidence = 2.85;     // standard deviations of a difference that noise explains, had it Gaussian
                                          // kernels: 3 of those of ours
 constexpr double kLeastParticles = 4.0;  // that a kernel expects when it is asked
@@ -131,7 +132,7 @@ class WidthSearch {
 
 Slots chooseBandwidths(const CellRaster& raster, const HeatFlow& even, const Channels& light,
                        const BandwidthRule& rule) {
-  ScaleSpace space(raster, even, light, kWidest);
+  ScaleSpace space(raster, even, light, kWidest, kFactor);
   WidthSearch search(raster, rule);
   while (space.widen() && !search.judge(space.levels())) {
   }

@@ -1,5 +1,5 @@
 #pragma once
-// How wide must the kernel be at each cell? As wide as the particles allow: kernels grow by factors of sqrt 2 until the
+// How wide must the kernel be at each cell? As wide as the particles allow: kernels grow by factors of 1.6 until the
 // estimate with the next one contradicts one with a narrower kernel by more than noise explains (Lepski's method, as
 // the intersection of confidence intervals [Katkovnik99]), or until its own noise is within half the target error.
 // Smooth light is averaged over many particles, the figure of a caustic over few; nothing is set by hand.

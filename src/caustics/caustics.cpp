@@ -34,8 +34,11 @@ std::vector<std::span<const Impact>> bySide(std::vector<Impact>& impacts) {
 
 /// body(side index, impacts, settings) for every side that has impacts, in parallel.
 template <class Body>
-void forEachSide(const Scene& scene, const std::vector<std::span<const Impact>>& sides, const OtherLight& other,
+void forEachSide(const Scene& scene, const Elements& elements, const std::vector<std::span<const Impact>>& sides,
                  double error, const Body& body) {
+  SurfaceSides lit(2 * scene.primitives.size(), false);
+  for (const std::span<const Impact> side : sides) lit[sideIndex(side.front().primitive, side.front().front)] = true;
+  const OtherLight other = otherLight(scene, elements, lit);
   std::vector<std::size_t> order(sides.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -68,7 +71,7 @@ Caustics indexed(std::vector<SurfaceCaustics> surfaces, std::size_t primitives) 
 
 }  // namespace
 
-OtherLight otherLight(const Scene& scene, const Elements& elements) {
+OtherLight otherLight(const Scene& scene, const Elements& elements, const SurfaceSides& sides) {
   OtherLight result;
   result.mean = meanOtherLight(scene, elements);
   result.darkest.assign(result.mean.size(), 0.0);
@@ -76,9 +79,10 @@ OtherLight otherLight(const Scene& scene, const Elements& elements) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const ElementTopology& t = elements.topology[i];
     if (!elements.isReceivingLeaf(ElementId(i))) continue;
+    const std::size_t side = sideIndex(elements.domain[i].primitive, t.front);
+    if (!sides[side]) continue;
     const ElementLight& l = elements.radiometry[i];
-    parts.push_back({sideIndex(elements.domain[i].primitive, t.front), gray(l.direct + l.indirect),
-                     elements.geometry[i].litArea()});
+    parts.push_back({side, gray(l.direct + l.indirect), elements.geometry[i].litArea()});
   }
   std::sort(parts.begin(), parts.end(),
             [](const LitPart& a, const LitPart& b) { return a.side != b.side ? a.side < b.side : a.E < b.E; });
@@ -132,10 +136,9 @@ SurfaceSides sidesWithTextures(const Scene& scene, const Elements& elements, std
                                double error) {
   const auto sides = bySide(impacts);
   std::vector<char> chosen(sides.size(), 0);
-  forEachSide(scene, sides, otherLight(scene, elements), error,
-              [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
-                chosen[i] = deservesTextures(shape, sides[i], settings);
-              });
+  forEachSide(scene, elements, sides, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
+    chosen[i] = deservesTextures(shape, sides[i], settings);
+  });
   SurfaceSides result(2 * scene.primitives.size(), false);
   for (std::size_t i = 0; i < sides.size(); ++i)
     if (chosen[i]) result[sideIndex(sides[i].front().primitive, sides[i].front().front)] = true;
@@ -147,12 +150,11 @@ Caustics makeCaustics(const Scene& scene, const Elements& elements, std::vector<
   std::erase_if(impacts, [&](const Impact& i) { return !chosen[sideIndex(i.primitive, i.front)]; });
   const auto sides = bySide(impacts);
   std::vector<SurfaceCaustics> made(sides.size());
-  forEachSide(scene, sides, otherLight(scene, elements), error,
-              [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
-                made[i] = makeTextures(shape, sides[i], settings);
-                made[i].primitive = sides[i].front().primitive, made[i].front = sides[i].front().front;
-                DELTALUX_VALIDATED(validate(made[i]));
-              });
+  forEachSide(scene, elements, sides, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
+    made[i] = makeTextures(shape, sides[i], settings);
+    made[i].primitive = sides[i].front().primitive, made[i].front = sides[i].front().front;
+    DELTALUX_VALIDATED(validate(made[i]));
+  });
   return indexed(std::move(made), scene.primitives.size());
 }
 
@@ -161,13 +163,12 @@ std::size_t remakeCaustics(Caustics& caustics, const Scene& scene, const Element
   if (std::none_of(remade.begin(), remade.end(), [](char r) { return r; })) return 0;
   const auto sides = bySide(impacts);
   std::vector<std::optional<SurfaceCaustics>> made(sides.size());
-  forEachSide(scene, sides, otherLight(scene, elements), error,
-              [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
-                made[i] = makeCausticTextures(shape, sides[i], settings);
-                if (!made[i]) return;
-                made[i]->primitive = sides[i].front().primitive, made[i]->front = sides[i].front().front;
-                DELTALUX_VALIDATED(validate(*made[i]));
-              });
+  forEachSide(scene, elements, sides, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
+    made[i] = makeCausticTextures(shape, sides[i], settings);
+    if (!made[i]) return;
+    made[i]->primitive = sides[i].front().primitive, made[i]->front = sides[i].front().front;
+    DELTALUX_VALIDATED(validate(*made[i]));
+  });
   std::vector<SurfaceCaustics> all;
   for (SurfaceCaustics& s : caustics.surfaces)
     if (!remade[sideIndex(s.primitive, s.front)]) all.push_back(std::move(s));

@@ -13,7 +13,12 @@ constexpr double kWholeTurn = 1e-9;  // of the chart's width
 }  // namespace
 
 CellGrid::CellGrid(const Chart& chart, const Region& region, int width, int height, std::span<const float> areas)
-    : chart_(chart), region_(region), width_(width), height_(height), texelAreas_(areas.begin(), areas.end()) {
+    : chart_(chart),
+      region_(region),
+      perUnit_(Vec2(width, height) / region.size()),
+      width_(width),
+      height_(height),
+      texelAreas_(areas.begin(), areas.end()) {
   DELTALUX_CHECK(areas.size() == static_cast<std::size_t>(width) * height, "one area per texel");
   closed_ = chart.closed() && region.size().x >= chart.size.x * (1 - kWholeTurn);
   const double edge = kWholeTurn * chart.size.y;
@@ -95,11 +100,10 @@ void CellGrid::numberCells() {
   for (const float a : areas_) totalArea_ += a;
 }
 
-std::uint32_t CellGrid::texelNear(const Vec2& st) const {
-  const Vec2 at = (st - region_.lower) / region_.size() * Vec2(width_, height_);
-  const int x = std::clamp(static_cast<int>(std::floor(at.x)), 0, width_ - 1);
-  const int y = std::clamp(static_cast<int>(std::floor(at.y)), 0, height_ - 1);
-  if (cellOf_[texelAt(x, y)] != kNone) return static_cast<std::uint32_t>(texelAt(x, y));
+/// `at`: in texels.
+std::uint32_t CellGrid::texelAround(const Vec2& at) const {
+  const int x = std::clamp(static_cast<int>(at.x), 0, width_ - 1),
+            y = std::clamp(static_cast<int>(at.y), 0, height_ - 1);
   for (int ring = 1; ring < std::max(width_, height_); ++ring) {
     std::uint32_t best = kNone;
     double least = kInfinity;

@@ -6,6 +6,7 @@
 //   - on a closed chart the last column borders on the first;
 //   - towards a pole texels grow thin: those of a row join until they are at least half as wide as high, so that all
 //     meet around the pole (a reduced grid).
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -53,7 +54,13 @@ class CellGrid {
   std::uint32_t texelOf(std::uint32_t cell) const { return texels_[cell]; }
 
   /// The texel nearest to a chart point that has a cell; kNone when the grid has none at all.
-  std::uint32_t texelNear(const Vec2& st) const;
+  std::uint32_t texelNear(const Vec2& st) const {
+    const Vec2 at = (st - region_.lower) * perUnit_;
+    const int x = std::clamp(static_cast<int>(at.x), 0, width_ - 1),
+              y = std::clamp(static_cast<int>(at.y), 0, height_ - 1);
+    const std::size_t texel = texelAt(x, y);
+    return cellOf_[texel] != kNone ? static_cast<std::uint32_t>(texel) : texelAround(at);
+  }
   /// Its cell.
   std::uint32_t cellAt(const Vec2& st) const {
     const std::uint32_t texel = texelNear(st);
@@ -61,6 +68,7 @@ class CellGrid {
   }
 
  private:
+  std::uint32_t texelAround(const Vec2& at) const;
   void joinTowardsPoles();
   void joinSlivers();
   void numberCells();
@@ -70,6 +78,7 @@ class CellGrid {
 
   Chart chart_;
   Region region_;
+  Vec2 perUnit_;  // texels
   int width_, height_;
   bool closed_, poleAtStart_, poleAtEnd_;
   double totalArea_ = 0;

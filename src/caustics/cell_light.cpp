@@ -1,6 +1,7 @@
 #include "caustics/cell_light.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/check.hpp"
 
@@ -40,28 +41,30 @@ double typicalIrradiance(std::span<const double> flux, std::span<const double> s
   return total > 0 && whole > 0 ? std::max(pairs / total, total / whole) : 0.0;
 }
 
-double medianOfFlux(std::span<const float> areas, std::span<const float> E) {
-  struct Cell {
-    float E;
-    double flux;
-  };
-  std::vector<Cell> cells(E.size());
+double weightedMedian(std::span<const float> values, std::span<const float> weights) {
+  // Values that are not negative are ordered as their bits are: first of all by the leading ones.
+  constexpr int kept = 20;
+  std::vector<double> sums(std::size_t{1} << (31 - kept), 0.0);
+  const auto binOf = [](float v) { return std::bit_cast<std::uint32_t>(std::max(v, 0.0f)) >> kept; };
+  for (std::size_t i = 0; i < values.size(); ++i) sums[binOf(values[i])] += weights[i];
   double wanted = 0;
-  for (std::size_t i = 0; i < E.size(); ++i) cells[i] = {E[i], double(E[i]) * areas[i]}, wanted += cells[i].flux;
-  wanted *= 0.5;
-  // As when sorting, but only the part that holds the median is looked at again.
-  auto begin = cells.begin(), end = cells.end();
-  while (end - begin > 1) {
-    const auto middle = begin + (end - begin) / 2;
-    std::nth_element(begin, middle, end, [](const Cell& a, const Cell& b) { return a.E < b.E; });
-    double below = 0;
-    for (auto c = begin; c != middle; ++c) below += c->flux;
-    if (below >= wanted)
-      end = middle;
-    else
-      wanted -= below, begin = middle;
-  }
-  return cells.empty() ? 0.0 : double(begin->E);
+  for (const double sum : sums) wanted += 0.5 * sum;
+  std::size_t bin = 0;
+  while (bin + 1 < sums.size() && !(sums[bin] >= wanted)) wanted -= sums[bin++];
+  std::vector<std::pair<float, float>> within;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (binOf(values[i]) == bin && weights[i] > 0) within.emplace_back(values[i], weights[i]);
+  std::sort(within.begin(), within.end());
+  double below = 0;
+  for (const auto& [value, weight] : within)
+    if ((below += weight) >= wanted) return value;
+  return within.empty() ? 0.0 : within.back().first;
+}
+
+double medianOfFlux(std::span<const float> areas, std::span<const float> E) {
+  std::vector<float> flux(E.size());
+  for (std::size_t i = 0; i < E.size(); ++i) flux[i] = std::max(E[i], 0.0f) * areas[i];
+  return weightedMedian(E, flux);
 }
 
 std::vector<float> grayOf(const std::vector<Rgb>& E) {

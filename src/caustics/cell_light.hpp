@@ -39,6 +39,9 @@ double typicalIrradiance(const CellGrid&, const CellLight&);
 /// The same from gray flux, sums of its squares and areas.
 double typicalIrradiance(std::span<const double> flux, std::span<const double> squares, std::span<const float> areas);
 
+/// The value that half of the weight lies below. Neither are negative.
+double weightedMedian(std::span<const float> values, std::span<const float> weights);
+
 /// The gray irradiance below which half of the flux lies: what most of the light looks like, whatever its peaks.
 double medianOfFlux(std::span<const float> areas, std::span<const float> E);
 

@@ -33,8 +33,9 @@ glm::ivec2 squareTexels(const glm::dvec2& size, double area, int most) {
 double texelArea(const ChartPart& part, double perTexel) {
   std::vector<double> flux(part.areas.size(), 0.0), squares(part.areas.size(), 0.0);
   double total = 0, totalSquares = 0;
+  const Vec2 perUnit = Vec2(part.texels) / part.region.size();
   for (const ChartImpact& impact : part.impacts) {
-    const Vec2 at = (impact.st - part.region.lower) / part.region.size() * Vec2(part.texels);
+    const Vec2 at = (impact.st - part.region.lower) * perUnit;
     const int x = std::clamp(static_cast<int>(at.x), 0, part.texels.x - 1);
     const int y = std::clamp(static_cast<int>(at.y), 0, part.texels.y - 1);
     const std::size_t texel = static_cast<std::size_t>(y) * part.texels.x + x;

@@ -81,15 +81,7 @@ std::vector<char> litCells(const std::vector<Rgb>& E, double share) {
 }
 
 std::vector<char> cellsOffMedian(const CellGrid& grid, const std::vector<float>& E, double difference) {
-  std::vector<std::uint32_t> order(E.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return E[a] < E[b]; });
-  double below = 0, median = 0;
-  for (const std::uint32_t i : order) {
-    below += grid.area(i);
-    median = E[i];
-    if (below >= 0.5 * grid.totalArea()) break;
-  }
+  const double median = weightedMedian(E, grid.areas());
   std::vector<char> marked;
   for (const float e : E) marked.push_back(std::abs(e - median) > difference);
   return marked;

@@ -1,6 +1,7 @@
 #include "caustics/texture_upkeep.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
@@ -65,7 +66,7 @@ TextureUpkeep::Report TextureUpkeep::follow(const ParticleUpdate& update, const 
                                             Caustics& caustics) {
   DELTALUX_CHECK(!update.all, "the particles of before");
   takeIn(update);
-  weigh(transfer);
+  const std::vector<Rgb> powers = weigh(transfer);
   compare();
   const std::vector<double> background = meanOtherLight(parts_.scene, parts_.elements);
   std::vector<char> sides(looks_.size(), 0);
@@ -77,7 +78,7 @@ TextureUpkeep::Report TextureUpkeep::follow(const ParticleUpdate& update, const 
   for (SurfaceCaustics& s : caustics.surfaces)
     if (const std::size_t side = sideIndex(s.primitive, s.front); !sides[side])
       report.scaled += rescale(s, fluxOf(side), kMatters * error_);
-  report.rebuilt = remakeCaustics(caustics, parts_.scene, parts_.elements, landedOn(sides, transfer), error_, sides);
+  report.rebuilt = remakeCaustics(caustics, parts_.scene, parts_.elements, landedOn(sides, powers), error_, sides);
   remember(sides, background);
   return report;
 }
@@ -99,15 +100,17 @@ void TextureUpkeep::takeIn(const ParticleUpdate& update) {
   }
 }
 
-/// Today's flux of every impact and tile.
-void TextureUpkeep::weigh(const ParticleTransfer& transfer) {
+/// Today's flux of every impact and tile. What every path carries.
+std::vector<Rgb> TextureUpkeep::weigh(const ParticleTransfer& transfer) {
   const Particles& p = parts_.particles;
   now_.resize(p.impactSlots(), 0.0f);
+  std::vector<Rgb> powers(p.paths(), Rgb(0.0f));
   std::vector<std::vector<RgbSum>> sums(kParts, std::vector<RgbSum>(tiles_.size(), RgbSum(0.0)));
   inParts(p.paths(), [&](std::size_t part, std::size_t begin, std::size_t end) {
     for (std::size_t path = begin; path < end; ++path) {
       if (p.range[path].impacts == 0) continue;
       const Rgb power = p.links[p.link[path]].scale * transfer.power(path, parts_.elements, parts_.scene);
+      powers[path] = power;
       for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
         const Rgb flux = power * p.throughput[i];
         now_[i] = gray(flux);
@@ -118,6 +121,7 @@ void TextureUpkeep::weigh(const ParticleTransfer& transfer) {
   tile_.assign(tiles_.size(), {});
   for (std::size_t t = 0; t < tile_.size(); ++t)
     for (const auto& part : sums) tile_[t].now += part[t];
+  return powers;
 }
 
 RgbSum TextureUpkeep::fluxOf(std::size_t side) const {
@@ -183,20 +187,26 @@ bool TextureUpkeep::changed(std::size_t side, double background, bool textured) 
   return noisier > kOtherNoise || noisier < 1 / kOtherNoise;
 }
 
-std::vector<Impact> TextureUpkeep::landedOn(const std::vector<char>& sides, const ParticleTransfer& transfer) const {
+/// By side; on each in the order of the particles.
+std::vector<Impact> TextureUpkeep::landedOn(const std::vector<char>& sides, const std::vector<Rgb>& powers) const {
   const Particles& p = parts_.particles;
-  std::vector<std::vector<Impact>> parts(kParts);
-  inParts(p.paths(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-    for (std::size_t path = begin; path < end; ++path)
-      for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
-        if (!sides[sideIndex(p, i)]) continue;
-        const Rgb power = p.links[p.link[path]].scale * transfer.power(path, parts_.elements, parts_.scene);
-        parts[part].push_back({p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0, p.uv[i],
-                               power * p.throughput[i]});
-      }
+  std::vector<std::vector<std::uint32_t>> places(kParts, std::vector<std::uint32_t>(sides.size(), 0));
+  const auto forEach = [&](const auto& body) {
+    inParts(p.paths(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+      for (std::size_t path = begin; path < end; ++path)
+        for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i)
+          if (const std::size_t side = sideIndex(p, i); sides[side]) body(path, i, places[part][side]);
+    });
+  };
+  forEach([](std::size_t, std::uint32_t, std::uint32_t& count) { ++count; });
+  std::uint32_t next = 0;
+  for (std::size_t side = 0; side < sides.size(); ++side)
+    for (auto& part : places) part[side] = std::exchange(next, next + part[side]);
+  std::vector<Impact> all(next);
+  forEach([&](std::size_t path, std::uint32_t i, std::uint32_t& place) {
+    all[place++] = {p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0, p.uv[i],
+                    powers[path] * p.throughput[i]};
   });
-  std::vector<Impact> all;
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 

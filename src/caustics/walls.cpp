@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kParticles = 30;       // of a kernel that edges are looked for with
 constexpr double kWidest = 6;           // of its kernel, in cells
+constexpr double kFactor = 2;           // between widths
 constexpr double kContrast = 2;         // jumps of a blurred edge, in units of noise
 constexpr double kSharpParticles = 16;  // whose noise a sharp edge must stand out from,
 constexpr double kSharpContrast = 1.5;  // and by how much
@@ -116,7 +117,7 @@ Borders opennessBy(const CellRaster& raster, double contrast, const Squared& squ
 
 Walls blurredWalls(const CellRaster& raster, const Channels& light) {
   const HeatFlow even(raster, {});
-  ScaleSpace space(raster, even, light, kWidest);
+  ScaleSpace space(raster, even, light, kWidest, kFactor);
   while (space.widen()) {
   }
   const Estimates estimates = estimatesOf(raster, space.levels());
