@@ -6,7 +6,7 @@
 //
 // Where direct light varies over a leaf by more than the error allows, the leaf is split first: its own samples tell,
 // so shadow edges and the scallops of lamps are found where they are, not where links might have them.
-// Cost: about 64 + 120 rays a leaf, more where there are few leaves; 16 bytes a transfer. Rows of a moved scene:
+// Cost: about 64 + 128 rays a leaf, more where there are few leaves; 16 bytes a transfer. Rows of a moved scene:
 // row_update.cpp.
 #include <span>
 
