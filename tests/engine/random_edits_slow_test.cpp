@@ -71,7 +71,6 @@ TEST(RandomEditsSlow, TwoHundredOnTheLodge) {
   fresh.solve();
   const CheckReport check = compareSolutions(engine.solution(), fresh.solution(), test::kQuickCheck);
   EXPECT_TRUE(check.particlesIdentical);
-  EXPECT_LT(check.medianRelDiff, 0.01);
   // Under the trees, in the attic and behind the logs there is a hundredth of the mean irradiance of a sunny morning. A
   // solve of this error is far off there, relatively: no two have to agree better than either does with an exact one.
   SolveSettings exact = settings;
@@ -79,6 +78,7 @@ TEST(RandomEditsSlow, TwoHundredOnTheLodge) {
   Engine finer(engine.solution().scene(), exact);
   finer.solve();
   const CheckReport own = compareSolutions(fresh.solution(), finer.solution(), test::kQuickCheck);
+  EXPECT_LT(check.medianRelDiff, 1.5 * own.medianRelDiff);
   EXPECT_LT(check.p95RelDiff, own.p95RelDiff);
   const CheckReport updated = compareSolutions(engine.solution(), finer.solution(), test::kQuickCheck);
   EXPECT_LT(updated.p95RelDiff, 1.5 * own.p95RelDiff);
