@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hierarchy/below.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/side_locator.hpp"
@@ -40,14 +41,9 @@ void addLanding(std::vector<SurfaceSide>& sides, const Solution& s, const Partic
 }  // namespace
 
 std::vector<ElementId> leavesBelow(const Elements& elements, const Growth& growth) {
-  std::vector<ElementId> stack = growth.woken, leaves;
-  stack.insert(stack.end(), growth.asleep.begin(), growth.asleep.end());
-  while (!stack.empty()) {
-    const ElementId e = stack.back();
-    stack.pop_back();
-    if (elements.isLeaf(e)) leaves.push_back(e);
-    for (std::size_t i = 0; i < elements.at(e).childCount; ++i) stack.push_back(elements.child(e, i));
-  }
+  std::vector<ElementId> leaves;
+  for (const auto& tops : {growth.woken, growth.asleep})
+    for (const ElementId top : tops) forEachLeafBelow(elements, top, [&](ElementId leaf) { leaves.push_back(leaf); });
   return leaves;
 }
 

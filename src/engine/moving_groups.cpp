@@ -27,15 +27,16 @@ void MovingGroups::setApart(RayTracer& tracer, const Scene& scene, std::span<con
 
 void MovingGroups::rebuild(RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> moved) {
   std::vector<PrimitiveId> loose;
-  for (const PrimitiveId p : moved)
-    if (groupOf(p) == GroupId(0)) loose.push_back(p);
-  if (!loose.empty()) setApart(tracer, scene, loose);
   std::vector<GroupId> groups;
-  for (const PrimitiveId p : moved) groups.push_back(groupOf(p));
-  if (!loose.empty()) std::erase(groups, groupOf(loose[0]));  // just built, as is what was rejoined
+  for (const PrimitiveId p : moved)
+    if (groupOf(p) == GroupId(0))
+      loose.push_back(p);
+    else
+      groups.push_back(groupOf(p));
   std::sort(groups.begin(), groups.end());
   groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
   for (const GroupId g : groups) tracer.rebuild(g);
+  if (!loose.empty()) setApart(tracer, scene, loose);
 }
 
 }  // namespace deltalux

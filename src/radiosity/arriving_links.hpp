@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "hierarchy/below.hpp"
 #include "radiosity/line_space.hpp"
 
 namespace deltalux {
@@ -53,14 +54,11 @@ class ArrivingLinks {
 
   /// What is marked has all below it marked.
   void markBelow(ElementId top, bool ofLights) {
-    std::vector<ElementId> stack{top};
-    while (!stack.empty()) {
-      const ElementId e = stack.back();
-      stack.pop_back();
-      if (flags_[e.index()] & kBelow << ofLights) continue;
+    forEachBelow(elements_, top, [&](ElementId e) {
+      if (flags_[e.index()] & kBelow << ofLights) return false;
       add(e, kBelow, ofLights);
-      for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) stack.push_back(elements_.child(e, i));
-    }
+      return true;
+    });
   }
 
   const Elements& elements_;

@@ -1,5 +1,6 @@
 #include "radiosity/facing.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "radiosity/rounding.hpp"

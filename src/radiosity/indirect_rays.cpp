@@ -28,6 +28,11 @@ struct IndirectSampler::Place {
   }
 };
 
+/// All rays between the two draw by it.
+std::uint64_t IndirectSampler::rayKey(ElementId leaf, ElementId sender) const {
+  return combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
+}
+
 bool IndirectSampler::isClosePatch(ElementId leaf, ElementId sender) const {
   return elements_.isPatch(sender) && areClose(elements_, leaf, sender);  // also when it has been split since
 }
@@ -54,9 +59,8 @@ SenderSample IndirectSampler::along(const ClosePair& pair, ElementId sender) con
 
 /// From a curved leaf to a flat sender close by: nodes do not tell their kernel.
 SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, int index) const {
-  const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
-  const auto pointAt = [&](double a, double b) { return samplePatch(elements_, scene_, leaf, a, b); };
-  const auto pair = sampleClosePair(elements_, scene_, pointAt, sender, key, index);
+  const Place place{*this, leaf, nullptr};
+  const auto pair = sampleClosePair(elements_, scene_, place, sender, rayKey(leaf, sender), index);
   if (!pair) return {};
   SenderSample s = along(*pair, sender);
   s.measures = true;
@@ -65,7 +69,7 @@ SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, i
 
 /// From a point of a curved sender close by to the leaf.
 SenderSample IndirectSampler::shootBack(ElementId leaf, ElementId sender, int index) const {
-  const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
+  const std::uint64_t key = rayKey(leaf, sender);
   const auto u = stratified4(key, index);
   const PatchPoint y = samplePatch(elements_, scene_, sender, u[0], u[1]);
   const auto pair = sampleClosePair(
@@ -86,7 +90,7 @@ SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index)
 }
 
 SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index, const PatchPoint* at) const {
-  const std::uint64_t key = combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
+  const std::uint64_t key = rayKey(leaf, sender);
   const Place place{*this, leaf, at};
   if (!exact(sender))
     return shootMeasured(sender, key, index, isClosePatch(leaf, sender) ? kCloseTries : kTries, place);

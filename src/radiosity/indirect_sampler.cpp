@@ -160,8 +160,7 @@ void IndirectSampler::dealBelow(ElementId leaf, const PatchPoint& x, const Term&
   for (std::size_t i = 0; i < guesses.size() && rays > 0; ++i) {
     if (!(guesses[i] > 0)) continue;
     const ElementId child = elements_.child(t.sender, i);
-    const int own =
-        shareOf(rays, guesses[i], rest, combineKeys(elements_.key[leaf.index()], elements_.key[child.index()]));
+    const int own = shareOf(rays, guesses[i], rest, rayKey(leaf, child));
     rays -= own, rest -= guesses[i];
     if (own == 0) continue;
     Term part{t.link, child, 0.0f, t.open, 0.0f};

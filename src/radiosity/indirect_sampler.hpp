@@ -77,8 +77,9 @@ class IndirectSampler {
   template <class KernelOf, class Visit>
   void dealBelow(ElementId leaf, const PatchPoint& x, const Term&, double expected, int rays, const KernelOf&,
                  const Visit&) const;
-  /// The ray of a dealt term, from a point or anywhere on the leaf (null); no leaf where no points face each other.
   struct Place;
+  std::uint64_t rayKey(ElementId leaf, ElementId sender) const;
+  /// The ray of a dealt term, from a point or anywhere on the leaf (null); no leaf where no points face each other.
   SenderSample shoot(ElementId leaf, ElementId sender, int index, const PatchPoint* at) const;
   SenderSample shootMeasured(ElementId sender, std::uint64_t key, int index, int tries, const Place&) const;
   SenderSample shoot(ElementId leaf, ElementId sender, int index) const;

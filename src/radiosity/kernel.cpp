@@ -221,7 +221,8 @@ Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, 
     result.averted = receiverReach <= roundingAlong(s.normal, r, s);
   }
   const bool curvedReceiver = !rt.flat && !clusterReceiver, curvedSender = !st.flat && st.kind == ElementKind::Patch;
-  if (!distant && ((curvedReceiver && turnsAway(r, s)) || (curvedSender && turnsAway(s, r)))) result.averted = true;
+  if (!result.averted && !distant && ((curvedReceiver && turnsAway(r, s)) || (curvedSender && turnsAway(s, r))))
+    result.averted = true;
   if (result.averted) return result;
   if ((clusterReceiver || clusterSender) && st.kind != ElementKind::Distant) {
     result.overlapping = elements.box(receiver).overlaps(elements.box(sender));

@@ -92,10 +92,7 @@ LinkMarks LineSpace::visit() const {
       const Finding& f = findings[i];
       const LinkId id = level[i];
       if (!f.met) continue;
-      if (f.touched) {
-        marks.changes.at(id.index()) = LinkChange::Touched;
-        marks.touched.push_back(id);
-      }
+      if (f.touched) marks.changes.at(id.index()) = LinkChange::Touched;
       if (f.moved || f.anew) {
         (f.moved ? marks.moved : marks.anew).push_back(id);
         if (f.lit) marks.lit.push_back(id);
@@ -114,8 +111,7 @@ void add(const LinkMarks& more, LinkMarks& marks) {
   const auto append = [](const std::vector<LinkId>& from, std::vector<LinkId>& to) {
     to.insert(to.end(), from.begin(), from.end());
   };
-  append(more.touched, marks.touched), append(more.anew, marks.anew);
-  append(more.moved, marks.moved), append(more.lit, marks.lit);
+  append(more.anew, marks.anew), append(more.moved, marks.moved), append(more.lit, marks.lit);
   marks.visited += more.visited;
 }
 

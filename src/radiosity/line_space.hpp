@@ -12,11 +12,10 @@
 namespace deltalux {
 
 struct LinkMarks {
-  LinkChanges changes;          // by link: Touched so far
-  std::vector<LinkId> touched;  // active links, and interior ones: rows may sample over both
-  std::vector<LinkId> anew;     // to be judged anew: what lies between their ends has changed
-  std::vector<LinkId> moved;    // to be judged anew: an end of theirs moved, or holds what moved
-  std::vector<LinkId> lit;      // from lights of which some moved: Changed in any case
+  LinkChanges changes;        // by link: Touched so far, active ones and interior ones: rows may sample over both
+  std::vector<LinkId> anew;   // to be judged anew: what lies between their ends has changed
+  std::vector<LinkId> moved;  // to be judged anew: an end of theirs moved, or holds what moved
+  std::vector<LinkId> lit;    // from lights of which some moved: Changed in any case
   std::uint64_t visited = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/paged_array.hpp"
+#include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
 
 namespace deltalux {
@@ -172,14 +173,7 @@ void addOtherSides(const Elements& elements, std::vector<ElementId>& leaves) {
   for (std::size_t i = 0; i < given; ++i) {
     if (isBlack(elements.radiometry[leaves[i].index()].tau)) continue;
     const ElementId other = otherSide(elements, leaves[i]);
-    std::vector<ElementId> stack;
-    if (other.valid()) stack.push_back(other);
-    while (!stack.empty()) {
-      const ElementId e = stack.back();
-      stack.pop_back();
-      if (elements.isLeaf(e)) leaves.push_back(e);
-      for (std::size_t c = 0; c < elements.at(e).childCount; ++c) stack.push_back(elements.child(e, c));
-    }
+    if (other.valid()) forEachLeafBelow(elements, other, [&](ElementId leaf) { leaves.push_back(leaf); });
   }
 }
 

@@ -58,9 +58,9 @@ const Sectors& sectors() {
   return all;
 }
 
-/// Logarithm in quarters of octaves, rounded down; 0 for what is nearer than any ray goes.
 constexpr int kNearestBits = 4 * (127 - 20);  // of 2^-20
 
+/// Logarithm in quarters of octaves, rounded down; 0 for what is nearer than any ray goes.
 std::uint8_t logarithm(float squared) {
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::sqrt(squared)) >> 21;
   return static_cast<std::uint8_t>(std::clamp(static_cast<int>(bits) - kNearestBits, 0, 254));

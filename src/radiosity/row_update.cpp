@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
 #include "radiosity/arriving_links.hpp"
 #include "radiosity/direct_rows.hpp"
@@ -20,22 +21,18 @@ constexpr int kByLights = 1, kByLeaves = 2;  // which row of a leaf is concerned
 
 /// Whether what moved may have covered some of the leaf, or may cover it now.
 bool uncovers(const Elements& elements, ElementId leaf, const SpaceChange& space) {
-  constexpr float kNear = 0.1f;  // of the leaf's radius
-  const ElementGeometry& g = elements.shape(leaf);
-  return space.meets(g.lower - kNear * g.radius, g.upper + kNear * g.radius);
+  const Box beside = SurfaceReaches::beside(elements.shape(leaf));
+  return space.meets(Vec3f(beside.lower), Vec3f(beside.upper));
 }
 
 /// Of the receiving leaves at or below `top` those that are not visited yet.
 template <class Visit>
 void visitLeaves(const Elements& elements, ElementId top, PagedArray<char>& visited, const Visit& visit) {
-  std::vector<ElementId> stack{top};
-  while (!stack.empty()) {
-    const ElementId e = stack.back();
-    stack.pop_back();
-    if (std::exchange(visited.at(e.index()), 1)) continue;
+  forEachBelow(elements, top, [&](ElementId e) {
+    if (std::exchange(visited.at(e.index()), 1)) return false;
     if (elements.isReceivingLeaf(e)) visit(e);
-    for (std::size_t i = 0; i < elements.at(e).childCount; ++i) stack.push_back(elements.child(e, i));
-  }
+    return true;
+  });
 }
 
 }  // namespace

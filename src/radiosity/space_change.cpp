@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "hierarchy/below.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -69,13 +71,7 @@ void SpaceChange::addMoved(std::span<const ElementId> inputs, const Elements& el
   moved_.grow(elements.size());
   for (const ElementId input : inputs) {
     if (elements.isPatch(input)) addMoved(elements.domain[input.index()].primitive, scene);
-    std::vector<ElementId> stack{input};
-    while (!stack.empty()) {
-      const ElementId e = stack.back();
-      stack.pop_back();
-      moved_.at(e.index()) = 1;
-      for (std::size_t c = 0; c < elements.at(e).childCount; ++c) stack.push_back(elements.child(e, c));
-    }
+    forEachBelow(elements, input, [&](ElementId e) { return moved_.at(e.index()) = 1; });
   }
   addInputs(inputs);
 }

@@ -64,6 +64,9 @@ class SpaceChange {
  private:
   /// Of balls along a ray, from one radius to another.
   bool meets(const Ray& axis, float from, float to) const;
+  void addInputs(std::span<const ElementId>);
+  void addObject(ObjectId top);
+  float furthest(const Vec3f& from) const;
 
   struct Part {
     Vec3f lower, upper;
@@ -72,10 +75,6 @@ class SpaceChange {
   std::vector<Part> parts_;
   std::vector<ElementId> inputs_;
   PagedArray<char> moved_;
-  void addInputs(std::span<const ElementId>);
-  void addObject(ObjectId top);
-  float furthest(const Vec3f& from) const;
-
   std::vector<ObjectId> tops_;      // of what moved; ascending
   std::vector<ObjectSet> objects_;  // each of one of them
 };

@@ -14,6 +14,10 @@ ElementId partOf(const Elements& elements, ElementId leaf) {
 
 }  // namespace
 
+Box SurfaceReaches::beside(const ElementGeometry& leaf) {
+  return {Vec3(leaf.lower - kBeside * leaf.radius), Vec3(leaf.upper + kBeside * leaf.radius)};
+}
+
 void SurfaceReaches::add(const Elements& elements, ElementId leaf, const TransferRow& direct,
                          const TransferRow& indirect) {
   const ElementGeometry& g = elements.shape(leaf);
@@ -25,7 +29,8 @@ void SurfaceReaches::add(const Elements& elements, ElementId leaf, const Transfe
     surfaces_.push_back({part, g.lower, g.upper, {}});
   }
   Surface& s = surfaces_[slot];
-  s.lower = glm::min(s.lower, g.lower - kBeside * g.radius), s.upper = glm::max(s.upper, g.upper + kBeside * g.radius);
+  const Box upon = beside(g);
+  s.lower = glm::min(s.lower, Vec3f(upon.lower)), s.upper = glm::max(s.upper, Vec3f(upon.upper));
   for (const RowReach* reach : {&direct.reach, &indirect.reach}) {
     reach->extend(g, s.lower, s.upper);
     s.objects.add(reach->objects);

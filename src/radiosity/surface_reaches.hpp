@@ -28,6 +28,9 @@ class SurfaceReaches {
   bool holds(const Elements&, ElementId leaf, const TransferRow&) const;
   std::size_t memoryBytes() const;
 
+  /// Of a leaf: where things are upon it, or nearly.
+  static Box beside(const ElementGeometry& leaf);
+
  private:
   struct Surface {
     ElementId element;
