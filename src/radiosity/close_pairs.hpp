@@ -40,15 +40,9 @@ std::optional<ClosePair> sampleClosePair(const Elements& elements, const Scene& 
     p = closePair(elements, scene, pointAt(u[2], u[3]), patch, i, u[0], u[1]);
     total += p.weight;
   }
-  if (!(total > 0)) return std::nullopt;
-  double rest = stratified4(combineKeys(key, kClosePairs), index)[0] * total;
-  ClosePair* picked = nullptr;
-  for (ClosePair& p : pairs) {
-    if (!(p.weight > 0)) continue;
-    picked = &p;
-    rest -= p.weight;
-    if (rest < 0) break;
-  }
+  const double u = stratified4(combineKeys(key, kClosePairs), index)[0];
+  ClosePair* picked = pickByWeight(std::span<ClosePair>(pairs), total, u);
+  if (!picked) return std::nullopt;
   picked->weight = total;
   return *picked;
 }

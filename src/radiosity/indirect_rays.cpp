@@ -1,5 +1,6 @@
 // Rays of rows: between which points of leaf and sender each passes, what it brings, and what a row remembers of it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/random.hpp"
@@ -107,19 +108,19 @@ SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index,
 /// Of a few pairs of points one in proportion to its kernel; their mean is its weight [TCE05].
 SenderSample IndirectSampler::shootMeasured(ElementId sender, std::uint64_t key, int index, int tries,
                                             const Place& place) const {
-  SenderSample picked;
+  std::array<SenderSample, kCloseTries> samples;
   double total = 0;
   for (int i = 0; i < tries; ++i) {
     const auto u = stratified4(combineKeys(key, static_cast<std::uint64_t>(i)), index);
-    const SenderSample s = sampleLeafOf(elements_, scene_, place(u[2], u[3]), sender, u[0], u[1]);
-    if (!(s.weight > 0)) continue;
+    SenderSample& s = samples[static_cast<std::size_t>(i)];
+    s = sampleLeafOf(elements_, scene_, place(u[2], u[3]), sender, u[0], u[1]);
     total += s.weight;
-    if (!(picked.weight > 0) ||
-        toUnit(mix64(combineKeys(key, static_cast<std::uint64_t>(index * tries + i)))) * total < s.weight)
-      picked = s;
   }
-  picked.weight = total / tries;
-  return picked;
+  const double u = stratified4(combineKeys(key, static_cast<std::uint64_t>(tries)), index)[0];
+  SenderSample* picked = pickByWeight(std::span(samples).first(static_cast<std::size_t>(tries)), total, u);
+  if (!picked) return {};
+  picked->weight = total / tries;
+  return *picked;
 }
 
 IndirectSampler::Found IndirectSampler::find(const Dealt& d, const SenderSample& s, std::uint64_t& traced) const {

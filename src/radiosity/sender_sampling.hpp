@@ -1,6 +1,7 @@
 #pragma once
 // Points of elements and rays between them: what visibility and final gathering sample alike.
 #include <array>
+#include <span>
 
 #include "hierarchy/patch.hpp"
 #include "tracing/ray.hpp"
@@ -10,6 +11,20 @@ namespace deltalux {
 /// Sample i of a four-dimensional sequence shifted by the key: stratified for any prefix (additive recurrence with the
 /// powers of the generalised golden ratio [Roberts 2018]).
 std::array<double, 4> stratified4(std::uint64_t key, int i);
+
+/// The item whose weight holds `u`, in [0,1), of the weights' sum `total`; null where none is above 0.
+template <class Item>
+Item* pickByWeight(std::span<Item> items, double total, double u) {
+  Item* picked = nullptr;
+  double rest = u * total;
+  for (Item& item : items) {
+    if (!(item.weight > 0)) continue;
+    picked = &item;
+    rest -= item.weight;
+    if (rest < 0) break;
+  }
+  return picked;
+}
 
 /// The child that holds the share `a` of the area, in [0,1); `a` is used up in part. Invalid when nothing has area.
 ElementId childByArea(const Elements&, ElementId, double& a);
