@@ -254,8 +254,7 @@ RowWork Engine::State::arrive(Motion& motion, const Growth& growth, StepReport& 
   OracleSettings oracle;
   oracle.error = s.settings.error * kLastError;
   RowWork work;
-  const RefineReport refined =
-      rejudge(s.links, s.elements, s.scene, *s.tracer, oracle, motion.all, marks, work.changed);
+  const RefineReport refined = rejudge(s.links, s.elements, s.scene, *s.tracer, oracle, marks, work.changed);
   DELTALUX_VALIDATED(validate(s.links, s.elements));
   s.report.counts.raysVisibility += refined.rays;
   step.linksChanged = work.changed.size();

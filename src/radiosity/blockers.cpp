@@ -159,16 +159,18 @@ bool provablyBlocked(const Elements& elements, const Scene& scene, ElementId rec
     const double uu = glm::dot(f.edgeU, f.edgeU), uv = glm::dot(f.edgeU, f.edgeV), vv = glm::dot(f.edgeV, f.edgeV);
     const double determinant = uu * vv - uv * uv;
     Vec2 lower(kInfinity), upper(-kInfinity);
-    for (std::size_t a = 0; a < rCount; ++a) {
-      for (std::size_t b = 0; b < sCount; ++b) {
+    bool within = true;
+    for (std::size_t a = 0; a < rCount && within; ++a) {
+      for (std::size_t b = 0; b < sCount && within; ++b) {
         const double t = rHeight[a] / (rHeight[a] - sHeight[b]);
         const Vec3 q = glm::mix(r[a], s[b], t) - f.origin;
         const double qu = glm::dot(q, f.edgeU), qv = glm::dot(q, f.edgeV);
         const Vec2 p{(qu * vv - qv * uv) / determinant, (qv * uu - qu * uv) / determinant};
         lower = glm::min(lower, p), upper = glm::max(upper, p);
+        within = p.x >= 0 && p.y >= 0 && p.x <= 1 && p.y <= 1;
       }
     }
-    if (lower.x < 0 || lower.y < 0 || upper.x > 1 || upper.y > 1) continue;
+    if (!within) continue;
     const auto outline = elements.outline(c);
     if (!outlineContains(outline, 0.5 * (lower + upper))) continue;
     bool inside = true;

@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "radiosity/blockers.hpp"
+#include "radiosity/link_samples.hpp"
 #include "radiosity/visibility.hpp"
 
 namespace deltalux {
@@ -12,6 +13,7 @@ constexpr float kBeside = 1.05f;  // of the angle of a sky's cell: no direction 
 
 struct LineSpace::Finding {
   bool met = false, touched = false, moved = false, anew = false, lit = false;
+  std::uint32_t rays = 0;  // that sampled it and may fare otherwise
 };
 
 LineSpace::LineSpace(const Links& links, const Elements& elements, const Scene& scene, const SpaceChange& change,
@@ -52,10 +54,8 @@ LineSpace::Finding LineSpace::examine(LinkId id) const {
   if (!f.met) return f;
   // What samples tell stands as long as no ray of theirs meets what moved. Where few were taken, little comes over the
   // link or it was split for its kernel: what they tell only shares out the rays of rows.
-  const auto resampled = [&] {
-    return !f.moved && l.visibility == Visibility::Sampled && l.samples > kFewSamples && (left || l.sampleMask != 0) &&
-           samplesMeet(elements_, scene_, l, change_, before_);
-  };
+  if (!f.moved && l.visibility == Visibility::Sampled && l.samples > kFewSamples && (left || l.sampleMask != 0))
+    f.rays = LinkSamples(elements_, scene_, l.receiver, l.sender).meeting(l.samples, l.sampleMask, change_, before_);
   switch (l.state) {
     case LinkState::Free:
       f.moved = false;
@@ -65,14 +65,14 @@ LineSpace::Finding LineSpace::examine(LinkId id) const {
     case LinkState::Interior:
       f.touched = true;  // rows may sample over it since before it was split
       // One that was refined for its shadow may no longer need to be; clusters with what moved stay refined.
-      f.anew = resampled();
+      f.anew = f.rays != 0;
       f.moved = f.moved && (change_.moved(l.receiver) || change_.moved(l.sender));
       break;
     case LinkState::Active:
       f.touched = l.visibility != Visibility::Blocked;
       f.lit = elements_.at(l.sender).emitter && involved(l.sender);
       f.anew = (l.visibility == Visibility::Clear && arrives) ||
-               (l.visibility == Visibility::Blocked && left && heldBack(l)) || resampled();
+               (l.visibility == Visibility::Blocked && left && heldBack(l)) || f.rays != 0;
       break;
   }
   return f;
@@ -93,10 +93,11 @@ LinkMarks LineSpace::visit() const {
       const LinkId id = level[i];
       if (!f.met) continue;
       if (f.touched) marks.changes.at(id.index()) = LinkChange::Touched;
-      if (f.moved || f.anew) {
-        (f.moved ? marks.moved : marks.anew).push_back(id);
-        if (f.lit) marks.lit.push_back(id);
-      }
+      if (f.moved)
+        marks.moved.push_back(id);
+      else if (f.anew)
+        marks.anew.push_back({id, f.rays});
+      if (f.lit && (f.moved || f.anew)) marks.lit.push_back(id);
       for (std::size_t c = 0; c < links_[id].childCount; ++c) next.push_back(links_.child(id, c));
     }
     std::swap(level, next);
@@ -108,9 +109,7 @@ void add(const LinkMarks& more, LinkMarks& marks) {
   if (marks.changes.empty()) marks.changes = LinkChanges(more.changes.size(), LinkChange::None);
   more.changes.forEach(
       [&](std::size_t i, LinkChange change) { marks.changes.at(i) = std::max(marks.changes[i], change); });
-  const auto append = [](const std::vector<LinkId>& from, std::vector<LinkId>& to) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
+  const auto append = [](const auto& from, auto& to) { to.insert(to.end(), from.begin(), from.end()); };
   append(more.anew, marks.anew), append(more.moved, marks.moved), append(more.lit, marks.lit);
   marks.visited += more.visited;
 }

@@ -11,11 +11,17 @@
 
 namespace deltalux {
 
+/// A link between whose ends something has changed.
+struct DisturbedLink {
+  LinkId link;
+  std::uint32_t rays = 0;  // which of those that sampled it may fare otherwise, by bits
+};
+
 struct LinkMarks {
-  LinkChanges changes;        // by link: Touched so far, active ones and interior ones: rows may sample over both
-  std::vector<LinkId> anew;   // to be judged anew: what lies between their ends has changed
-  std::vector<LinkId> moved;  // to be judged anew: an end of theirs moved, or holds what moved
-  std::vector<LinkId> lit;    // from lights of which some moved: Changed in any case
+  LinkChanges changes;              // by link: Touched so far, active and interior ones: rows may sample over both
+  std::vector<DisturbedLink> anew;  // to be judged anew
+  std::vector<LinkId> moved;        // to be judged anew: an end of theirs moved, or holds what moved
+  std::vector<LinkId> lit;          // from lights of which some moved: Changed in any case
   std::uint64_t visited = 0;
 };
 

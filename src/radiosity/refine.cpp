@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "hierarchy/patch.hpp"
@@ -14,8 +16,9 @@ namespace deltalux {
 namespace {
 
 constexpr int kSomeSamples = 8, kManySamples = 16;
-constexpr float kFineCell = 0.2f;     // radians: sky cells larger than this are split before the surface they light
-constexpr float kFinestCell = 0.06f;  // radians: smaller ones are not split
+constexpr std::size_t kShortList = 8;  // of blockers: sooner looked through than rays are traced
+constexpr float kFineCell = 0.2f;      // radians: sky cells larger than this are split before the surface they light
+constexpr float kFinestCell = 0.06f;   // radians: smaller ones are not split
 
 enum class Mark : char {
   None,
@@ -53,9 +56,9 @@ class Judge {
   Judge(const Elements& elements, const Scene& scene, const RayTracer& tracer, const OracleSettings& settings)
       : elements_(elements), scene_(scene), tracer_(tracer), oracle_(elements, settings) {}
 
-  /// `candidates` are the parent's blockers; the link's own are appended to `arena`. Visibility is sampled by `least`
-  /// rays at least, when it is. `seen`: the ends saw each other before; then rays come first, and proof when none
-  /// passes.
+  /// `candidates` are the parent's blockers; the link's own are appended to `arena`, when something is to be below it
+  /// or they may prove something. Visibility is sampled by `least` rays at least, when it is. `seen`: the ends saw each
+  /// other before, or those of the parent do; then rays come first, and proof when none or all pass.
   Verdict judge(Link link, int least, const ElementId* candidates, std::size_t count, Blockers& arena,
                 bool seen = false) const {
     Verdict v;
@@ -74,17 +77,31 @@ class Judge {
       v.link = link;
       return v;
     }
-    if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) {
-      shrink(link, candidates, count, v, arena);
-      if (v.blockers.count == 0 && solidEnds(link)) {
+    bool shrunk = false;
+    const auto ownBlockers = [&] {
+      if (!std::exchange(shrunk, true)) shrink(link, candidates, count, v, arena);
+      return v.blockers.count;
+    };
+    const bool solid = solidEnds(link), unknown = link.visibility == Visibility::Unknown;
+    if (unknown && !(seen && (count > kShortList || !solid))) {
+      if (ownBlockers() == 0 && solid)
         seeClear(link);
-      } else if (link.visibility == Visibility::Unknown && !seen) {
+      else if (!seen)
         proveBlocked(link, v, arena);
-      }
     }
-    if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) look(link, least, v);
-    if (seen && link.visibility == Visibility::Sampled && isBlack(link.V)) proveBlocked(link, v, arena);
+    if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) {
+      VisibilitySamples samples(elements_, scene_, tracer_, link.receiver, link.sender);
+      look(link, least, samples);
+      v.rays = static_cast<std::uint16_t>(samples.traced());
+    }
+    if (unknown && seen && link.visibility == Visibility::Sampled) {
+      if (isBlack(link.V))
+        ownBlockers(), proveBlocked(link, v, arena);
+      else if (solid && allPass(link) && ownBlockers() == 0)
+        seeClear(link);
+    }
     v.split = choose(link);
+    if (v.split != Split::None || link.childCount > 0) ownBlockers();
     v.link = link;
     return v;
   }
@@ -105,29 +122,34 @@ class Judge {
     return v;
   }
 
-  /// A link between whose ends something has moved. Its kernel stands, and so do the samples that did not meet it.
-  Verdict judgeBetween(Link link, const SpaceChange& change, const ElementId* candidates, std::size_t count,
+  /// A link between whose ends something has moved. Its kernel stands, and so do the samples but for `rays`, by bits.
+  Verdict judgeBetween(Link link, std::uint32_t rays, const ElementId* candidates, std::size_t count,
                        Blockers& arena) const {
     if (link.visibility != Visibility::Sampled) {
       link.state = LinkState::Active, link.visibility = Visibility::Unknown, link.samples = 0;
       return judge(link, 0, candidates, count, arena);
     }
     Verdict v;
-    int rays = 0;
-    const VisibilityEstimate e = resampleVisibility(elements_, scene_, tracer_, link, change, rays);
-    v.rays = static_cast<std::uint16_t>(rays);
+    VisibilitySamples samples(elements_, scene_, tracer_, link.receiver, link.sender);
+    const VisibilityEstimate e = samples.renewed(link, rays);
     const bool same = e.V == link.V && e.mask == link.sampleMask;
     link.V = e.V, link.sampleMask = e.mask, link.visibilitySpread = e.spread;
     if (same) {
       keep(candidates, count, v, arena);
     } else {
-      shrink(link, candidates, count, v, arena);
-      if (isBlack(e.V)) proveBlocked(link, v, arena);
-      if (v.blockers.count == 0 && solidEnds(link)) seeClear(link);
-      if (link.visibility == Visibility::Sampled) look(link, link.samples, v);
+      bool shrunk = false;
+      const auto ownBlockers = [&] {
+        if (!std::exchange(shrunk, true)) shrink(link, candidates, count, v, arena);
+        return v.blockers.count;
+      };
+      if (isBlack(e.V)) ownBlockers(), proveBlocked(link, v, arena);
+      if (solidEnds(link) && allPass(link) && ownBlockers() == 0) seeClear(link);
+      if (link.visibility == Visibility::Sampled) look(link, link.samples, samples);
       link.state = LinkState::Active;
       v.split = choose(link);
+      if (v.split != Split::None || link.childCount > 0) ownBlockers();
     }
+    v.rays = static_cast<std::uint16_t>(samples.traced());
     v.link = link;
     return v;
   }
@@ -167,13 +189,17 @@ class Judge {
     link.visibility = Visibility::Blocked;
     link.V = Rgb(0.0f);
     link.visibilitySpread = 0;
+    link.samples = 0, link.sampleMask = 0;
   }
 
   static void seeClear(Link& link) {
     link.visibility = Visibility::Clear;
     link.V = Rgb(1.0f);
     link.visibilitySpread = 0;
+    link.samples = 0, link.sampleMask = 0;
   }
+
+  static bool allPass(const Link& link) { return link.V == Rgb(1.0f); }
 
   bool sends(ElementId sender) const {
     const ElementTopology& s = elements_.at(sender);
@@ -191,11 +217,10 @@ class Judge {
   }
 
   /// Few rays, and more when the kernel alone does not already demand a split.
-  void look(Link& link, int least, Verdict& v) const {
-    const auto take = [&](int samples) {
-      if (samples <= link.samples) return;
-      const VisibilityEstimate e = sampleVisibility(elements_, scene_, tracer_, link.receiver, link.sender, samples);
-      v.rays = static_cast<std::uint16_t>(v.rays + samples);
+  void look(Link& link, int least, VisibilitySamples& samples) const {
+    const auto take = [&](int count) {
+      if (count <= link.samples) return;
+      const VisibilityEstimate e = samples.estimate(static_cast<std::size_t>(count));
       link.V = e.V, link.sampleMask = e.mask, link.visibilitySpread = e.spread, link.samples = e.samples;
       link.visibility = Visibility::Sampled;
     };
@@ -352,14 +377,14 @@ bool samePlan(const Link& before, const Link& after) {
 class Descent {
  public:
   Descent(Links& links, Elements& elements, const Scene& scene, const RayTracer& tracer, const OracleSettings& settings,
-          Marks marks, const SpaceChange* change = nullptr)
+          Marks marks, std::span<const DisturbedLink> disturbed = {})
       : links_(links),
         elements_(elements),
         scene_(scene),
         tracer_(tracer),
         settings_(settings),
         marks_(std::move(marks)),
-        change_(change) {}
+        disturbed_(disturbed) {}
 
   /// Told of every link that is freed or made, and of every one over which rows have to be dealt anew.
   std::function<void(LinkId)> renewed = [](LinkId) {}, changed = [](LinkId) {};
@@ -415,11 +440,18 @@ class Descent {
       return judge.passUnseen(link, candidates, t.candidates.count, arena);
     if (t.mark == Mark::Path && link.state == LinkState::Interior)
       return judge.pass(link, candidates, t.candidates.count, arena);
-    if (t.mark == Mark::Between) return judge.judgeBetween(link, *change_, candidates, t.candidates.count, arena);
+    if (t.mark == Mark::Between) return judge.judgeBetween(link, raysOf(t.link), candidates, t.candidates.count, arena);
     const int least = t.mark == Mark::Ends ? link.samples : 0;
-    const bool seen = t.mark == Mark::Ends && link.visibility == Visibility::Sampled && !isBlack(link.V);
+    const Link& by = t.mark == Mark::Ends || !link.parent.valid() ? link : links_[link.parent];
+    const bool seen = by.visibility == Visibility::Sampled && !isBlack(by.V);
     if (t.mark == Mark::Ends) link.state = LinkState::Active, link.visibility = Visibility::Unknown, link.samples = 0;
     return judge.judge(link, least, candidates, t.candidates.count, arena, seen);
+  }
+
+  std::uint32_t raysOf(LinkId id) const {
+    return std::lower_bound(disturbed_.begin(), disturbed_.end(), id,
+                            [](const DisturbedLink& d, LinkId link) { return d.link < link; })
+        ->rays;
   }
 
   void commit(const Task& task, Verdict& v, bool stopping, std::vector<Task>& next) {
@@ -474,7 +506,7 @@ class Descent {
   const RayTracer& tracer_;
   const OracleSettings& settings_;
   Marks marks_;
-  const SpaceChange* change_;  // of links marked Between
+  std::span<const DisturbedLink> disturbed_;  // those marked Between, by their ids
   RefineReport report_;
 };
 
@@ -498,18 +530,19 @@ RefineReport refine(Links& links, Elements& elements, const Scene& scene, const 
 }
 
 RefineReport rejudge(Links& links, Elements& elements, const Scene& scene, const RayTracer& tracer,
-                     const OracleSettings& settings, const SpaceChange& change, LinkMarks& marked,
-                     std::vector<LinkId>& changed) {
+                     const OracleSettings& settings, LinkMarks& marked, std::vector<LinkId>& changed) {
+  std::sort(marked.anew.begin(), marked.anew.end(),
+            [](const DisturbedLink& a, const DisturbedLink& b) { return a.link < b.link; });
   Marks marks(links.size());
-  for (const LinkId id : marked.anew) marks.at(id.index()) = Mark::Between;
+  for (const DisturbedLink& d : marked.anew) marks.at(d.link.index()) = Mark::Between;
   for (const LinkId id : marked.moved) marks.at(id.index()) = Mark::Ends;
   for (const LinkId id : marked.moved) markAbove(links, marks, id, Mark::Path);
-  for (const LinkId id : marked.anew)
-    markAbove(links, marks, id, links[id].visibility == Visibility::Sampled ? Mark::Way : Mark::Path);
+  for (const DisturbedLink& d : marked.anew)
+    markAbove(links, marks, d.link, links[d.link].visibility == Visibility::Sampled ? Mark::Way : Mark::Path);
   const std::size_t known = marked.changes.size();
   for (const LinkId root : links.roots)
     if (root.index() >= known) marks.at(root.index()) = Mark::Path;
-  Descent descent(links, elements, scene, tracer, settings, std::move(marks), &change);
+  Descent descent(links, elements, scene, tracer, settings, std::move(marks), marked.anew);
   descent.renewed = [&](LinkId id) {
     if (id.index() < known) marked.changes.at(id.index()) = LinkChange::Changed;
   };

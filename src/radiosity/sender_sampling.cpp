@@ -1,7 +1,6 @@
 #include "radiosity/sender_sampling.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/random.hpp"
 #include "radiosity/kernel.hpp"
@@ -10,7 +9,8 @@ namespace deltalux {
 
 namespace {
 
-double fraction(double x) { return x - std::floor(x); }
+/// Of what is not negative.
+double fraction(double x) { return x - static_cast<double>(static_cast<std::int64_t>(x)); }
 
 }  // namespace
 
@@ -30,11 +30,15 @@ ElementId childByArea(const Elements& elements, ElementId e, double& a) {
   return picked;
 }
 
-std::array<double, 4> stratified4(std::uint64_t key, int i) {
+Stratified4::Stratified4(std::uint64_t key) {
+  for (std::size_t k = 0; k < 4; ++k) start_[k] = toUnit(mix64(key + k));
+}
+
+std::array<double, 4> Stratified4::operator[](int i) const {
   static constexpr std::array<double, 4> step = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
                                                  0.5385972572236101};
-  std::array<double, 4> u{};
-  for (std::size_t k = 0; k < 4; ++k) u[k] = fraction(toUnit(mix64(key + k)) + (i + 1) * step[k]);
+  std::array<double, 4> u;
+  for (std::size_t k = 0; k < 4; ++k) u[k] = fraction(start_[k] + (i + 1) * step[k]);
   return u;
 }
 

@@ -8,9 +8,18 @@
 
 namespace deltalux {
 
-/// Sample i of a four-dimensional sequence shifted by the key: stratified for any prefix (additive recurrence with the
-/// powers of the generalised golden ratio [Roberts 2018]).
-std::array<double, 4> stratified4(std::uint64_t key, int i);
+/// A four-dimensional sequence shifted by the key: stratified for any prefix (additive recurrence with the powers of
+/// the generalised golden ratio [Roberts 2018]).
+class Stratified4 {
+ public:
+  explicit Stratified4(std::uint64_t key);
+  /// Sample i, from 0.
+  std::array<double, 4> operator[](int i) const;
+
+ private:
+  std::array<double, 4> start_;
+};
+inline std::array<double, 4> stratified4(std::uint64_t key, int i) { return Stratified4(key)[i]; }
 
 /// The item whose weight holds `u`, in [0,1), of the weights' sum `total`; null where none is above 0.
 template <class Item>

@@ -1,9 +1,14 @@
 #include "radiosity/shaft.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace deltalux {
 
 Shaft::Shaft(const ElementGeometry& a, const ElementGeometry& b)
     : lower_(glm::min(a.lower, b.lower)), upper_(glm::max(a.upper, b.upper)) {
+  offset_.fill(std::numeric_limits<float>::max());
+  std::size_t count = 0;
   // Seen along each axis the boxes are two rectangles. A line through the same corner of both bounds their hull when
   // its outward normal points to that corner's quadrant.
   for (int axis = 0; axis < 3; ++axis) {
@@ -16,10 +21,11 @@ Shaft::Shaft(const ElementGeometry& a, const ElementGeometry& b)
       const float si = highI ? 1.0f : -1.0f, sj = highJ ? 1.0f : -1.0f;
       if (ni * si < 0 || nj * sj < 0) ni = -ni, nj = -nj;
       if (ni * si <= 0 || nj * sj <= 0) continue;
-      Plane& plane = planes_[static_cast<std::size_t>(count_++)];
-      plane.normal = Vec3f(0.0f);
-      plane.normal[i] = ni, plane.normal[j] = nj;
-      plane.offset = std::max(ni * ai + nj * aj, ni * bi + nj * bj);
+      const auto setNormal = [&](int along, float n) {
+        positive_[along][count] = std::max(n, 0.0f), negative_[along][count] = std::min(n, 0.0f);
+      };
+      setNormal(i, ni), setNormal(j, nj);
+      offset_[count++] = std::max(ni * ai + nj * aj, ni * bi + nj * bj);
     }
   }
 }
@@ -27,13 +33,13 @@ Shaft::Shaft(const ElementGeometry& a, const ElementGeometry& b)
 bool Shaft::meets(const Vec3f& lower, const Vec3f& upper) const {
   if (lower.x > upper_.x || lower.y > upper_.y || lower.z > upper_.z) return false;
   if (upper.x < lower_.x || upper.y < lower_.y || upper.z < lower_.z) return false;
-  for (int k = 0; k < count_; ++k) {
-    const Plane& p = planes_[static_cast<std::size_t>(k)];
-    const Vec3f nearest{p.normal.x > 0 ? lower.x : upper.x, p.normal.y > 0 ? lower.y : upper.y,
-                        p.normal.z > 0 ? lower.z : upper.z};
-    if (glm::dot(p.normal, nearest) > p.offset) return false;
+  int beyond = 0;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    float nearest = 0;
+    for (int axis = 0; axis < 3; ++axis) nearest += positive_[axis][k] * lower[axis] + negative_[axis][k] * upper[axis];
+    beyond |= nearest > offset_[k];
   }
-  return true;
+  return beyond == 0;
 }
 
 }  // namespace deltalux

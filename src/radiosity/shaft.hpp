@@ -15,13 +15,14 @@ class Shaft {
   bool meets(const Vec3f& lower, const Vec3f& upper) const;
 
  private:
-  struct Plane {
-    Vec3f normal;  // outward
-    float offset;  // the hull has normal . p <= offset
-  };
+  static constexpr std::size_t kLanes = 16;
+  using Lanes = std::array<float, kLanes>;
+
   Vec3f lower_, upper_;
-  std::array<Plane, 12> planes_;
-  int count_ = 0;
+  // Of planes, up to twelve: the hull has n . p <= offset, n outward. What of n is positive, and what is negative; rest
+  // lanes have no limit.
+  std::array<Lanes, 3> positive_{}, negative_{};
+  Lanes offset_;
 };
 
 }  // namespace deltalux

@@ -62,9 +62,7 @@ void SpaceChange::add(const Box& box) {
   if (box.empty()) return;
   const Vec3f size = glm::max(glm::abs(Vec3f(box.lower)), glm::abs(Vec3f(box.upper)));
   const Vec3f slack(kSlack * std::max({size.x, size.y, size.z, 1e-3f}));
-  parts_.push_back({Vec3f(box.lower) - slack, Vec3f(box.upper) + slack});
-  all_.lower = glm::min(all_.lower, parts_.back().lower);
-  all_.upper = glm::max(all_.upper, parts_.back().upper);
+  parts_.add({Vec3f(box.lower) - slack, Vec3f(box.upper) + slack});
 }
 
 void SpaceChange::addMoved(std::span<const ElementId> inputs, const Elements& elements, const Scene& scene) {
@@ -93,9 +91,7 @@ void SpaceChange::addObject(ObjectId top) {
 
 void SpaceChange::add(const SpaceChange& more) {
   for (const ObjectId top : more.tops_) addObject(top);
-  parts_.insert(parts_.end(), more.parts_.begin(), more.parts_.end());
-  all_.lower = glm::min(all_.lower, more.all_.lower);
-  all_.upper = glm::max(all_.upper, more.all_.upper);
+  parts_.add(more.parts_);
   moved_.grow(more.moved_.size());
   more.moved_.forEach([&](std::size_t i, char moved) { moved_.at(i) |= moved; });
   addInputs(more.inputs_);
@@ -103,7 +99,7 @@ void SpaceChange::add(const SpaceChange& more) {
 
 float SpaceChange::nearness(const Vec3f& center, float radius) const {
   float most = 0;
-  for (const Part& p : parts_) {
+  for (const BoxGroups::Part& p : parts_.parts()) {
     const Vec3f d = center - 0.5f * (p.lower + p.upper), half = 0.5f * (p.upper - p.lower) + radius;
     const float size = glm::dot(half, half);
     most = std::max(most, size / std::max(glm::dot(d, d), size));
@@ -112,20 +108,17 @@ float SpaceChange::nearness(const Vec3f& center, float radius) const {
 }
 
 bool SpaceChange::meets(const Shaft& shaft) const {
-  if (parts_.empty() || !shaft.meets(all_.lower, all_.upper)) return false;
-  return std::any_of(parts_.begin(), parts_.end(), [&](const Part& p) { return shaft.meets(p.lower, p.upper); });
+  return parts_.any([&](const Vec3f& lower, const Vec3f& upper) { return shaft.meets(lower, upper); });
 }
 
 bool SpaceChange::meets(const Ray& ray) const {
-  if (parts_.empty() || !segmentMeets(all_.lower, all_.upper, ray)) return false;
-  return std::any_of(parts_.begin(), parts_.end(), [&](const Part& p) { return segmentMeets(p.lower, p.upper, ray); });
+  return parts_.any([&](const Vec3f& lower, const Vec3f& upper) { return segmentMeets(lower, upper, ray); });
 }
 
 bool SpaceChange::meets(const Vec3f& lower, const Vec3f& upper) const {
-  const auto overlap = [&](const Part& p) {
-    return glm::all(glm::lessThanEqual(p.lower, upper)) && glm::all(glm::lessThanEqual(lower, p.upper));
-  };
-  return overlap(all_) && std::any_of(parts_.begin(), parts_.end(), overlap);
+  return parts_.any([&](const Vec3f& low, const Vec3f& high) {
+    return glm::all(glm::lessThanEqual(low, upper)) && glm::all(glm::lessThanEqual(lower, high));
+  });
 }
 
 bool SpaceChange::meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const {
@@ -133,41 +126,41 @@ bool SpaceChange::meets(const Vec3f& a, float radiusA, const Vec3f& b, float rad
 }
 
 bool SpaceChange::meets(const Ray& axis, float from, float to) const {
-  const auto meet = [&](const Part& p) { return ballsMeet(p.lower, p.upper, axis, from, to); };
-  if (parts_.empty() || !meet(all_)) return false;
-  return parts_.size() == 1 || std::any_of(parts_.begin(), parts_.end(), meet);
+  return parts_.any([&](const Vec3f& lower, const Vec3f& upper) { return ballsMeet(lower, upper, axis, from, to); });
 }
 
 std::optional<double> SpaceChange::seenFrom(const Vec3f& center, float radius, Vec3& axis) const {
   constexpr double kWide = 0.9;  // sine
-  const Vec3 d = 0.5 * (Vec3(all_.lower) + Vec3(all_.upper)) - Vec3(center);
-  const double distance = glm::length(d), size = 0.5 * glm::length(Vec3(all_.upper) - Vec3(all_.lower)) + radius;
-  if (parts_.empty() || !(size < kWide * distance)) return std::nullopt;
+  const Vec3 d = 0.5 * (Vec3(parts_.all().lower) + Vec3(parts_.all().upper)) - Vec3(center);
+  const double distance = glm::length(d),
+               size = 0.5 * glm::length(Vec3(parts_.all().upper) - Vec3(parts_.all().lower)) + radius;
+  if (empty() || !(size < kWide * distance)) return std::nullopt;
   axis = d / distance;
   return std::asin(size / distance);
 }
 
 bool SpaceChange::within(const Box& box) const {
-  return glm::all(glm::lessThanEqual(Vec3f(box.lower), all_.lower)) &&
-         glm::all(glm::lessThanEqual(all_.upper, Vec3f(box.upper)));
+  return glm::all(glm::lessThanEqual(Vec3f(box.lower), parts_.all().lower)) &&
+         glm::all(glm::lessThanEqual(parts_.all().upper, Vec3f(box.upper)));
 }
 
 bool SpaceChange::behind(const Vec3f& point, const Vec3f& normal) const {
-  if (parts_.empty()) return false;
-  const Vec3f middle = 0.5f * (all_.lower + all_.upper), half = 0.5f * (all_.upper - all_.lower);
+  if (empty()) return false;
+  const Vec3f middle = 0.5f * (parts_.all().lower + parts_.all().upper),
+              half = 0.5f * (parts_.all().upper - parts_.all().lower);
   return glm::dot(middle - point, normal) + glm::dot(half, glm::abs(normal)) < 0;
 }
 
 void SpaceChange::meetsRays(const ElementGeometry& from, std::span<const RayCode> rays,
                             std::vector<std::uint32_t>& out) const {
-  if (parts_.empty()) return;
+  if (empty()) return;
   constexpr float kLeast = 1e-6f;  // of a coordinate of a direction
   constexpr std::size_t kMost = 64;
   // As far as a ray of the box, or one whose direction is not quite the coded one, may be from that of its middle.
   const Vec3f center = 0.5f * (from.lower + from.upper), half = 0.5f * (from.upper - from.lower);
-  const Vec3f far = glm::max(glm::abs(all_.lower - center), glm::abs(all_.upper - center));
+  const Vec3f far = glm::max(glm::abs(parts_.all().lower - center), glm::abs(parts_.all().upper - center));
   const Vec3f grown = half + 1.05f * kDirectionCodeError * glm::length(far + half);
-  const Vec3f lower = all_.lower - grown - center, upper = all_.upper + grown - center;
+  const Vec3f lower = parts_.all().lower - grown - center, upper = parts_.all().upper + grown - center;
   std::array<std::uint8_t, kMost> meets;
   for (std::size_t begin = 0; begin < rays.size(); begin += kMost) {
     const std::size_t count = std::min(kMost, rays.size() - begin);
@@ -191,24 +184,24 @@ void SpaceChange::meetsRays(const ElementGeometry& from, std::span<const RayCode
 }
 
 bool SpaceChange::meetsBeam(const Vec3f& center, float radius, const Vec3f& direction, float angle) const {
-  if (parts_.empty()) return false;
+  if (empty()) return false;
   if (angle > kWidest) return true;
   const float end = furthest(center) + radius;
   return meets(Ray{center, 0.0f, direction, end}, radius, radius + end * tangent(angle));
 }
 
 bool SpaceChange::meetsBeam(const ElementGeometry& from, const Vec3f& direction, float angle) const {
-  if (parts_.empty()) return false;
+  if (empty()) return false;
   if (angle > kWidest) return true;
   const Vec3f center = 0.5f * (from.lower + from.upper), half = 0.5f * (from.upper - from.lower);
   const float end = angle > 0 ? furthest(center) + glm::length(half) : std::numeric_limits<float>::max();
-  return ballsMeet(all_.lower - half, all_.upper + half, Ray{center, 0.0f, direction, end}, 0.0f,
+  return ballsMeet(parts_.all().lower - half, parts_.all().upper + half, Ray{center, 0.0f, direction, end}, 0.0f,
                    angle > 0 ? end * tangent(angle) : 0.0f);
 }
 
 /// How far the boxes reach from a point.
 float SpaceChange::furthest(const Vec3f& from) const {
-  return glm::length(glm::max(glm::abs(all_.lower - from), glm::abs(all_.upper - from)));
+  return glm::length(glm::max(glm::abs(parts_.all().lower - from), glm::abs(parts_.all().upper - from)));
 }
 
 }  // namespace deltalux

@@ -8,6 +8,7 @@
 
 #include "base/paged_array.hpp"
 #include "hierarchy/link.hpp"
+#include "radiosity/box_groups.hpp"
 #include "radiosity/ray_code.hpp"
 #include "radiosity/row_reach.hpp"
 #include "radiosity/shaft.hpp"
@@ -43,7 +44,7 @@ class SpaceChange {
   bool meets(const Vec3f& lower, const Vec3f& upper) const;
   /// Of what the rays of a leaf's row pass through, end at, or would.
   bool meets(const ElementGeometry& leaf, const RowReach& reach) const {
-    return meets(reach.objects) || (!parts_.empty() && reach.meets(leaf, all_.lower, all_.upper));
+    return meets(reach.objects) || (!empty() && reach.meets(leaf, parts_.all().lower, parts_.all().upper));
   }
   /// Of the convex hull of two balls.
   bool meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const;
@@ -68,11 +69,7 @@ class SpaceChange {
   void addObject(ObjectId top);
   float furthest(const Vec3f& from) const;
 
-  struct Part {
-    Vec3f lower, upper;
-  };
-  Part all_{Vec3f(std::numeric_limits<float>::infinity()), Vec3f(-std::numeric_limits<float>::infinity())};
-  std::vector<Part> parts_;
+  BoxGroups parts_;
   std::vector<ElementId> inputs_;
   PagedArray<char> moved_;
   std::vector<ObjectId> tops_;      // of what moved; ascending

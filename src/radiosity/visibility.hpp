@@ -1,14 +1,12 @@
 #pragma once
-// Visibility of a link by stratified rays between points of its ends, weighted by the kernel. Points of clusters are
-// points of their surfaces, so that what a cluster hides of itself counts. The samples depend on the link's stable key
-// alone, and more samples extend the same sequence.
+// Visibility of a link by stratified rays between points of its ends (link_samples.hpp).
 #include "hierarchy/link.hpp"
-#include "radiosity/space_change.hpp"
+#include "radiosity/link_samples.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
 
-inline constexpr int kMaxSamples = 32;
+inline constexpr std::size_t kMaxSamples = 32;
 inline constexpr int kFewSamples = 4;  // of links that bring little, or are split for their kernel
 
 struct VisibilityEstimate {
@@ -18,20 +16,32 @@ struct VisibilityEstimate {
   std::uint8_t samples = 0;
 };
 
-/// `samples` in 1..kMaxSamples rays.
-VisibilityEstimate sampleVisibility(const Elements&, const Scene&, const RayTracer&, ElementId receiver,
-                                    ElementId sender, int samples);
+/// The samples of one link as they are taken, a few at first.
+class VisibilitySamples {
+ public:
+  /// All must outlive this.
+  VisibilitySamples(const Elements&, const Scene&, const RayTracer&, ElementId receiver, ElementId sender);
 
-/// The link's samples as they are after a move: only those rays are traced that meet what has moved. `rays` counts
-/// them.
-VisibilityEstimate resampleVisibility(const Elements&, const Scene&, const RayTracer&, const Link&, const SpaceChange&,
-                                      int& rays);
+  /// What the first `count` rays tell, in 1..kMaxSamples; those are traced that have not been.
+  VisibilityEstimate estimate(std::size_t count);
+  /// What those of `link` tell when only some of them may fare otherwise by now: `anew`, by bits.
+  VisibilityEstimate renewed(const Link& link, std::uint32_t anew);
+  int traced() const { return traced_; }
+
+ private:
+  Rgb pass(std::size_t sample);
+  VisibilityEstimate known() const;
+
+  LinkSamples samples_;
+  const RayTracer& tracer_;
+  bool clusterReceiver_;
+  std::size_t taken_ = 0;
+  int traced_ = 0;
+  std::array<LinkSample, kMaxSamples> sample_;
+  std::array<Rgb, kMaxSamples> through_;
+};
 
 /// Chance that light passes a link, as its rays leave it: where none passed it may still be open. 1: it surely passes.
 float openness(const Link&);
-
-/// Whether a ray that the link's visibility was sampled by may fare otherwise after a move: one that passed meets what
-/// moves where it is or will be; one that did not, where it is: nothing that comes lets it pass.
-bool samplesMeet(const Elements&, const Scene&, const Link&, const SpaceChange& all, const SpaceChange& before);
 
 }  // namespace deltalux
