@@ -7,6 +7,7 @@
 
 #include "base/paged_array.hpp"
 #include "base/parallel.hpp"
+#include "base/prefetch.hpp"
 #include "hierarchy/patch.hpp"
 #include "radiosity/push_pull.hpp"
 
@@ -160,6 +161,7 @@ void LightSettling::gather(const Parts& parts, Elements& elements, Work& work, b
     const std::size_t e = work.rows[i].index();
     const Rgb before = elements.radiometry[e].indirect;
     const LeafRow& row = *parts.rows.find(work.rows[i]);
+    if (i + 1 < work.rows.size()) prefetch(std::span(parts.rows.find(work.rows[i + 1])->indirect.transfers));
     if (anew) learn(row);
     parts.rows.gatherIndirect(row, elements, seen_);
     misses_[e] = 0;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/random.hpp"
+#include "base/unit_circle.hpp"
 #include "hierarchy/outline.hpp"
 
 namespace deltalux {
@@ -223,11 +224,10 @@ Vec3f directionOf(const Elements& elements, const Scene& scene, ElementId e, dou
     axis = dome.axis, halfAngle = dome.halfAngle;
   }
   const PatchDomain& d = elements.domain[e.index()];
-  const double phi = 2 * kPi * (d.u0 + a * (d.u1 - d.u0));
   // 1 - cos, so that the sun's small cap keeps its precision.
   const double cap = 2 * std::pow(std::sin(0.5 * halfAngle), 2) * (d.v0 + b * (d.v1 - d.v0));
   const double sine = std::sqrt(std::max(0.0, cap * (2 - cap)));
-  return Vec3f(Frame(axis).toWorld({sine * std::cos(phi), sine * std::sin(phi), 1 - cap}));
+  return Vec3f(Frame(axis).toWorld(Vec3(sine * onUnitCircle(d.u0 + a * (d.u1 - d.u0)), 1 - cap)));
 }
 
 void shapeDistant(Elements& elements, const Scene& scene, ElementId e) {

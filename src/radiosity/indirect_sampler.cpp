@@ -228,9 +228,9 @@ bool IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> change
   double unknown = 0;
   for (const Term& t : terms) unknown += known(t) ? 0.0f : t.weight;
   const int rays = static_cast<int>(unknown / (step * looked) + toUnit(mix64(key)));
-  const std::size_t before = row.terms.size();
+  const std::size_t before = row.transfers.size();
   deal(leaf, center, terms, step, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, row, traced); });
-  return row.terms.size() > before;
+  return row.transfers.size() > before;
 }
 
 Rgb IndirectSampler::atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const {

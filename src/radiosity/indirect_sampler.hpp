@@ -37,8 +37,8 @@ class IndirectSampler {
   TransferRow atLeaf(ElementId leaf, int rays, std::uint64_t& traced) const;
   /// Makes those terms anew whose link is another by now, whose sender moved, or whose ray meets what moved; the others
   /// stay. `changed`: the topmost changed links that arrive at the leaf or above it; at most `rays` go over those.
-  /// Returns whether it did. The row of a leaf that moved is made anew by `rays` where too little of it is left, or its
-  /// rays have grown too uneven.
+  /// Returns whether the transfers are others then. The row of a leaf that moved is made anew by `rays` where too
+  /// little of it is left, or its rays have grown too uneven.
   bool update(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed, const SpaceChange&, int rays,
               TransferRow&, std::uint64_t& traced) const;
   /// Irradiance at a point of a leaf patch (unit normal) from the leaves' radiosities.
@@ -112,8 +112,9 @@ class IndirectSampler {
   bool coveredBy(std::span<const LinkId> changed, const RowTerm&) const;
   /// What a term of a row was dealt, by today's kernel.
   Dealt dealt(ElementId leaf, const RowTerm&) const;
-  void retrace(ElementId leaf, std::span<const Again>, TransferRow&, std::uint64_t& traced) const;
-  /// Appends the terms over changed links, by at most `most` rays; false when none get any.
+  /// Whether any brings something else than before.
+  bool retrace(ElementId leaf, std::span<const Again>, TransferRow&, std::uint64_t& traced) const;
+  /// Appends the terms over changed links, by at most `most` rays; false when none bring anything.
   bool dealChanged(ElementId leaf, std::span<const LinkId> changed, int most, TransferRow&,
                    std::uint64_t& traced) const;
   float kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const;

@@ -2,6 +2,7 @@
 // in the directions in which something has moved.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "radiosity/indirect_sampler.hpp"
 #include "radiosity/links_below.hpp"
@@ -52,7 +53,7 @@ bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span
     const LinkChange change = changeOf(links, t.link);
     return change == LinkChange::Changed || (change == LinkChange::Touched && coveredBy(changed, t));
   };
-  const bool gone = !changed.empty() && drop(row, stale);
+  const bool gone = !changed.empty() && drop(row, stale) > 0;
   const std::vector<Again> again = space.moved(leaf) ? moved(leaf, row) : meeting(leaf, space, row);
   if (space.moved(leaf)) {
     if (static_cast<float>(row.terms.size()) < kMostGone * static_cast<float>(rays) || uneven(leaf, again, row)) {
@@ -61,9 +62,9 @@ bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span
     }
     row.reach = {};
   }
-  retrace(leaf, again, row, traced);
+  const bool other = retrace(leaf, again, row, traced);
   const bool dealt = !changed.empty() && dealChanged(leaf, changed, rays, row, traced);
-  return gone || dealt || !again.empty();
+  return gone || other || dealt;
 }
 
 /// The rays of all terms, for a leaf that has moved itself.
@@ -104,19 +105,23 @@ IndirectSampler::Dealt IndirectSampler::dealt(ElementId leaf, const RowTerm& t) 
   return {{t.link, t.sender, K, t.clear ? 1.0f : 0.0f, 0.0f}, t.gain, t.index};
 }
 
-void IndirectSampler::retrace(ElementId leaf, std::span<const Again> again, TransferRow& row,
+bool IndirectSampler::retrace(ElementId leaf, std::span<const Again> again, TransferRow& row,
                               std::uint64_t& traced) const {
+  bool other = false;
   std::size_t at = 0, i = 0;
   for (const Again& a : again) {
     for (; i < a.term; ++i) at += row.terms[i].count;
     RowTerm& t = row.terms[a.term];
     const Found found = find(dealt(leaf, t), a.sample, traced);
     remember(leaf, a.term, found, row);
-    if (t.count > 0)
-      row.transfers[at].T = found.T;  // also where it is black by now: the next move may lift it
-    else if (!isBlack(found.T))
-      row.transfers.insert(row.transfers.begin() + static_cast<std::ptrdiff_t>(at), {t.sender, found.T}), t.count = 1;
+    if (t.count == 0) {
+      if (isBlack(found.T)) continue;
+      row.transfers.insert(row.transfers.begin() + static_cast<std::ptrdiff_t>(at), {t.sender, Rgb(0.0f)}), t.count = 1;
+    }
+    Rgb& T = row.transfers[at].T;  // also where it is black by now: the next move may lift it
+    other |= std::exchange(T, found.T) != found.T;
   }
+  return other;
 }
 
 }  // namespace deltalux

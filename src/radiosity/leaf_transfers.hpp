@@ -28,7 +28,7 @@ struct LeafTransferReport {
 
 struct LeafUpdateReport {
   std::uint64_t rays = 0, split = 0;
-  std::uint64_t direct = 0, indirect = 0;  // rows that were made anew, in part or whole
+  std::uint64_t direct = 0, indirect = 0;  // rows that are others, in part or whole
   std::vector<ElementId> leaves;           // theirs, in the order of ids; direct light and all above is up to date
 };
 
@@ -88,6 +88,10 @@ class LeafTransfers {
 
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
+  struct Change;
+  void updateDirect(Elements&, const Change&, std::span<const ElementId> leaves, LeafUpdateReport&);
+  void updateIndirect(const Elements&, const Change&, std::span<const ElementId> leaves, LeafUpdateReport&,
+                      std::vector<ElementId>& reaching);
   void dropNoLeaves(const Elements&);
   void setRow(ElementId leaf, std::size_t row);
 

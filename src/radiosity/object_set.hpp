@@ -33,6 +33,8 @@ class ObjectSet {
     return missing == 0;
   }
 
+  bool operator==(const ObjectSet&) const = default;
+
   std::array<std::uint64_t, 16> words{};
 
  private:

@@ -27,6 +27,8 @@ class RowReach {
   /// Extends a box by all that rays that pass may pass through.
   void extend(const ElementGeometry& leaf, Vec3f& lower, Vec3f& upper) const;
 
+  bool operator==(const RowReach&) const = default;
+
   std::array<std::uint8_t, kSectors> furthest{};  // 0: no ray that passes
   ObjectSet objects;                              // of rays that do not: what blocks them, and what they lead to
 };

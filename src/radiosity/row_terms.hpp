@@ -18,9 +18,9 @@ void forEachTerm(const TransferRow& row, const Visit& visit) {
   }
 }
 
-/// Takes the terms out for which goes(term), with what belongs to them; false when there are none.
+/// Takes the terms out for which goes(term), with what belongs to them; returns how many transfers that are.
 template <class Goes>
-bool drop(TransferRow& row, const Goes& goes) {
+std::size_t drop(TransferRow& row, const Goes& goes) {
   std::size_t from = 0, terms = 0, transfers = 0;
   for (std::size_t i = 0; i < row.terms.size(); ++i) {
     const RowTerm t = row.terms[i];
@@ -34,10 +34,10 @@ bool drop(TransferRow& row, const Goes& goes) {
     }
     ++terms, transfers += t.count;
   }
-  if (terms == row.terms.size()) return false;
+  const std::size_t gone = row.transfers.size() - transfers;
   row.terms.resize(terms), row.transfers.resize(transfers);
   if (!row.rays.empty()) row.rays.resize(terms);
-  return true;
+  return gone;
 }
 
 }  // namespace deltalux

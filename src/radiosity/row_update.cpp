@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/prefetch.hpp"
 #include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
 #include "radiosity/arriving_links.hpp"
@@ -107,81 +108,115 @@ ConcernedLeaves LeafTransfers::concerned(const Elements& elements, const Links& 
   return out;
 }
 
+/// What rows follow.
+struct LeafTransfers::Change {
+  const Links& links;
+  const Scene& scene;
+  const RayTracer& tracer;
+  const LeafTransferSettings& settings;
+  const LinkMarks& marks;
+  const ArrivingLinks& arriving;
+  const SpaceChange& space;
+};
+
 LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, const Scene& scene,
                                        const RayTracer& tracer, const LeafTransferSettings& settings,
                                        const LinkMarks& marks, std::span<const LinkId> changedLinks,
                                        const SpaceChange& space, const ConcernedLeaves& leaves) {
   LeafUpdateReport report;
-  const std::size_t known = elements.size();
   const ArrivingLinks arriving(elements, links, changedLinks);
-  const auto isNew = [&](ElementId leaf) { return !find(leaf) || space.moved(leaf); };
-
-  std::vector<char> anew(leaves.byLights.size(), 0);
-  std::vector<DirectUpdate> renewed(anew.size());
-  std::vector<std::uint64_t> rays(anew.size(), 0);
-  {
-    const DirectSampler sampler(scene, elements, links, tracer);
-    parallelFor(anew.size(), kBlock, [&](std::size_t i) {
-      const ElementId leaf = leaves.byLights[i];
-      anew[i] = isNew(leaf) || uncovers(elements, leaf, space);
-      if (anew[i]) return;
-      renewed[i] = sampler.update(leaf, settings.shadowRays, marks.changes, arriving.changedAt(leaf, true), space,
-                                  rows_[rowOf_[leaf.index()]].direct, rays[i]);
-      anew[i] = renewed[i].anew || mayVary(elements, leaf, renewed[i], settings);
-    });
-  }
-  std::vector<ElementId> fresh, grown;
-  for (std::size_t i = 0; i < anew.size(); ++i) {
-    if (anew[i]) fresh.push_back(leaves.byLights[i]);
-    report.direct += anew[i] || renewed[i].any;
-    report.rays += rays[i];
-  }
-  const DirectRowsReport direct = sampleDirectRows(std::move(fresh), elements, links, scene, tracer, settings,
-                                                   [&](ElementId leaf, TransferRow row) {
-                                                     if (leaf.index() >= known) grown.push_back(leaf);
-                                                     if (!find(leaf)) {
-                                                       setRow(leaf, rows_.size());
-                                                       rows_.push_back({leaf, {}, {}});
-                                                     }
-                                                     rows_[rowOf_[leaf.index()]].direct = std::move(row);
-                                                   });
-  report.rays += direct.rays, report.split = direct.split;
-  for (std::size_t i = 0; i < anew.size(); ++i)
-    if (anew[i] || renewed[i].any) report.leaves.push_back(leaves.byLights[i]);
-  report.leaves.insert(report.leaves.end(), grown.begin(), grown.end());
-  std::erase_if(report.leaves, [&](ElementId e) { return !elements.isReceivingLeaf(e); });
+  const Change change{links, scene, tracer, settings, marks, arriving, space};
+  const std::size_t known = elements.size();
+  updateDirect(elements, change, leaves.byLights, report);
   for (const ElementId leaf : report.leaves) gatherDirect(rows_[rowOf_[leaf.index()]], elements);
   pull(elements, report.leaves);
 
-  std::vector<ElementId> indirect = leaves.byLeaves;
-  indirect.insert(indirect.end(), grown.begin(), grown.end());
+  std::vector<ElementId> indirect = leaves.byLeaves, reaching = report.leaves;
+  for (const ElementId leaf : report.leaves)
+    if (leaf.index() >= known) indirect.push_back(leaf);  // of a leaf that was split
   std::erase_if(indirect, [&](ElementId e) { return !elements.isReceivingLeaf(e); });
-  rays.assign(indirect.size(), 0);
-  std::vector<char> done(indirect.size(), 0);
-  const IndirectSampler sampler(scene, elements, links, tracer);
-  const int ofLeaf = gatherRaysOfLeaf(settings, rows_.size());
-  parallelFor(indirect.size(), kBlock, [&](std::size_t i) {
-    const ElementId leaf = indirect[i];
-    TransferRow& row = rows_[rowOf_[leaf.index()]].indirect;
-    if (row.terms.empty()) {
-      row = sampler.atLeaf(leaf, ofLeaf, rays[i]);
-      done[i] = 1;
-    } else {
-      done[i] = sampler.update(leaf, marks.changes, arriving.changedAt(leaf, false), space, ofLeaf, row, rays[i]);
-    }
-  });
-  for (std::size_t i = 0; i < indirect.size(); ++i) {
-    report.rays += rays[i];
-    if (!done[i]) continue;
-    ++report.indirect;
-    report.leaves.push_back(indirect[i]);
-  }
+  updateIndirect(elements, change, indirect, report, reaching);
   std::sort(report.leaves.begin(), report.leaves.end());
   report.leaves.erase(std::unique(report.leaves.begin(), report.leaves.end()), report.leaves.end());
-  for (const ElementId leaf : report.leaves)
+  for (const ElementId leaf : reaching)
     if (const LeafRow* row = find(leaf)) reaches_.add(elements, leaf, row->direct, row->indirect);
   dropNoLeaves(elements);
   return report;
+}
+
+/// Rows of direct light, and the leaves that these are split into. Adds all whose row is another to the report.
+void LeafTransfers::updateDirect(Elements& elements, const Change& change, std::span<const ElementId> leaves,
+                                 LeafUpdateReport& report) {
+  const auto isNew = [&](ElementId leaf) { return !find(leaf) || change.space.moved(leaf); };
+  std::vector<char> anew(leaves.size(), 0);
+  std::vector<DirectUpdate> renewed(leaves.size());
+  std::vector<std::uint64_t> rays(leaves.size(), 0);
+  {
+    const DirectSampler sampler(change.scene, elements, change.links, change.tracer);
+    parallelFor(leaves.size(), kBlock, [&](std::size_t i) {
+      const ElementId leaf = leaves[i];
+      anew[i] = isNew(leaf) || uncovers(elements, leaf, change.space);
+      if (anew[i]) return;
+      renewed[i] =
+          sampler.update(leaf, change.settings.shadowRays, change.marks.changes, change.arriving.changedAt(leaf, true),
+                         change.space, rows_[rowOf_[leaf.index()]].direct, rays[i]);
+      anew[i] = renewed[i].anew || mayVary(elements, leaf, renewed[i], change.settings);
+    });
+  }
+  std::vector<ElementId> fresh;
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    if (anew[i]) fresh.push_back(leaves[i]);
+    report.rays += rays[i];
+    if (!anew[i] && !renewed[i].any) continue;
+    ++report.direct;
+    report.leaves.push_back(leaves[i]);
+  }
+  const std::size_t known = elements.size();
+  const DirectRowsReport direct =
+      sampleDirectRows(std::move(fresh), elements, change.links, change.scene, change.tracer, change.settings,
+                       [&](ElementId leaf, TransferRow row) {
+                         if (leaf.index() >= known) report.leaves.push_back(leaf);
+                         if (!find(leaf)) {
+                           setRow(leaf, rows_.size());
+                           rows_.push_back({leaf, {}, {}});
+                         }
+                         rows_[rowOf_[leaf.index()]].direct = std::move(row);
+                       });
+  report.rays += direct.rays, report.split = direct.split;
+  std::erase_if(report.leaves, [&](ElementId e) { return !elements.isReceivingLeaf(e); });
+}
+
+/// Rows of indirect light. Adds those that are others to the report, and to `reaching` those with rays elsewhere.
+void LeafTransfers::updateIndirect(const Elements& elements, const Change& change, std::span<const ElementId> leaves,
+                                   LeafUpdateReport& report, std::vector<ElementId>& reaching) {
+  std::vector<std::uint64_t> rays(leaves.size(), 0);
+  std::vector<char> other(leaves.size(), 0), elsewhere(leaves.size(), 0);
+  const IndirectSampler sampler(change.scene, elements, change.links, change.tracer);
+  const int ofLeaf = gatherRaysOfLeaf(change.settings, rows_.size());
+  parallelFor(leaves.size(), kBlock, [&](std::size_t i) {
+    const ElementId leaf = leaves[i];
+    if (i + 1 < leaves.size()) {
+      const TransferRow& next = rows_[rowOf_[leaves[i + 1].index()]].indirect;
+      prefetch(std::span(next.rays)), prefetch(std::span(next.terms));
+    }
+    TransferRow& row = rows_[rowOf_[leaf.index()]].indirect;
+    if (row.terms.empty()) {
+      row = sampler.atLeaf(leaf, ofLeaf, rays[i]);
+      other[i] = elsewhere[i] = 1;
+    } else {
+      const RowReach before = row.reach;
+      other[i] = sampler.update(leaf, change.marks.changes, change.arriving.changedAt(leaf, false), change.space,
+                                ofLeaf, row, rays[i]);
+      elsewhere[i] = row.reach != before;
+    }
+  });
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    report.rays += rays[i];
+    if (elsewhere[i]) reaching.push_back(leaves[i]);
+    if (!other[i]) continue;
+    ++report.indirect;
+    report.leaves.push_back(leaves[i]);
+  }
 }
 
 }  // namespace deltalux

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/unit_circle.hpp"
 #include "scene/bsdf_ggx.hpp"
 #include "scene/bsdf_ward.hpp"
 
@@ -24,10 +25,7 @@ Vec3 lobeDirection(const SpecularLobe& lobe, const Vec3& wo, const Vec2& u) {
                                                                : ggx::sample(lobe.roughness, wo, u);
 }
 
-Vec3 cosineDirection(const Vec2& u) {
-  const double r = std::sqrt(u.x), phi = 2.0 * kPi * u.y;
-  return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1.0 - u.x)};
-}
+Vec3 cosineDirection(const Vec2& u) { return Vec3(std::sqrt(u.x) * onUnitCircle(u.y), std::sqrt(1.0 - u.x)); }
 
 Vec3 throughSurface(const Vec3& w) { return {w.x, w.y, -w.z}; }
 

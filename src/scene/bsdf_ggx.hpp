@@ -3,6 +3,8 @@
 // [Walter et al. 2007; Heitz 2014; DB23: Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"]
 #include <deltalux/math.hpp>
 
+#include "base/unit_circle.hpp"
+
 namespace deltalux::ggx {
 
 /// Smith's Lambda: G1 = 1 / (1 + Lambda).
@@ -33,10 +35,9 @@ inline double pdf(double alpha, const Vec3& wo, const Vec3& wi) {
 /// wi from two numbers in [0,1); may lie below the surface (z <= 0), where the lobe is zero.
 inline Vec3 sample(double alpha, const Vec3& wo, const Vec2& u) {
   const Vec3 stretched = glm::normalize(Vec3(wo.x * alpha, wo.y * alpha, wo.z));
-  const double phi = 2.0 * kPi * u.y;
   const double z = (1.0 - u.x) * (1.0 + stretched.z) - stretched.z;  // a spherical cap [DB23]
   const double sinTheta = std::sqrt(std::max(0.0, 1.0 - z * z));
-  const Vec3 m = Vec3(sinTheta * std::cos(phi), sinTheta * std::sin(phi), z) + stretched;
+  const Vec3 m = Vec3(sinTheta * onUnitCircle(u.y), z) + stretched;
   const Vec3 h = glm::normalize(Vec3(m.x * alpha, m.y * alpha, m.z));
   return 2.0 * glm::dot(wo, h) * h - wo;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/unit_circle.hpp"
 #include "scene/shape_kinds.hpp"
 
 namespace deltalux::kinds {
@@ -19,8 +20,8 @@ SurfacePoint pointAt(const Cone& c, Vec2 uv) {
   const Vec3 along = c.p1 - c.p0;
   const double height = glm::length(along);
   const Frame frame(along / height);
-  const double phi = 2 * kPi * uv.x;
-  const Vec3 radial = std::cos(phi) * frame.tangent + std::sin(phi) * frame.bitangent;
+  const Vec2 around = onUnitCircle(uv.x);
+  const Vec3 radial = around.x * frame.tangent + around.y * frame.bitangent;
   const double radius = (1 - uv.y) * c.radius0 + uv.y * c.radius1;
   const Vec3 outward = glm::normalize(height * radial + (c.radius0 - c.radius1) * frame.normal);
   return {c.p0 + uv.y * along + radius * radial, c.inward ? -outward : outward, uv};

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/unit_circle.hpp"
 #include "scene/shape_kinds.hpp"
 
 namespace deltalux::kinds {
@@ -16,8 +17,8 @@ Box bounds(const Cylinder& c) {
 SurfacePoint pointAt(const Cylinder& c, Vec2 uv) {
   const Vec3 along = c.p1 - c.p0;
   const Frame frame(glm::normalize(along));
-  const double phi = 2 * kPi * uv.x;
-  const Vec3 radial = std::cos(phi) * frame.tangent + std::sin(phi) * frame.bitangent;
+  const Vec2 around = onUnitCircle(uv.x);
+  const Vec3 radial = around.x * frame.tangent + around.y * frame.bitangent;
   return {c.p0 + uv.y * along + c.radius * radial, c.inward ? -radial : radial, uv};
 }
 

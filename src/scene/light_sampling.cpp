@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "base/check.hpp"
+#include "base/unit_circle.hpp"
 #include "scene/light_sampling_triangle.hpp"
 
 namespace deltalux {
@@ -15,8 +16,8 @@ constexpr std::size_t kMaxTrianglesBySolidAngle = 8;
 
 /// A direction within 1 - cos <= `depth` of `axis`, uniform in solid angle.
 Vec3 sampleCap(const Vec3& axis, double depth, const Vec2& u) {
-  const double down = u.x * depth, radius = std::sqrt(std::max(0.0, down * (2.0 - down))), phi = 2.0 * kPi * u.y;
-  return Frame(axis).toWorld({radius * std::cos(phi), radius * std::sin(phi), 1.0 - down});
+  const double down = u.x * depth, radius = std::sqrt(std::max(0.0, down * (2.0 - down)));
+  return Frame(axis).toWorld(Vec3(radius * onUnitCircle(u.y), 1.0 - down));
 }
 
 double sunDepth(const SunLight& sun) { return solidAngle(sun) / (2.0 * kPi); }

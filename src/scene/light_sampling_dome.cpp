@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/unit_circle.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -31,8 +33,7 @@ DomeTable::DomeTable(const DomeLight& dome) : frame_(dome.axis), depth_(1.0 - st
 
 Vec3 DomeTable::direction(double azimuth, double height) const {
   const double down = height * depth_, radius = std::sqrt(std::max(0.0, down * (2.0 - down)));
-  const double phi = 2.0 * kPi * azimuth;
-  return frame_.toWorld({radius * std::cos(phi), radius * std::sin(phi), 1.0 - down});
+  return frame_.toWorld(Vec3(radius * onUnitCircle(azimuth), 1.0 - down));
 }
 
 DomeTable::Sample DomeTable::sample(const Vec2& u) const {

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/unit_circle.hpp"
 #include "scene/shape_kinds.hpp"
 
 namespace deltalux::kinds {
@@ -14,9 +15,9 @@ Box bounds(const Ring& r) { return circleBounds(r.center, r.normal, r.outerRadiu
 
 SurfacePoint pointAt(const Ring& r, Vec2 uv) {
   const Frame frame(r.normal);
-  const double phi = 2 * kPi * uv.x;
+  const Vec2 around = onUnitCircle(uv.x);
   const double radius = std::sqrt((1 - uv.y) * square(r.innerRadius) + uv.y * square(r.outerRadius));
-  const Vec3 offset = radius * (std::cos(phi) * frame.tangent + std::sin(phi) * frame.bitangent);
+  const Vec3 offset = radius * (around.x * frame.tangent + around.y * frame.bitangent);
   return {r.center + offset, r.normal, uv};
 }
 

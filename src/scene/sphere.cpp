@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/unit_circle.hpp"
 #include "scene/shape_kinds.hpp"
 
 namespace deltalux::kinds {
@@ -9,9 +10,9 @@ double area(const Sphere& s) { return 4 * kPi * s.radius * s.radius; }
 Box bounds(const Sphere& s) { return {s.center - Vec3(s.radius), s.center + Vec3(s.radius)}; }
 
 SurfacePoint pointAt(const Sphere& s, Vec2 uv) {
-  const double phi = 2 * kPi * uv.x;
+  const Vec2 around = onUnitCircle(uv.x);
   const double sinTheta = 2 * std::sqrt(std::max(0.0, uv.y * (1 - uv.y)));
-  const Vec3 radial(sinTheta * std::cos(phi), sinTheta * std::sin(phi), 2 * uv.y - 1);
+  const Vec3 radial(sinTheta * around.x, sinTheta * around.y, 2 * uv.y - 1);
   return {s.center + s.radius * radial, s.inward ? -radial : radial, uv};
 }
 
