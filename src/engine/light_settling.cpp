@@ -34,6 +34,17 @@ void addLeaves(const Elements& elements, ElementId top, std::vector<ElementId>& 
     if (elements.isLeaf(p.element)) leaves.push_back(p.element);
 }
 
+/// The sum of a[i] b[i], in parts that are summed side by side.
+template <std::size_t N>
+float dot(const std::array<std::uint8_t, N>& a, const std::array<float, N>& b) {
+  constexpr std::size_t kParts = 16;
+  static_assert(N % kParts == 0);
+  std::array<float, kParts> parts{};
+  for (std::size_t i = 0; i < N; i += kParts)
+    for (std::size_t k = 0; k < kParts; ++k) parts[k] += static_cast<float>(a[i + k]) * b[i + k];
+  return std::accumulate(parts.begin(), parts.end(), 0.0f);
+}
+
 template <class Marks>
 void addMarked(const Marks& marks, std::vector<ElementId>& to) {
   for (std::size_t i = 0; i < marks.size(); ++i)
@@ -43,13 +54,20 @@ void addMarked(const Marks& marks, std::vector<ElementId>& to) {
 /// Takes the largest of `amounts` until what is left is no more than `most`; take(index).
 template <class Take>
 void takeLargest(const std::vector<double>& amounts, double sum, double most, const Take& take) {
-  std::vector<std::uint32_t> order(amounts.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto larger = [&](std::uint32_t a, std::uint32_t b) {
-    return amounts[a] != amounts[b] ? amounts[a] > amounts[b] : a < b;
+  if (!(sum > most)) return;
+  std::vector<std::uint32_t> heap;
+  for (std::size_t i = 0; i < amounts.size(); ++i)
+    if (amounts[i] > 0) heap.push_back(static_cast<std::uint32_t>(i));
+  const auto smaller = [&](std::uint32_t a, std::uint32_t b) {
+    return amounts[a] != amounts[b] ? amounts[a] < amounts[b] : a > b;
   };
-  std::sort(order.begin(), order.end(), larger);
-  for (std::size_t i = 0; i < order.size() && sum > most; ++i) take(order[i]), sum -= amounts[order[i]];
+  std::make_heap(heap.begin(), heap.end(), smaller);
+  while (sum > most && !heap.empty()) {
+    std::pop_heap(heap.begin(), heap.end(), smaller);
+    sum -= amounts[heap.back()];
+    take(heap.back());
+    heap.pop_back();
+  }
 }
 
 }  // namespace
@@ -229,11 +247,7 @@ LightSettling::Work LightSettling::readersOf(const News& news, const Parts& part
   const auto dark = static_cast<float>(kDark * std::accumulate(power_.begin(), power_.end(), 0.0) / area);
   parallelFor(elements.size(), 1024, [&](std::size_t e) {
     if (!parts.rows.find(ElementId(e))) return;
-    if (from_[e] & news.regions) {
-      float change = 0;
-      for (int r = 0; r < kRegions; ++r) change += static_cast<float>(factors_[e][r]) * news.change[r];
-      misses_[e] += change / 255;
-    }
+    if (from_[e] & news.regions) misses_[e] += dot(factors_[e], news.change) / 255;
     if (!(misses_[e] > 0)) return;
     const ElementLight& light = elements.radiometry[e];
     matters[e] = misses_[e] > kMatters * (dark + gray(light.direct + light.indirect + light.particle));

@@ -1,5 +1,7 @@
 #include "hierarchy/link.hpp"
 
+#include <algorithm>
+
 namespace deltalux {
 
 LinkId Links::addRoot(ElementId receiver, ElementId sender, bool fromLight) {
@@ -37,11 +39,19 @@ void Links::setEnds(LinkId id, ElementId receiver, ElementId sender) {
   all[id.index()].receiver = receiver, all[id.index()].sender = sender;
 }
 
+std::uint8_t Links::hiddenAbove(LinkId id) const {
+  const LinkId parent = all[id.index()].parent;
+  if (!parent.valid()) return 0;
+  const Link& above = all[parent.index()];
+  if (above.visibility != Visibility::Sampled || above.sampleMask != 0) return 0;
+  return static_cast<std::uint8_t>(std::min(above.hidden + 1, 255));
+}
+
 void Links::judged(LinkId id, const Link& as) {
   Link& l = all[id.index()];
   l.K = as.K, l.V = as.V;
   l.receiverSpread = as.receiverSpread, l.senderSpread = as.senderSpread, l.visibilitySpread = as.visibilitySpread;
-  l.sampleMask = as.sampleMask, l.samples = as.samples, l.visibility = as.visibility;
+  l.sampleMask = as.sampleMask, l.samples = as.samples, l.visibility = as.visibility, l.hidden = as.hidden;
   if (l.state != LinkState::Interior) l.state = as.state;
   if (l.carries() && !l.listed) list(id);
   if (!l.carries() && l.listed) unlist(id);

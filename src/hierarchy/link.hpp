@@ -37,7 +37,7 @@ struct Link {
   Visibility visibility = Visibility::Unknown;
   bool fromLight = false;   // the sender is an emitter
   bool listed = false;      // among those that arrive at its receiver
-  std::uint8_t unused = 0;  // whole words: files hold the record as it is
+  std::uint8_t hidden = 0;  // links above it in a row of whose sample rays none passed, when it was judged
 
   /// Whether it can bring its receiver light.
   bool carries() const { return state == LinkState::Active && visibility != Visibility::Blocked; }
@@ -68,6 +68,8 @@ class Links {
   /// `count` contiguous links below `parent`, which becomes Interior. The caller sets their ends by setEnds.
   LinkId addChildren(LinkId parent, std::size_t count);
   void setEnds(LinkId, ElementId receiver, ElementId sender);
+  /// How many links above one, in a row, have sample rays of which none passed.
+  std::uint8_t hiddenAbove(LinkId) const;
   /// Gives a link what it was judged to be; its place in the tree stays. The one way to change links.
   void judged(LinkId, const Link&);
   /// Frees all links below an interior link, which becomes Active. Calls `gone` with each.

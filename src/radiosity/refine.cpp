@@ -458,6 +458,7 @@ class Descent {
     const LinkId id = task.link;
     report_.rays += v.rays;
     const bool anew = task.mark > Mark::Path;
+    v.link.hidden = links_.hiddenAbove(id);
     if (anew && sameTransfer(links_[id], v.link)) {
       if (links_[id].state == LinkState::Interior) descend(task, v, next, false);
       return;

@@ -6,12 +6,22 @@
 
 namespace deltalux {
 
+namespace {
+
+constexpr int kMostHidden = 6;  // links above that are counted: there may be a narrow gap
+
+}  // namespace
+
 float openness(const Link& l) {
   if (l.visibility == Visibility::Clear) return 1.0f;
   const auto n = static_cast<float>(l.samples);
-  // Many links are blocked for good: where none of 4, 8, 16 rays passed, 0.10, 0.037, 0.012 of all others do, in a
-  // cabin of wooden walls and furniture.
-  if (n > 0 && isBlack(l.V)) return 4.9f / (n * (n + 8.7f));
+  // Many links are blocked for good. Measured in a cabin of wooden walls and furniture and in a house: where none of 4,
+  // 8, 16 rays passed, 0.19, 0.09, 0.029 of all others do, and where no sampled points faced each other, a half. Each
+  // link above that saw nothing either takes two fifths off.
+  if (n > 0 && l.sampleMask == 0) {
+    const float unseen = isBlack(l.V) ? 25.0f / (n * (n + 30.0f)) : 0.5f;
+    return unseen * std::pow(0.6f, static_cast<float>(std::min<int>(l.hidden, kMostHidden)));
+  }
   return (maxChannel(l.V) * n + 0.5f) / (n + 1.0f);
 }
 
