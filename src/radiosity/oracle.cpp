@@ -32,6 +32,11 @@ double senderVariation(const Elements& elements, ElementId sender) {
   return most;
 }
 
+/// A cluster's surfaces see a direction at all angles: a quarter of their area faces it [Cauchy].
+double facingArea(const Elements& elements, ElementId receiver) {
+  return elements.shape(receiver).area * (elements.isCluster(receiver) ? 0.25 : 1.0);
+}
+
 }  // namespace
 
 Oracle::Oracle(const Elements& elements, const OracleSettings& settings) : elements_(elements), settings_(settings) {
@@ -47,11 +52,23 @@ double Oracle::referenceArea(ElementId e) const {
   return side * side;
 }
 
+double Oracle::tolerance(ElementId receiver) const {
+  return std::max(double(elements_.radiometry[receiver.index()].tolerance), floor_);
+}
+
 double Oracle::budget(ElementId receiver) const {
-  const ElementLight& light = elements_.radiometry[receiver.index()];
-  const double tolerance = std::max(double(light.tolerance), floor_);
   const double area = std::max<double>(elements_.shape(receiver).area, referenceArea(receiver));
-  return settings_.share * settings_.error * tolerance * area;
+  return settings_.share * settings_.error * tolerance(receiver) * area;
+}
+
+double Oracle::most(const Link& link) const {
+  constexpr double kFaint = 0.1;
+  double strength = senderStrength(elements_, link.sender, link.receiver);
+  if (!elements_.at(link.sender).emitter) {
+    const double faint = kFaint * tolerance(link.receiver);
+    strength += elements_.isCluster(link.sender) ? faint * elements_.shape(link.sender).area / (4 * kPi) : faint;
+  }
+  return strength * (double(link.K) + link.receiverSpread) * facingArea(elements_, link.receiver);
 }
 
 bool Oracle::divisible(ElementId e) const {
@@ -64,8 +81,7 @@ LinkError Oracle::judge(const Link& link) const {
   e.budget = budget(link.receiver) *
              (elements_.at(link.sender).emitter && elements_.isPatch(link.receiver) ? settings_.direct : 1.0);
   const double strength = senderStrength(elements_, link.sender, link.receiver);
-  // A cluster's surfaces see a direction at all angles: a quarter of their area faces it [Cauchy].
-  const double area = elements_.shape(link.receiver).area * (elements_.isCluster(link.receiver) ? 0.25 : 1.0);
+  const double area = facingArea(elements_, link.receiver);
   const double V = link.visibility == Visibility::Unknown
                        ? 1.0
                        : std::min(1.0, double(maxChannel(link.V)) + double(link.visibilitySpread));

@@ -42,6 +42,9 @@ class Oracle {
 
   /// The error of a link whose K and spreads are set; visibility counts as far as it is known.
   LinkError judge(const Link&) const;
+  /// Power that would come over a link were nothing in its way and were all of its receiver where most comes, from a
+  /// sender that lights up as rows of leaves allow for (indirect_sampler.hpp): to a tenth of the light there at least.
+  double most(const Link&) const;
   /// Power that links to `receiver` may err by [W].
   double budget(ElementId receiver) const;
   /// Side of the area that matters around an element, squared: A_0.
@@ -50,6 +53,8 @@ class Oracle {
   bool divisible(ElementId) const;
 
  private:
+  double tolerance(ElementId receiver) const;
+
   const Elements& elements_;
   OracleSettings settings_;
   double floor_ = 0;

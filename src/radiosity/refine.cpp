@@ -48,6 +48,7 @@ struct Verdict {
   Split split = Split::None;
   ListRef blockers;      // in the arena of the block, then of the level
   bool refined = false;  // as the link was before, it would be refined today
+  bool news = false;     // rows that sample it as it was have to be dealt anew
   std::uint16_t rays = 0;
 };
 
@@ -58,9 +59,10 @@ class Judge {
 
   /// `candidates` are the parent's blockers; the link's own are appended to `arena`, when something is to be below it
   /// or they may prove something. Visibility is sampled by `least` rays at least, when it is. `seen`: the ends saw each
-  /// other before, or those of the parent do; then rays come first, and proof when none or all pass.
+  /// other before, or those of the parent do; then rays come first, and proof when none or all pass. `few`: the link
+  /// before its ends moved, when few rays sampled it; what they told does where as little comes over it as then.
   Verdict judge(Link link, int least, const ElementId* candidates, std::size_t count, Blockers& arena,
-                bool seen = false) const {
+                bool seen = false, const Link* few = nullptr) const {
     Verdict v;
     const Kernel k = kernel(elements_, scene_, link.receiver, link.sender);
     const ElementTopology& r = elements_.at(link.receiver);
@@ -76,6 +78,15 @@ class Judge {
       v.split = link.receiver == link.sender ? Split::Both : splitOverlapping(link);
       v.link = link;
       return v;
+    }
+    if (few) {
+      Link same = link;
+      same.visibility = few->visibility, same.samples = few->samples, same.sampleMask = few->sampleMask;
+      same.V = few->V, same.visibilitySpread = few->visibilitySpread;
+      if (wantedSamples(same, oracle_.judge(same)) <= kFewSamples && choose(same) == Split::None) {
+        v.link = same;
+        return v;
+      }
     }
     bool shrunk = false;
     const auto ownBlockers = [&] {
@@ -104,6 +115,16 @@ class Judge {
     if (v.split != Split::None || link.childCount > 0) ownBlockers();
     v.link = link;
     return v;
+  }
+
+  /// A link of which an end has moved, or holds what has.
+  Verdict judgeMoved(const Link& before, const ElementId* candidates, std::size_t count, Blockers& arena) const {
+    Link link = before;
+    link.state = LinkState::Active, link.visibility = Visibility::Unknown, link.samples = 0;
+    const bool sampled = before.visibility == Visibility::Sampled;
+    const bool few = sampled && before.samples <= kFewSamples && before.childCount == 0;
+    return judge(link, before.samples, candidates, count, arena, sampled && !isBlack(before.V),
+                 few ? &before : nullptr);
   }
 
   /// A link on the way to others.
@@ -158,6 +179,11 @@ class Judge {
   bool splits(Link link) const {
     link.state = LinkState::Active;
     return link.receiver == link.sender || choose(link) != Split::None;
+  }
+
+  /// Whether more may come over a link, as far as it is open, than `least` times what it may err by.
+  bool brings(const Link& link, double least) const {
+    return link.carries() && oracle_.most(link) * std::sqrt(openness(link)) > least * oracle_.budget(link.receiver);
   }
 
   /// Whether an active link, as it stands, would be worth another look.
@@ -334,9 +360,10 @@ void addRootLinks(Links& links, const Elements& elements, ElementId grown) {
 namespace {
 
 /// The links below `id` that carry light.
-void carrying(const Links& links, LinkId id, std::vector<LinkId>& out) {
-  if (links[id].carries()) out.push_back(id);
-  for (std::size_t c = 0; c < links[id].childCount; ++c) carrying(links, links.child(id, c), out);
+template <class Visit>
+void forEachCarrying(const Links& links, LinkId id, const Visit& visit) {
+  if (links[id].carries()) visit(id);
+  for (std::size_t c = 0; c < links[id].childCount; ++c) forEachCarrying(links, links.child(id, c), visit);
 }
 
 /// Marks the links above a marked one: they are on its path, or on its way.
@@ -351,6 +378,8 @@ void markAbove(const Links& links, Marks& marks, LinkId id, Mark as) {
 constexpr float kSameTransfer = 0.05f;  // relative difference of kernels that is no news: rows know their own
 constexpr float kSameKernel = 2.0f;     // factors within which rays are still well shared out
 constexpr float kSameOpenness = 6.0f;
+constexpr double kNews = 0.1;  // budgets: what a link may bring for which rows that sample it too little are dealt anew
+constexpr double kNewsToRows = 2e-4;  // the same where rows do not sample it at all
 
 /// Whether a second look has found what the first did. Light changes all the while; a move is no reason to refine for
 /// it.
@@ -361,7 +390,8 @@ bool sameTransfer(const Link& before, const Link& after) {
 }
 
 /// Whether rows that sample `before` may stand, but for terms that meet what moved or lead to it: those are taken anew
-/// one by one, and what now is less or more likely to be seen than their number says costs noise only.
+/// one by one, and what now is less or more likely to be seen than their number says costs noise only, next to none
+/// where the link brings little (kNews).
 bool samePlan(const Link& before, const Link& after) {
   // What was proven clear was sampled by no ray, what was proven blocked or averted not at all.
   if (before.visibility == Visibility::Clear && after.visibility != Visibility::Clear) return false;
@@ -432,20 +462,26 @@ class Descent {
     Verdict v = judged(judge, link, t, candidates, arena);
     v.refined =
         t.mark > Mark::Path && link.state == LinkState::Interior && v.split == Split::None && judge.splits(link);
+    v.news = !samePlan(link, v.link) && isNews(judge, link, v.link);
     return v;
   }
 
-  Verdict judged(const Judge& judge, Link link, const Task& t, const ElementId* candidates, Blockers& arena) const {
+  Verdict judged(const Judge& judge, const Link& link, const Task& t, const ElementId* candidates,
+                 Blockers& arena) const {
     if (t.mark == Mark::Way && link.state == LinkState::Interior)
       return judge.passUnseen(link, candidates, t.candidates.count, arena);
     if (t.mark == Mark::Path && link.state == LinkState::Interior)
       return judge.pass(link, candidates, t.candidates.count, arena);
     if (t.mark == Mark::Between) return judge.judgeBetween(link, raysOf(t.link), candidates, t.candidates.count, arena);
-    const int least = t.mark == Mark::Ends ? link.samples : 0;
-    const Link& by = t.mark == Mark::Ends || !link.parent.valid() ? link : links_[link.parent];
-    const bool seen = by.visibility == Visibility::Sampled && !isBlack(by.V);
-    if (t.mark == Mark::Ends) link.state = LinkState::Active, link.visibility = Visibility::Unknown, link.samples = 0;
-    return judge.judge(link, least, candidates, t.candidates.count, arena, seen);
+    if (t.mark == Mark::Ends) return judge.judgeMoved(link, candidates, t.candidates.count, arena);
+    const Link& above = link.parent.valid() ? links_[link.parent] : link;
+    const bool seen = above.visibility == Visibility::Sampled && !isBlack(above.V);
+    return judge.judge(link, 0, candidates, t.candidates.count, arena, seen);
+  }
+
+  static bool isNews(const Judge& judge, const Link& before, const Link& after) {
+    if (!before.carries()) return judge.brings(after, kNewsToRows);
+    return before.visibility != after.visibility || judge.brings(before, kNews) || judge.brings(after, kNews);
   }
 
   std::uint32_t raysOf(LinkId id) const {
@@ -473,7 +509,7 @@ class Descent {
       links_.collapse(id, renewed);
       ++report_.collapsed;
       changed(id);
-    } else if (!samePlan(links_[id], v.link)) {
+    } else if (v.news) {
       changed(id);
     }
     links_.judged(id, v.link);
@@ -555,11 +591,14 @@ RefineReport rejudge(Links& links, Elements& elements, const Scene& scene, const
   const RefineReport report = descent.run();
   for (const LinkId id : marked.lit)
     if (links[id].state == LinkState::Active) descent.changed(id);
-  // What has grown is new to all that was there; its own elements are new themselves.
+  // What has grown is new to all that was there and may see it; its own elements are new themselves.
+  const Judge judge(elements, scene, tracer, settings);
   for (const LinkId root : links.roots)
     if (root.index() >= known && links[root].sender == elements.grown.back() &&
         links[root].receiver != links[root].sender)
-      carrying(links, root, changed);
+      forEachCarrying(links, root, [&](LinkId id) {
+        if (judge.brings(links[id], kNewsToRows)) changed.push_back(id);
+      });
   return report;
 }
 
