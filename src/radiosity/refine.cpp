@@ -7,18 +7,11 @@
 
 #include "base/parallel.hpp"
 #include "hierarchy/patch.hpp"
-#include "radiosity/blockers.hpp"
-#include "radiosity/kernel.hpp"
-#include "radiosity/visibility.hpp"
+#include "radiosity/link_judge.hpp"
 
 namespace deltalux {
 
 namespace {
-
-constexpr int kSomeSamples = 8, kManySamples = 16;
-constexpr std::size_t kShortList = 8;  // of blockers: sooner looked through than rays are traced
-constexpr float kFineCell = 0.2f;      // radians: sky cells larger than this are split before the surface they light
-constexpr float kFinestCell = 0.06f;   // radians: smaller ones are not split
 
 enum class Mark : char {
   None,
@@ -30,294 +23,10 @@ enum class Mark : char {
 
 using Marks = PagedArray<Mark>;  // by link
 
-enum class Split : std::uint8_t { None, Receiver, Sender, Both };
-
-/// A range of blocker candidates in the arena of a level.
-struct ListRef {
-  std::uint32_t begin = 0, count = 0;
-};
-
 struct Task {
   LinkId link;
-  ListRef candidates;  // in the arena of the parent level
+  BlockerRange candidates;  // in the arena of the parent level
   Mark mark = Mark::Path;
-};
-
-struct Verdict {
-  Link link;  // as judged
-  Split split = Split::None;
-  ListRef blockers;      // in the arena of the block, then of the level
-  bool refined = false;  // as the link was before, it would be refined today
-  bool news = false;     // rows that sample it as it was have to be dealt anew
-  std::uint16_t rays = 0;
-};
-
-class Judge {
- public:
-  Judge(const Elements& elements, const Scene& scene, const RayTracer& tracer, const OracleSettings& settings)
-      : elements_(elements), scene_(scene), tracer_(tracer), oracle_(elements, settings) {}
-
-  /// `candidates` are the parent's blockers; the link's own are appended to `arena`, when something is to be below it
-  /// or they may prove something. Visibility is sampled by `least` rays at least, when it is. `seen`: the ends saw each
-  /// other before, or those of the parent do; then rays come first, and proof when none or all pass. `few`: the link
-  /// before its ends moved, when few rays sampled it; what they told does where as little comes over it as then.
-  Verdict judge(Link link, int least, const ElementId* candidates, std::size_t count, Blockers& arena,
-                bool seen = false, const Link* few = nullptr) const {
-    Verdict v;
-    const Kernel k = kernel(elements_, scene_, link.receiver, link.sender);
-    const ElementTopology& r = elements_.at(link.receiver);
-    if (k.averted || r.blocker || !sends(link.sender)) {
-      link.state = LinkState::Averted;
-      link.K = 0;
-      v.link = link;
-      return v;
-    }
-    link.K = k.K, link.receiverSpread = k.receiverSpread, link.senderSpread = k.senderSpread;
-    if (k.overlapping) {
-      shrink(link, candidates, count, v, arena);
-      v.split = link.receiver == link.sender ? Split::Both : splitOverlapping(link);
-      v.link = link;
-      return v;
-    }
-    if (few) {
-      Link same = link;
-      same.visibility = few->visibility, same.samples = few->samples, same.sampleMask = few->sampleMask;
-      same.V = few->V, same.visibilitySpread = few->visibilitySpread;
-      if (wantedSamples(same, oracle_.judge(same)) <= kFewSamples && choose(same) == Split::None) {
-        v.link = same;
-        return v;
-      }
-    }
-    bool shrunk = false;
-    const auto ownBlockers = [&] {
-      if (!std::exchange(shrunk, true)) shrink(link, candidates, count, v, arena);
-      return v.blockers.count;
-    };
-    const bool solid = solidEnds(link), unknown = link.visibility == Visibility::Unknown;
-    if (unknown && !(seen && (count > kShortList || !solid))) {
-      if (ownBlockers() == 0 && solid)
-        seeClear(link);
-      else if (!seen)
-        proveBlocked(link, v, arena);
-    }
-    if (link.visibility == Visibility::Unknown || link.visibility == Visibility::Sampled) {
-      VisibilitySamples samples(elements_, scene_, tracer_, link.receiver, link.sender);
-      look(link, least, samples);
-      v.rays = static_cast<std::uint16_t>(samples.traced());
-    }
-    if (unknown && seen && link.visibility == Visibility::Sampled) {
-      if (isBlack(link.V))
-        ownBlockers(), proveBlocked(link, v, arena);
-      else if (solid && allPass(link) && ownBlockers() == 0)
-        seeClear(link);
-    }
-    v.split = choose(link);
-    if (v.split != Split::None || link.childCount > 0) ownBlockers();
-    v.link = link;
-    return v;
-  }
-
-  /// A link of which an end has moved, or holds what has.
-  Verdict judgeMoved(const Link& before, const ElementId* candidates, std::size_t count, Blockers& arena) const {
-    Link link = before;
-    link.state = LinkState::Active, link.visibility = Visibility::Unknown, link.samples = 0;
-    const bool sampled = before.visibility == Visibility::Sampled;
-    const bool few = sampled && before.samples <= kFewSamples && before.childCount == 0;
-    return judge(link, before.samples, candidates, count, arena, sampled && !isBlack(before.V),
-                 few ? &before : nullptr);
-  }
-
-  /// A link on the way to others.
-  Verdict pass(const Link& link, const ElementId* candidates, std::size_t count, Blockers& arena) const {
-    Verdict v;
-    shrink(link, candidates, count, v, arena);
-    v.link = link;
-    return v;
-  }
-
-  /// One whose blockers are the parent's for now.
-  Verdict passUnseen(const Link& link, const ElementId* candidates, std::size_t count, Blockers& arena) const {
-    Verdict v;
-    keep(candidates, count, v, arena);
-    v.link = link;
-    return v;
-  }
-
-  /// A link between whose ends something has moved. Its kernel stands, and so do the samples but for `rays`, by bits.
-  Verdict judgeBetween(Link link, std::uint32_t rays, const ElementId* candidates, std::size_t count,
-                       Blockers& arena) const {
-    if (link.visibility != Visibility::Sampled) {
-      link.state = LinkState::Active, link.visibility = Visibility::Unknown, link.samples = 0;
-      return judge(link, 0, candidates, count, arena);
-    }
-    Verdict v;
-    VisibilitySamples samples(elements_, scene_, tracer_, link.receiver, link.sender);
-    const VisibilityEstimate e = samples.renewed(link, rays);
-    const bool same = e.V == link.V && e.mask == link.sampleMask;
-    link.V = e.V, link.sampleMask = e.mask, link.visibilitySpread = e.spread;
-    if (same) {
-      keep(candidates, count, v, arena);
-    } else {
-      bool shrunk = false;
-      const auto ownBlockers = [&] {
-        if (!std::exchange(shrunk, true)) shrink(link, candidates, count, v, arena);
-        return v.blockers.count;
-      };
-      if (isBlack(e.V)) ownBlockers(), proveBlocked(link, v, arena);
-      if (solidEnds(link) && allPass(link) && ownBlockers() == 0) seeClear(link);
-      if (link.visibility == Visibility::Sampled) look(link, link.samples, samples);
-      link.state = LinkState::Active;
-      v.split = choose(link);
-      if (v.split != Split::None || link.childCount > 0) ownBlockers();
-    }
-    v.rays = static_cast<std::uint16_t>(samples.traced());
-    v.link = link;
-    return v;
-  }
-
-  /// Whether the link, as it stands, would be split.
-  bool splits(Link link) const {
-    link.state = LinkState::Active;
-    return link.receiver == link.sender || choose(link) != Split::None;
-  }
-
-  /// Whether more may come over a link, as far as it is open, than `least` times what it may err by.
-  bool brings(const Link& link, double least) const {
-    return link.carries() && oracle_.most(link) * std::sqrt(openness(link)) > least * oracle_.budget(link.receiver);
-  }
-
-  /// Whether an active link, as it stands, would be worth another look.
-  bool unsettled(const Link& link) const {
-    if (link.state != LinkState::Active || link.visibility == Visibility::Blocked) return false;
-    const LinkError e = oracle_.judge(link);
-    return e.total() > e.budget || wantedSamples(link, e) > link.samples;
-  }
-
- private:
-  void shrink(const Link& link, const ElementId* candidates, std::size_t count, Verdict& v, Blockers& arena) const {
-    v.blockers.begin = static_cast<std::uint32_t>(arena.size());
-    shrinkBlockers(elements_, scene_, link.receiver, link.sender, candidates, count, arena);
-    v.blockers.count = static_cast<std::uint32_t>(arena.size()) - v.blockers.begin;
-  }
-
-  static void keep(const ElementId* candidates, std::size_t count, Verdict& v, Blockers& arena) {
-    v.blockers = {static_cast<std::uint32_t>(arena.size()), static_cast<std::uint32_t>(count)};
-    arena.insert(arena.end(), candidates, candidates + count);
-  }
-
-  bool solidEnds(const Link& link) const {
-    return !elements_.isCluster(link.receiver) && !elements_.isCluster(link.sender);
-  }
-
-  void proveBlocked(Link& link, const Verdict& v, const Blockers& arena) const {
-    const ElementId* own = arena.data() + v.blockers.begin;
-    if (!provablyBlocked(elements_, scene_, link.receiver, link.sender, own, v.blockers.count)) return;
-    link.visibility = Visibility::Blocked;
-    link.V = Rgb(0.0f);
-    link.visibilitySpread = 0;
-    link.samples = 0, link.sampleMask = 0;
-  }
-
-  static void seeClear(Link& link) {
-    link.visibility = Visibility::Clear;
-    link.V = Rgb(1.0f);
-    link.visibilitySpread = 0;
-    link.samples = 0, link.sampleMask = 0;
-  }
-
-  static bool allPass(const Link& link) { return link.V == Rgb(1.0f); }
-
-  bool sends(ElementId sender) const {
-    const ElementTopology& s = elements_.at(sender);
-    if (s.kind != ElementKind::Patch) return true;
-    if (!(elements_.shape(sender).area > 0)) return false;  // removed
-    if (s.emitter) return true;
-    const ElementLight& l = elements_.radiometry[sender.index()];
-    return !isBlack(l.rho) || !isBlack(l.tau);
-  }
-
-  int wantedSamples(const Link& link, const LinkError& e) const {
-    if (link.visibility != Visibility::Unknown && link.visibility != Visibility::Sampled) return 0;
-    const double weight = e.power / std::max(e.budget, 1e-30);
-    return weight < 0.5 ? kFewSamples : weight < 2 ? kSomeSamples : kManySamples;
-  }
-
-  /// Few rays, and more when the kernel alone does not already demand a split.
-  void look(Link& link, int least, VisibilitySamples& samples) const {
-    const auto take = [&](int count) {
-      if (count <= link.samples) return;
-      const VisibilityEstimate e = samples.estimate(static_cast<std::size_t>(count));
-      link.V = e.V, link.sampleMask = e.mask, link.visibilitySpread = e.spread, link.samples = e.samples;
-      link.visibility = Visibility::Sampled;
-    };
-    const int wanted = std::max(least, wantedSamples(link, oracle_.judge(link)));
-    take(std::min(wanted, kFewSamples));
-    const LinkError e = oracle_.judge(link);
-    if (wanted > kFewSamples && !(e.receiver + e.sender > e.budget)) take(wanted);
-  }
-
-  Split splitOverlapping(const Link& link) const {
-    const bool clusterReceiver = elements_.isCluster(link.receiver), clusterSender = elements_.isCluster(link.sender);
-    if (clusterReceiver && clusterSender)
-      return elements_.shape(link.receiver).radius >= elements_.shape(link.sender).radius ? Split::Receiver
-                                                                                          : Split::Sender;
-    return clusterReceiver ? Split::Receiver : Split::Sender;
-  }
-
-  /// The end to split, or none; an end that is too small to matter leaves the other one.
-  Split choose(const Link& link) const {
-    const Split split = prefer(link);
-    if (split == Split::None) return split;
-    const bool receiver = oracle_.divisible(link.receiver), sender = senderDivisible(link.sender);
-    if (split == Split::Both) return receiver ? split : Split::None;
-    if (split == Split::Receiver) return receiver ? split : worthSplitting(link, sender) ? Split::Sender : Split::None;
-    return sender ? split : receiver ? Split::Receiver : Split::None;
-  }
-
-  bool senderDivisible(ElementId sender) const {
-    if (elements_.isDistant(sender)) return !isSun(sender) && elements_.shape(sender).radius > kFinestCell;
-    return oracle_.divisible(sender);
-  }
-
-  /// When the receiver is as small as it gets, splitting the sender helps only where the sender's own error counts.
-  bool worthSplitting(const Link& link, bool divisible) const {
-    const LinkError e = oracle_.judge(link);
-    return divisible && e.sender + e.visibility > e.budget;
-  }
-
-  Split prefer(const Link& link) const {
-    if (link.visibility == Visibility::Blocked) return Split::None;
-    LinkError e = oracle_.judge(link);
-    const ElementGeometry &r = elements_.shape(link.receiver), &s = elements_.shape(link.sender);
-    const bool clusterReceiver = elements_.isCluster(link.receiver), clusterSender = elements_.isCluster(link.sender);
-    if (link.visibility == Visibility::Sampled && isBlack(link.V)) {
-      // What rays may have missed between them matters on surfaces larger than A_0.
-      if (r.area < oracle_.referenceArea(link.receiver)) e.visibility = 0;
-    }
-    if (!(e.total() > e.budget)) return Split::None;
-    if (link.receiver == link.sender) return Split::Both;
-    if (elements_.isDistant(link.sender)) {
-      if (!isSun(link.sender) && s.radius > kFineCell) return Split::Sender;
-      return Split::Receiver;
-    }
-    if (elements_.isPoint(link.sender)) return Split::Receiver;
-    if (clusterReceiver != clusterSender) {
-      if (clusterSender)
-        return e.receiver > e.sender + e.visibility && r.radius > s.radius ? Split::Receiver : Split::Sender;
-      return e.sender > e.receiver + e.visibility && s.radius > r.radius ? Split::Sender : Split::Receiver;
-    }
-    if (clusterReceiver) return r.radius >= s.radius ? Split::Receiver : Split::Sender;
-    // Partial visibility is told apart best by the end that is larger.
-    (r.area >= s.area ? e.receiver : e.sender) += e.visibility;
-    return e.receiver >= e.sender ? Split::Receiver : Split::Sender;
-  }
-
-  bool isSun(ElementId e) const { return std::holds_alternative<SunLight>(scene_[elements_.light[e.index()]].emitter); }
-
-  const Elements& elements_;
-  const Scene& scene_;
-  const RayTracer& tracer_;
-  Oracle oracle_;
 };
 
 /// Children of `link` after splitting its end(s), appended contiguously. False when the end cannot be split.
@@ -422,18 +131,19 @@ class Descent {
 
   RefineReport run() {
     Blockers arena = elements_.sceneRoots();
-    const ListRef everything{0, static_cast<std::uint32_t>(arena.size())};
+    const BlockerRange everything{0, static_cast<std::uint32_t>(arena.size())};
     std::vector<Task> tasks;
     for (const LinkId root : links_.roots)
       if (marks_[root.index()] != Mark::None) tasks.push_back({root, everything, marks_[root.index()]});
     while (!tasks.empty()) {
       std::vector<Verdict> verdicts(tasks.size());
       std::vector<Blockers> blocks((tasks.size() + kBlock - 1) / kBlock);
-      const Judge judge(elements_, scene_, tracer_, settings_);
+      const LinkJudge judge(elements_, scene_, tracer_, settings_);
       parallelBlocks(tasks.size(), kBlock, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           const Task& t = tasks[i];
-          verdicts[i] = verdictOf(judge, t, arena.data() + t.candidates.begin, blocks[begin / kBlock]);
+          verdicts[i] =
+              verdictOf(judge, t, {arena.data() + t.candidates.begin, t.candidates.count, blocks[begin / kBlock]});
         }
       });
       report_.judged += tasks.size();
@@ -457,29 +167,26 @@ class Descent {
  private:
   static constexpr std::size_t kBlock = 256;
 
-  Verdict verdictOf(const Judge& judge, const Task& t, const ElementId* candidates, Blockers& arena) const {
+  Verdict verdictOf(const LinkJudge& judge, const Task& t, const Candidates& candidates) const {
     const Link& link = links_[t.link];
-    Verdict v = judged(judge, link, t, candidates, arena);
+    Verdict v = judged(judge, link, t, candidates);
     v.refined =
         t.mark > Mark::Path && link.state == LinkState::Interior && v.split == Split::None && judge.splits(link);
     v.news = !samePlan(link, v.link) && isNews(judge, link, v.link);
     return v;
   }
 
-  Verdict judged(const Judge& judge, const Link& link, const Task& t, const ElementId* candidates,
-                 Blockers& arena) const {
-    if (t.mark == Mark::Way && link.state == LinkState::Interior)
-      return judge.passUnseen(link, candidates, t.candidates.count, arena);
-    if (t.mark == Mark::Path && link.state == LinkState::Interior)
-      return judge.pass(link, candidates, t.candidates.count, arena);
-    if (t.mark == Mark::Between) return judge.judgeBetween(link, raysOf(t.link), candidates, t.candidates.count, arena);
-    if (t.mark == Mark::Ends) return judge.judgeMoved(link, candidates, t.candidates.count, arena);
+  Verdict judged(const LinkJudge& judge, const Link& link, const Task& t, const Candidates& candidates) const {
+    const bool interior = link.state == LinkState::Interior;
+    if (t.mark == Mark::Way && interior) return judge.passUnseen(link, candidates);
+    if (t.mark == Mark::Path && interior) return judge.pass(link, candidates);
+    if (t.mark == Mark::Between) return judge.judgeBetween(link, raysOf(t.link), candidates);
+    if (t.mark == Mark::Ends) return judge.judgeMoved(link, candidates);
     const Link& above = link.parent.valid() ? links_[link.parent] : link;
-    const bool seen = above.visibility == Visibility::Sampled && !isBlack(above.V);
-    return judge.judge(link, 0, candidates, t.candidates.count, arena, seen);
+    return judge.judge(link, above.visibility == Visibility::Sampled && !isBlack(above.V), candidates);
   }
 
-  static bool isNews(const Judge& judge, const Link& before, const Link& after) {
+  static bool isNews(const LinkJudge& judge, const Link& before, const Link& after) {
     if (!before.carries()) return judge.brings(after, kNewsToRows);
     return before.visibility != after.visibility || judge.brings(before, kNews) || judge.brings(after, kNews);
   }
@@ -553,7 +260,7 @@ RefineReport refine(Links& links, Elements& elements, const Scene& scene, const 
                     const OracleSettings& settings, const std::function<bool()>& stop) {
   makeRootLinks(links, elements);
   std::vector<char> unsettled(links.size(), 0);
-  const Judge judge(elements, scene, tracer, settings);
+  const LinkJudge judge(elements, scene, tracer, settings);
   parallelFor(links.size(), 4096, [&](std::size_t i) { unsettled[i] = judge.unsettled(links.all[i]); });
   Marks marks(links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
@@ -592,7 +299,7 @@ RefineReport rejudge(Links& links, Elements& elements, const Scene& scene, const
   for (const LinkId id : marked.lit)
     if (links[id].state == LinkState::Active) descent.changed(id);
   // What has grown is new to all that was there and may see it; its own elements are new themselves.
-  const Judge judge(elements, scene, tracer, settings);
+  const LinkJudge judge(elements, scene, tracer, settings);
   for (const LinkId root : links.roots)
     if (root.index() >= known && links[root].sender == elements.grown.back() &&
         links[root].receiver != links[root].sender)

@@ -1,0 +1,88 @@
+#pragma once
+// What one link of the tree comes to: its kernel, its visibility, by proof or by rays, and whether an end of it is to
+// be split (oracle.hpp). Links are judged side by side from frozen elements; nothing is changed here.
+//
+// Proofs need lists of blockers, which cost more than a few rays: where the ends saw each other before, or those of the
+// parent do, rays come first, and lists only where none or all pass, or where links below will ask for them.
+#include "hierarchy/link.hpp"
+#include "radiosity/blockers.hpp"
+#include "radiosity/oracle.hpp"
+#include "radiosity/visibility.hpp"
+#include "tracing/ray_tracer.hpp"
+
+namespace deltalux {
+
+enum class Split : std::uint8_t { None, Receiver, Sender, Both };
+
+/// Blockers of one link in a list of those of many.
+struct BlockerRange {
+  std::uint32_t begin = 0, count = 0;
+};
+
+struct Verdict {
+  Link link;  // as judged
+  Split split = Split::None;
+  BlockerRange blockers;  // of the link, where they were asked for
+  bool refined = false;   // as the link was before, it would be refined today
+  bool news = false;      // rows that sample it as it was have to be dealt anew
+  std::uint16_t rays = 0;
+};
+
+/// What may stand between the ends of a link, and where its own blockers are appended.
+struct Candidates {
+  const ElementId* parents;  // blockers of the parent
+  std::size_t count;
+  Blockers& own;
+};
+
+class LinkJudge {
+ public:
+  /// All must outlive this.
+  LinkJudge(const Elements& elements, const Scene& scene, const RayTracer& tracer, const OracleSettings& settings)
+      : elements_(elements), scene_(scene), tracer_(tracer), oracle_(elements, settings) {}
+
+  /// A link as the tree has it. `parentSaw`: some ray between the parent's ends passed.
+  Verdict judge(const Link&, bool parentSaw, const Candidates&) const;
+  /// One of which an end has moved, or holds what has. What few rays told of it stands where as little comes over it.
+  Verdict judgeMoved(const Link& before, const Candidates&) const;
+  /// One between whose ends something has moved: its kernel stands, and so do its samples but for `rays`, by bits.
+  Verdict judgeBetween(const Link& before, std::uint32_t rays, const Candidates&) const;
+  /// One on the way to others.
+  Verdict pass(const Link&, const Candidates&) const;
+  /// The same, whose blockers are the parent's for now.
+  Verdict passUnseen(const Link&, const Candidates&) const;
+
+  /// Whether the link, as it stands, would be split.
+  bool splits(Link) const;
+  /// Whether more may come over a link, as far as it is open, than `least` times what it may err by.
+  bool brings(const Link&, double least) const;
+  /// Whether an active link, as it stands, would be worth another look.
+  bool unsettled(const Link&) const;
+
+ private:
+  class OwnBlockers;
+
+  /// Gives a link its kernel; false when that settles it: no light passes, or the ends overlap.
+  bool couple(Link&, const Candidates&, Verdict&) const;
+  /// Visibility by proof and by rays, `least` at least, and what follows from it.
+  void see(Link&, int least, bool saw, const Candidates&, Verdict&) const;
+  bool sawEnough(const Link& before, Link& after) const;
+  bool solidEnds(const Link&) const;
+  void proveBlocked(Link&, OwnBlockers&) const;
+  bool sends(ElementId sender) const;
+  int wantedSamples(const Link&, const LinkError&) const;
+  void look(Link&, int least, VisibilitySamples&) const;
+  Split splitOverlapping(const Link&) const;
+  Split choose(const Link&) const;
+  bool senderDivisible(ElementId sender) const;
+  bool worthSplitting(const Link&, bool divisible) const;
+  Split prefer(const Link&) const;
+  bool isSun(ElementId) const;
+
+  const Elements& elements_;
+  const Scene& scene_;
+  const RayTracer& tracer_;
+  Oracle oracle_;
+};
+
+}  // namespace deltalux
