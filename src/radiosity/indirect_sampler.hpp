@@ -110,8 +110,7 @@ class IndirectSampler {
   std::vector<Again> moved(ElementId leaf, const TransferRow&) const;
   bool uneven(ElementId leaf, std::span<const Again>, const TransferRow&) const;
   bool coveredBy(std::span<const LinkId> changed, const RowTerm&) const;
-  /// What a term of a row was dealt, by today's kernel.
-  Dealt dealt(ElementId leaf, const RowTerm&) const;
+  Found findAgain(ElementId leaf, const RowTerm&, const SenderSample&, std::uint64_t& traced) const;
   /// Whether any brings something else than before.
   bool retrace(ElementId leaf, std::span<const Again>, TransferRow&, std::uint64_t& traced) const;
   /// Appends the terms over changed links, by at most `most` rays; false when none bring anything.

@@ -100,9 +100,12 @@ bool IndirectSampler::coveredBy(std::span<const LinkId> changed, const RowTerm& 
                      [&](LinkId id) { return holds(elements_, links_[id].sender, t.sender); });
 }
 
-IndirectSampler::Dealt IndirectSampler::dealt(ElementId leaf, const RowTerm& t) const {
-  const float K = exact(t.sender) ? kernelAtLeaf(leaf, t.sender, t.clear) : 0.0f;
-  return {{t.link, t.sender, K, t.clear ? 1.0f : 0.0f, 0.0f}, t.gain, t.index};
+/// What a term brings by today's kernel. That of a flat sender is worked out only where something passes.
+IndirectSampler::Found IndirectSampler::findAgain(ElementId leaf, const RowTerm& t, const SenderSample& sample,
+                                                  std::uint64_t& traced) const {
+  Found found = find({{t.link, t.sender, 1.0f, t.clear ? 1.0f : 0.0f, 0.0f}, t.gain, t.index}, sample, traced);
+  if (!isBlack(found.T) && exact(t.sender) && !sample.measures) found.T *= kernelAtLeaf(leaf, t.sender, t.clear);
+  return found;
 }
 
 bool IndirectSampler::retrace(ElementId leaf, std::span<const Again> again, TransferRow& row,
@@ -112,7 +115,7 @@ bool IndirectSampler::retrace(ElementId leaf, std::span<const Again> again, Tran
   for (const Again& a : again) {
     for (; i < a.term; ++i) at += row.terms[i].count;
     RowTerm& t = row.terms[a.term];
-    const Found found = find(dealt(leaf, t), a.sample, traced);
+    const Found found = findAgain(leaf, t, a.sample, traced);
     remember(leaf, a.term, found, row);
     if (t.count == 0) {
       if (isBlack(found.T)) continue;
