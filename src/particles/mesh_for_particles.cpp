@@ -94,7 +94,14 @@ std::vector<bool> sidesThatKeepTheirMesh(const Scene& scene, const Particles& p,
       to[2 * p.primitive[i].index() + (p.triangleAndSide[i] & 1)] += power * gray(p.throughput[i]);
   };
   for (const RetracedPath& r : update.paths) add(r.path, fresh);
-  for (std::size_t path = 0; path < p.paths(); ++path) add(path, all);
+  constexpr std::size_t kParts = 8;  // summed apart
+  std::vector<std::vector<double>> parts(kParts, all);
+  parallelFor(kParts, 1, [&](std::size_t part) {
+    for (std::size_t path = part * p.paths() / kParts; path < (part + 1) * p.paths() / kParts; ++path)
+      add(path, parts[part]);
+  });
+  for (const auto& part : parts)
+    for (std::size_t side = 0; side < all.size(); ++side) all[side] += part[side];
   for (std::size_t side = 0; side < keep.size(); ++side) keep[side] = !(fresh[side] > kMatters * all[side]);
   return keep;
 }

@@ -1,6 +1,7 @@
 #include "particles/reached_sides.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -8,6 +9,7 @@
 
 #include "base/check.hpp"
 #include "base/cosine_direction.hpp"
+#include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "particles/surface_normal.hpp"
 #include "scene/stops_light.hpp"
@@ -122,15 +124,17 @@ void dropReachedSides(std::vector<SurfaceSide>& sides, const Particles& particle
   const PrimitiveId last = sides.back().primitive;
   std::vector<char> asked(last.index() + 1, 0), reached(sides.size(), 0);
   for (const SurfaceSide& s : sides) asked[s.primitive.index()] = 1;
-  for (std::size_t path = 0; path < particles.paths(); ++path)
+  parallelFor(particles.paths(), 4096, [&](std::size_t path) {
     for (std::uint32_t i = particles.firstImpact(path); i < particles.endImpact(path); ++i) {
       const PrimitiveId primitive = particles.primitive[i];
       if (primitive > last || !asked[primitive.index()]) continue;
       const std::uint32_t side = particles.triangleAndSide[i];
       const SurfaceSide landed{primitive, side >> 1, (side & 1) == 0, 0, Rgb(0.0f), 0};
       const auto at = std::lower_bound(sides.begin(), sides.end(), landed, before);
-      if (at != sides.end() && !before(landed, *at)) reached[static_cast<std::size_t>(at - sides.begin())] = 1;
+      if (at != sides.end() && !before(landed, *at))
+        std::atomic_ref(reached[static_cast<std::size_t>(at - sides.begin())]).store(1, std::memory_order_relaxed);
     }
+  });
   std::vector<SurfaceSide> others;
   for (std::size_t i = 0; i < sides.size(); ++i)
     if (!reached[i]) others.push_back(sides[i]);
