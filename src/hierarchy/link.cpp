@@ -44,7 +44,7 @@ std::uint8_t Links::hiddenAbove(LinkId id) const {
   if (!parent.valid()) return 0;
   const Link& above = all[parent.index()];
   if (above.visibility != Visibility::Sampled || above.sampleMask != 0) return 0;
-  return static_cast<std::uint8_t>(std::min(above.hidden + 1, 255));
+  return static_cast<std::uint8_t>(std::min(above.hidden + 1, Link::kHidden - 1));
 }
 
 void Links::judged(LinkId id, const Link& as) {

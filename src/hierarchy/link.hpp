@@ -37,8 +37,12 @@ struct Link {
   Visibility visibility = Visibility::Unknown;
   bool fromLight = false;   // the sender is an emitter
   bool listed = false;      // among those that arrive at its receiver
-  std::uint8_t hidden = 0;  // links above it in a row of whose sample rays none passed, when it was judged
+  std::uint8_t hidden = 0;  // links above it in a row of whose sample rays none passed, when it was judged; or kHidden
 
+  static constexpr std::uint8_t kHidden = 255;  // it was proven blocked, and nothing has been seen of it since
+
+  /// Whether rays were sent and none passed.
+  bool unseen() const { return visibility == Visibility::Sampled && sampleMask == 0 && isBlack(V); }
   /// Whether it can bring its receiver light.
   bool carries() const { return state == LinkState::Active && visibility != Visibility::Blocked; }
 };

@@ -98,6 +98,12 @@ bool sameTransfer(const Link& before, const Link& after) {
          (before.state == LinkState::Averted) == (after.state == LinkState::Averted);
 }
 
+/// Whether a link that was proven blocked, and that rows have no rays over, still shows nothing. Where something moves
+/// the proof fails long before light passes: of 125,000 rays over such links, in a cabin and a house, none did.
+bool hiddenAsBefore(const Link& before, const Link& after) {
+  return (before.visibility == Visibility::Blocked || before.hidden == Link::kHidden) && after.unseen();
+}
+
 /// Whether rows that sample `before` may stand, but for terms that meet what moved or lead to it: those are taken anew
 /// one by one, and what now is less or more likely to be seen than their number says costs noise only, next to none
 /// where the link brings little (kNews).
@@ -187,7 +193,7 @@ class Descent {
   }
 
   static bool isNews(const LinkJudge& judge, const Link& before, const Link& after) {
-    if (!before.carries()) return judge.brings(after, kNewsToRows);
+    if (!before.carries()) return !hiddenAsBefore(before, after) && judge.brings(after, kNewsToRows);
     return before.visibility != after.visibility || judge.brings(before, kNews) || judge.brings(after, kNews);
   }
 
@@ -201,7 +207,7 @@ class Descent {
     const LinkId id = task.link;
     report_.rays += v.rays;
     const bool anew = task.mark > Mark::Path;
-    v.link.hidden = links_.hiddenAbove(id);
+    v.link.hidden = hiddenAsBefore(links_[id], v.link) ? Link::kHidden : links_.hiddenAbove(id);
     if (anew && sameTransfer(links_[id], v.link)) {
       if (links_[id].state == LinkState::Interior) descend(task, v, next, false);
       return;
