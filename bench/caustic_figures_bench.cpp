@@ -241,8 +241,10 @@ void drawRestriction(const std::string& name, const std::string& file, const std
   std::vector<Impact> landed;
   for (const Impact& impact : impacts(s.particles, s.elements, s.scene))
     if (impact.primitive == restricted.primitive && impact.front) landed.push_back(impact);
-  const OtherLight other = otherLight(s.scene, s.elements);
   const std::size_t side = 2 * restricted.primitive.index();
+  SurfaceSides asked(2 * s.scene.primitives.size(), false);
+  asked[side] = true;
+  const OtherLight other = otherLight(s.scene, s.elements, asked);
   const SurfaceCaustics whole = makeUnrestrictedTextures(shape, landed, {error, other.mean[side], other.darkest[side]},
                                                          static_cast<int>(texelsOf(restricted)));
   const Region all{Vec2(0), restricted.charts.all[0].size}, part = busiest(restricted).region;
