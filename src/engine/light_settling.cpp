@@ -8,6 +8,7 @@
 #include "base/paged_array.hpp"
 #include "base/parallel.hpp"
 #include "base/prefetch.hpp"
+#include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
 #include "radiosity/push_pull.hpp"
 
@@ -25,13 +26,6 @@ constexpr double kWithheld = 0.1;  // the same of what is not told
 
 bool differ(const Rgb& a, const Rgb& b) {
   return maxChannel(glm::abs(a - b)) > kSame * std::max(maxChannel(a), maxChannel(b));
-}
-
-void addLeaves(const Elements& elements, ElementId top, std::vector<ElementId>& leaves) {
-  PatchTree tree;
-  tree.list(elements, top);
-  for (const PatchTree::Place& p : tree.places)
-    if (elements.isLeaf(p.element)) leaves.push_back(p.element);
 }
 
 /// The sum of a[i] b[i], in parts that are summed side by side.
@@ -160,7 +154,8 @@ LightSettling::Work LightSettling::firstWork(const Parts& parts, Elements& eleme
 
   work.leaves = changes.rows;
   if (changes.lights) addRelit(parts, elements, work.leaves);
-  for (const ElementId e : changes.painted) addLeaves(elements, e, work.leaves);
+  for (const ElementId e : changes.painted)
+    forEachLeafBelow(elements, e, [&](ElementId leaf) { work.leaves.push_back(leaf); });
   if (changes.allParticles)
     for (std::size_t i = 0; i < elements.size(); ++i) {  // where none land any more
       const ElementId e(i);

@@ -8,6 +8,7 @@
 #include "radiosity/facing.hpp"
 #include "radiosity/kernel.hpp"
 #include "radiosity/links_below.hpp"
+#include "radiosity/oracle.hpp"
 #include "radiosity/sender_sampling.hpp"
 #include "radiosity/visibility.hpp"
 
@@ -17,9 +18,7 @@ namespace {
 
 constexpr float kLeastKernel = 0.1f;  // relative to that of a sender that faces the place with a quarter of its area
 constexpr float kNoneFaces = 0.25f;   // of that where no node does face it
-constexpr float kFaint = 0.1f;   // of the light here: radiosity that senders are credited with, so that rows hold what
-                                 // may light up later, and what is all but dark gets no few heavy samples
-constexpr float kUneven = 2.0f;  // rays of clusters and curved senders, whose points differ most, against others
+constexpr float kUneven = 2.0f;       // rays of clusters and curved senders, whose points differ most, against others
 constexpr float kPartsShare = 2.0f;   // rays of a sender above which it is taken apart
 constexpr float kWholeShare = 0.25f;  // the same for senders that need no ray: their radiosity counts as even
 constexpr float kLookedAt = 8;        // times its rays' worth: chance that what changed is looked at
@@ -50,9 +49,10 @@ IndirectSampler::IndirectSampler(const Scene& scene, const Elements& elements, c
                                  const RayTracer& tracer)
     : scene_(scene), elements_(elements), tracer_(tracer), links_(links), grid_(elements) {}
 
+/// Radiosity that senders are credited with; so what is all but dark gets no few heavy samples either.
 float IndirectSampler::faintest(ElementId receiver) const {
   const ElementLight& here = elements_.radiometry[receiver.index()];
-  return kFaint * std::max(gray(here.indirect), here.tolerance);
+  return static_cast<float>(kFaintLight) * std::max(gray(here.indirect), here.tolerance);
 }
 
 /// What all around the place together are worth at present: rays dealt out later go by weights of their own time.

@@ -62,10 +62,9 @@ double Oracle::budget(ElementId receiver) const {
 }
 
 double Oracle::most(const Link& link) const {
-  constexpr double kFaint = 0.1;
   double strength = senderStrength(elements_, link.sender, link.receiver);
   if (!elements_.at(link.sender).emitter) {
-    const double faint = kFaint * tolerance(link.receiver);
+    const double faint = kFaintLight * tolerance(link.receiver);
     strength += elements_.isCluster(link.sender) ? faint * elements_.shape(link.sender).area / (4 * kPi) : faint;
   }
   return strength * (double(link.K) + link.receiverSpread) * facingArea(elements_, link.receiver);

@@ -36,6 +36,9 @@ struct LinkError {
   double total() const { return receiver + sender + visibility; }
 };
 
+/// Of the light at a receiver: radiosity that senders are credited with, so that what may light up later counts.
+inline constexpr double kFaintLight = 0.1;
+
 class Oracle {
  public:
   Oracle(const Elements&, const OracleSettings&);
@@ -43,7 +46,8 @@ class Oracle {
   /// The error of a link whose K and spreads are set; visibility counts as far as it is known.
   LinkError judge(const Link&) const;
   /// Power that would come over a link were nothing in its way and were all of its receiver where most comes, from a
-  /// sender that lights up as rows of leaves allow for (indirect_sampler.hpp): to a tenth of the light there at least.
+  /// sender that lights up as rows of leaves allow for (indirect_sampler.hpp): to kFaintLight of the light there at
+  /// least.
   double most(const Link&) const;
   /// Power that links to `receiver` may err by [W].
   double budget(ElementId receiver) const;

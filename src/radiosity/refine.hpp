@@ -26,10 +26,9 @@ void makeRootLinks(Links&, const Elements&);
 /// Makes the root links between what has grown and everything, itself included.
 void addRootLinks(Links&, const Elements&, ElementId grown);
 
-/// Judges the marked links anew after a move: active ones whose ends or
-/// visibility changed, interior ones that may no longer need to be refined, which collapse; and refines root links that
-/// were made since the marks were. Sets `marks.changes` to Changed where a link is another than before, and returns the
-/// topmost of those in `changed`.
+/// Judges the marked links anew after a move: active ones whose ends or visibility changed, interior ones that may no
+/// longer need to be refined, which collapse; and refines root links that were made since the marks were. Sets
+/// `marks.changes` to Changed where a link is another than before, and returns the topmost of those in `changed`.
 RefineReport rejudge(Links&, Elements&, const Scene&, const RayTracer&, const OracleSettings&, LinkMarks& marks,
                      std::vector<LinkId>& changed);
 
