@@ -227,9 +227,11 @@ bool IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> change
   const auto terms = apart(leaf, std::move(whole), step, kernelOf);
   double unknown = 0;
   for (const Term& t : terms) unknown += known(t) ? 0.0f : t.weight;
-  const int rays = static_cast<int>(unknown / (step * looked) + toUnit(mix64(key)));
+  // Taken apart, what changed may weigh many times what it did as a whole.
+  const double shared = std::max(double(step), unknown / (double(most) * looked));
+  const int rays = static_cast<int>(unknown / (shared * looked) + toUnit(mix64(key)));
   const std::size_t before = row.transfers.size();
-  deal(leaf, center, terms, step, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, row, traced); });
+  deal(leaf, center, terms, shared, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, row, traced); });
   return row.transfers.size() > before;
 }
 
