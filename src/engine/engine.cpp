@@ -42,6 +42,7 @@ Engine::Engine(SolutionView view) : state_(std::make_unique<State>()) {
     state_->solution->tracer = makeEmbreeTracer(state_->solution->scene);
   }
   state_->finished = !state_->solution->transfers.empty() || state_->solution->elements.size() == 0;
+  state_->prepareToFollow();
 }
 
 Restore Engine::apply(const Edit& edit) { return state_->apply(edit); }

@@ -8,6 +8,7 @@
 #include "base/paged_array.hpp"
 #include "base/parallel.hpp"
 #include "base/prefetch.hpp"
+#include "base/room.hpp"
 #include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
 #include "radiosity/push_pull.hpp"
@@ -75,16 +76,21 @@ LightSettling::LightSettling(const Parts& parts, const Elements& elements) : reg
     power_[r] += double(elements.geometry[i].litArea()) * double(gray(seen_[i]));
   }
   const auto rows = parts.rows.rows();
-  parallelFor(rows.size(), 256, [&](std::size_t i) { learn(rows[i]); });
+  parallelFor(rows.size(), 256, [&](std::size_t i) {
+    if (i + 1 < rows.size()) prefetch(std::span(rows[i + 1].indirect.transfers));
+    learn(rows[i]);
+  });
   const std::vector<ElementId>& surfaces = parts.particles.surfaces();
   parallelFor(surfaces.size(), 64, [&](std::size_t i) { learn(surfaces[i], parts, elements); });
 }
 
 void LightSettling::follow(const Elements& elements) {
   regions_.follow(elements);
-  for (std::size_t i = seen_.size(); i < elements.size(); ++i) seen_.push_back(elements.radiometry[i].B);
-  from_.resize(elements.size(), 0), factors_.resize(elements.size()), misses_.resize(elements.size(), 0.0f);
-  particlesFrom_.resize(elements.size(), 0), read_.resize(elements.size(), 0), listed_.resize(elements.size(), 0);
+  const std::size_t known = seen_.size(), size = elements.size();
+  resizeWithRoom(seen_, size);
+  for (std::size_t i = known; i < size; ++i) seen_[i] = elements.radiometry[i].B;
+  resizeWithRoom(from_, size), resizeWithRoom(factors_, size), resizeWithRoom(misses_, size);
+  resizeWithRoom(particlesFrom_, size), resizeWithRoom(read_, size), resizeWithRoom(listed_, size);
 }
 
 /// By many threads at once, most of which find it marked: then nothing is written that others read.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "base/parallel.hpp"
+#include "base/room.hpp"
+
 namespace deltalux {
 
 SceneRegions::SceneRegions(const Elements& elements) {
@@ -31,14 +34,17 @@ void SceneRegions::split(std::size_t node, std::span<Vec3f> centers) {
 }
 
 void SceneRegions::follow(const Elements& elements) {
-  for (std::size_t i = of_.size(); i < elements.size(); ++i) {
+  const std::size_t known = of_.size();
+  resizeWithRoom(of_, elements.size());
+  parallelFor(elements.size() - known, 4096, [&](std::size_t k) {
+    const std::size_t i = known + k;
     std::size_t node = 1;
     while (node < kCount) {
       const Split& s = splits_[node];
       node = 2 * node + (elements.geometry[i].center[s.axis] < s.at ? 0 : 1);
     }
-    of_.push_back(static_cast<std::uint8_t>(node - kCount));
-  }
+    of_[i] = static_cast<std::uint8_t>(node - kCount);
+  });
 }
 
 }  // namespace deltalux

@@ -108,6 +108,7 @@ void Engine::State::round(Progress* progress) {
   s.report.times.gather += gathering.seconds();
   if (finished) makeTextures();
   count();
+  prepareToFollow();
   s.report.converged = settled && whole && last && !refined.stopped;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "base/room.hpp"
 #include "hierarchy/patch.hpp"
 #include "hierarchy/side_locator.hpp"
 #include "particles/surface_normal.hpp"
@@ -82,8 +83,7 @@ ParticleTransfer::ParticleTransfer(const Particles& p, const Elements& elements,
       senderOf_(p.paths(), kNone),
       elementOf_(p.impactSlots(), kNone),
       places_(placesOf(elements)) {
-  entries_.resize(elements.size());
-  sums_.resize(elements.size());
+  resizeWithRoom(entries_, elements.size()), resizeWithRoom(sums_, elements.size());
   const SideLocator locator(elements, scene);
   parallelFor(p.paths(), kBlock, [&](std::size_t path) { locate(p, path, locator, scene); });
 
@@ -142,10 +142,13 @@ std::vector<ElementId> ParticleTransfer::follow(const Particles& p, const Partic
                                                 const Elements& elements, const Scene& scene) {
   DELTALUX_CHECK(!update.all && senderOf_.size() == p.paths() && elementOf_.size() <= p.impactSlots(),
                  "the particles of before");
+  resizeWithRoom(entries_, elements.size()), resizeWithRoom(sums_, elements.size());
+  if (p.paths() == 0) {
+    places_.resize(elements.size(), 0);
+    return {};
+  }
   std::vector<char> before = placesOf(elements);
   before.swap(places_);
-  entries_.resize(elements.size());
-  sums_.resize(elements.size());
   elementOf_.resize(p.impactSlots(), kNone);
   std::vector<RetracedPath> paths = update.paths;
   if (places_ != before) {
