@@ -41,9 +41,10 @@ void addLanding(std::vector<SurfaceSide>& sides, const Solution& s, const Partic
 }  // namespace
 
 std::vector<ElementId> leavesBelow(const Elements& elements, const Growth& growth) {
-  std::vector<ElementId> leaves;
-  for (const auto& tops : {growth.woken, growth.asleep})
-    for (const ElementId top : tops) forEachLeafBelow(elements, top, [&](ElementId leaf) { leaves.push_back(leaf); });
+  std::vector<ElementId> tops = growth.woken, leaves;
+  tops.insert(tops.end(), growth.asleep.begin(), growth.asleep.end());
+  if (growth.root.valid()) tops.push_back(growth.root);
+  for (const ElementId top : tops) forEachLeafBelow(elements, top, [&](ElementId leaf) { leaves.push_back(leaf); });
   return leaves;
 }
 
@@ -69,10 +70,7 @@ Growth growInLight(Solution& s, const SceneUpdate& edits, const ParticleUpdate& 
   if (!growth.asleep.empty()) setAsleep(s.elements, s.scene, growth.asleep, true);
   if (!growth.woken.empty()) setAsleep(s.elements, s.scene, growth.woken, false);
   if (!fresh.empty()) growth.root = growElements(s.elements, s.scene, fresh);
-  if (growth.root.valid())
-    pull(s.elements);
-  else if (!growth.empty())
-    pull(s.elements, leavesBelow(s.elements, growth));
+  if (!growth.empty()) pull(s.elements, leavesBelow(s.elements, growth));
   return growth;
 }
 

@@ -16,7 +16,7 @@ struct Growth {
   bool empty() const { return !root.valid() && woken.empty() && asleep.empty(); }
 };
 
-/// Leaf patches of what has woken or fallen asleep.
+/// Leaf patches of what has grown, woken or fallen asleep.
 std::vector<ElementId> leavesBelow(const Elements&, const Growth&);
 
 /// Scene, tracer and particles are those after the edits.

@@ -1,13 +1,14 @@
 #include "radiosity/refine.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <utility>
 
 #include "base/parallel.hpp"
 #include "hierarchy/patch.hpp"
 #include "radiosity/link_judge.hpp"
+#include "radiosity/link_news.hpp"
+#include "radiosity/links_below.hpp"
 
 namespace deltalux {
 
@@ -84,40 +85,6 @@ void markAbove(const Links& links, Marks& marks, LinkId id, Mark as) {
   }
 }
 
-constexpr float kSameTransfer = 0.05f;  // relative difference of kernels that is no news: rows know their own
-constexpr float kSameKernel = 2.0f;     // factors within which rays are still well shared out
-constexpr float kSameOpenness = 6.0f;
-constexpr double kNews = 0.1;  // budgets: what a link may bring for which rows that sample it too little are dealt anew
-constexpr double kNewsToRows = 2e-4;  // the same where rows do not sample it at all
-
-/// Whether a second look has found what the first did. Light changes all the while; a move is no reason to refine for
-/// it.
-bool sameTransfer(const Link& before, const Link& after) {
-  return std::abs(before.K - after.K) <= kSameTransfer * before.K && before.V == after.V &&
-         before.visibility == after.visibility &&
-         (before.state == LinkState::Averted) == (after.state == LinkState::Averted);
-}
-
-/// Whether a link that was proven blocked, and that rows have no rays over, still shows nothing. Where something moves
-/// the proof fails long before light passes: of 125,000 rays over such links, in a cabin and a house, none did.
-bool hiddenAsBefore(const Link& before, const Link& after) {
-  return (before.visibility == Visibility::Blocked || before.hidden == Link::kHidden) && after.unseen();
-}
-
-/// Whether rows that sample `before` may stand, but for terms that meet what moved or lead to it: those are taken anew
-/// one by one, and what now is less or more likely to be seen than their number says costs noise only, next to none
-/// where the link brings little (kNews).
-bool samePlan(const Link& before, const Link& after) {
-  // What was proven clear was sampled by no ray, what was proven blocked or averted not at all.
-  if (before.visibility == Visibility::Clear && after.visibility != Visibility::Clear) return false;
-  if (!after.carries()) return true;
-  if (!before.carries() || before.visibility != after.visibility) return false;
-  const auto alike = [](float a, float b, float factor) { return a <= factor * b && b <= factor * a; };
-  if (!alike(before.K, after.K, kSameKernel)) return false;
-  if (before.fromLight) return true;  // every light in sight gets rays
-  return alike(openness(before), openness(after), kSameOpenness);
-}
-
 /// One descent over marked links, level by level.
 class Descent {
  public:
@@ -134,6 +101,8 @@ class Descent {
   /// Told of every link that is freed or made, and of every one over which rows have to be dealt anew.
   std::function<void(LinkId)> renewed = [](LinkId) {}, changed = [](LinkId) {};
   std::function<bool()> stop;
+  /// What has grown since the marks were made, if anything: all below the receivers of its links are told of it.
+  ElementId grown;
 
   RefineReport run() {
     Blockers arena = elements_.sceneRoots();
@@ -176,6 +145,11 @@ class Descent {
   Verdict verdictOf(const LinkJudge& judge, const Task& t, const Candidates& candidates) const {
     const Link& link = links_[t.link];
     Verdict v = judged(judge, link, t, candidates);
+    if (v.split == Split::None && tooWide(judge, v.link)) {
+      const std::uint16_t rays = v.rays;
+      v = judge.pass(v.link, candidates);
+      v.split = Split::Receiver, v.rays = rays;
+    }
     v.refined =
         t.mark > Mark::Path && link.state == LinkState::Interior && v.split == Split::None && judge.splits(link);
     v.news = !samePlan(link, v.link) && isNews(judge, link, v.link);
@@ -190,6 +164,14 @@ class Descent {
     if (t.mark == Mark::Ends) return judge.judgeMoved(link, candidates);
     const Link& above = link.parent.valid() ? links_[link.parent] : link;
     return judge.judge(link, above.visibility == Visibility::Sampled && !isBlack(above.V), candidates);
+  }
+
+  /// Whether a link from what has grown is better taken apart, although light asks for no more: all leaves below its
+  /// receiver would look for rays to what has grown, and walls may hide it from most.
+  bool tooWide(const LinkJudge& judge, const Link& link) const {
+    if (!grown.valid() || !link.carries() || !elements_.isCluster(link.receiver)) return false;
+    return holds(elements_, grown, link.sender) && !holds(elements_, grown, link.receiver) &&
+           judge.brings(link, kNewsToRows);
   }
 
   static bool isNews(const LinkJudge& judge, const Link& before, const Link& after) {
@@ -293,6 +275,8 @@ RefineReport rejudge(Links& links, Elements& elements, const Scene& scene, const
   for (const LinkId root : links.roots)
     if (root.index() >= known) marks.at(root.index()) = Mark::Path;
   Descent descent(links, elements, scene, tracer, settings, std::move(marks), marked.anew);
+  if (std::any_of(links.roots.begin(), links.roots.end(), [&](LinkId root) { return root.index() >= known; }))
+    descent.grown = elements.grown.back();
   descent.renewed = [&](LinkId id) {
     if (id.index() < known) marked.changes.at(id.index()) = LinkChange::Changed;
   };

@@ -1,0 +1,38 @@
+#include "radiosity/link_news.hpp"
+
+#include <cmath>
+
+#include "radiosity/visibility.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr float kSameTransfer = 0.05f;  // relative difference of kernels that is no news: rows know their own
+constexpr float kSameKernel = 2.0f;     // factors within which rays are still well shared out
+constexpr float kSameOpenness = 6.0f;
+
+}  // namespace
+
+bool sameTransfer(const Link& before, const Link& after) {
+  return std::abs(before.K - after.K) <= kSameTransfer * before.K && before.V == after.V &&
+         before.visibility == after.visibility &&
+         (before.state == LinkState::Averted) == (after.state == LinkState::Averted);
+}
+
+bool hiddenAsBefore(const Link& before, const Link& after) {
+  return (before.visibility == Visibility::Blocked || before.hidden == Link::kHidden) && after.unseen();
+}
+
+bool samePlan(const Link& before, const Link& after) {
+  // What was proven clear was sampled by no ray, what was proven blocked or averted not at all.
+  if (before.visibility == Visibility::Clear && after.visibility != Visibility::Clear) return false;
+  if (!after.carries()) return true;
+  if (!before.carries() || before.visibility != after.visibility) return false;
+  const auto alike = [](float a, float b, float factor) { return a <= factor * b && b <= factor * a; };
+  if (!alike(before.K, after.K, kSameKernel)) return false;
+  if (before.fromLight) return true;  // every light in sight gets rays
+  return alike(openness(before), openness(after), kSameOpenness);
+}
+
+}  // namespace deltalux
