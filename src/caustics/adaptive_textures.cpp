@@ -16,12 +16,17 @@ constexpr int kFirstTexels = 16 * 16;        // of the grid that resolution star
 constexpr int kChoiceTexels = 48 * 48;       // at most, to choose by
 constexpr int kCoarseTexels = 128 * 128;     // at most, to find regions with and to show the rest
 constexpr int kFineTexels = 256 * 256;       // at most, of one texture
-constexpr double kEnough = 1.05;             // times the texels that there are: more are not worth another cut
 constexpr double kCoarsePerTexel = 12;       // particles in a coarse texel where the light falls
 constexpr double kFinePerTexel = 2;          // in a fine one: smaller ones tell noise from light no better
 constexpr std::size_t kLeastParticles = 64;  // of a region of its own
 constexpr int kMargin = 2;                   // coarse texels around a region
 constexpr double kMatters = 0.5;             // of the target error: differences that a region is made for
+
+/// Counts of texels are of a few: light that differs a little is cut alike, so that it compares.
+int steady(double texels) {
+  constexpr double kStep = 0.25;  // between counts, as powers of two
+  return static_cast<int>(std::exp2(kStep * std::round(std::log2(texels) / kStep)));
+}
 
 /// Cuts the part into texels that hold `perTexel` particles where they are dense, from `least` to `most` of them.
 /// Whether they were as many as they should be. [GD01 3.2]
@@ -29,10 +34,10 @@ bool resolve(const ChartSurface& surface, ChartPart& part, double perTexel, int 
   const double area = part.region.size().x * part.region.size().y;
   for (int count = std::min(least, most);;) {
     surface.recut(part, squareTexels(part.region.size(), area / count, most));
-    const double wanted = area / texelArea(part, perTexel);
-    if (wanted < kEnough * count) return true;
+    const int wanted = steady(std::min(area / texelArea(part, perTexel), 2.0 * most));
+    if (wanted <= count) return true;
     if (count >= most) return false;
-    count = static_cast<int>(std::min(wanted, double(most)));  // peaks show themselves as texels shrink
+    count = std::min(wanted, most);  // peaks show themselves as texels shrink
   }
 }
 
@@ -47,6 +52,15 @@ void coarsen(const ChartSurface& surface, ChartPart& part) {
   }
 }
 
+bool fewLanded(std::span<const Impact> impacts) {
+  double flux = 0, squares = 0;
+  for (const Impact& i : impacts) {
+    const double w = gray(i.flux);
+    flux += w, squares += w * w;
+  }
+  return tooFew(flux, squares);
+}
+
 class AdaptiveTextures {
  public:
   AdaptiveTextures(const Shape& shape, const CausticSettings& settings)
@@ -59,8 +73,7 @@ class AdaptiveTextures {
     auto placed = placeImpacts(shape_, result_.charts, impacts);
     parts_.resize(placed.size()), resolved_.assign(placed.size(), 0);
     Departure total;
-    std::vector<double> flux(placed.size(), 0.0), areas(placed.size(), 0.0);
-    double grain = 0;
+    std::vector<PartLight> charts(placed.size());
     for (std::uint32_t c = 0; c < placed.size(); ++c) {
       if (placed[c].empty()) continue;
       const ChartSurface surface(shape_, result_.charts, c);
@@ -69,14 +82,14 @@ class AdaptiveTextures {
       const CellGrid grid = surface.grid(parts_[c]);
       const CellLight light = collect(grid, parts_[c].impacts);
       total += departure(grid, light);
-      flux[c] = gray(light.flux), areas[c] = grid.totalArea();
-      grain = std::max(grain, light.grain());
+      charts[c] = {gray(light.flux), light.squaredFlux, 0, grid.totalArea()};
+      for (std::size_t i = 0; i < grid.size(); ++i) charts[c].fourths += light.fourths[i] * grid.area(i);
     }
     if (placed.size() < 2) return total;
-    const std::vector<double> dark = darkAreas(areas);
-    for (std::size_t c = 0; c < areas.size(); ++c)
-      if (areas[c] == 0) areas[c] = dark[c], total.area += dark[c];
-    return total += departureBetween(flux, areas, grain);
+    const std::vector<double> dark = darkAreas(charts);
+    for (std::size_t c = 0; c < charts.size(); ++c)
+      if (charts[c].area == 0) charts[c].area = dark[c], total.area += dark[c];
+    return total += departureBetween(charts);
   }
 
   SurfaceCaustics restricted() {
@@ -104,12 +117,12 @@ class AdaptiveTextures {
 
  private:
   /// Areas of a mesh's charts that no particle met; 0 for the others.
-  std::vector<double> darkAreas(const std::vector<double>& lit) const {
+  std::vector<double> darkAreas(const std::vector<PartLight>& lit) const {
     const Mesh& mesh = std::get<Mesh>(shape_);
     std::vector<double> areas(lit.size(), 0.0);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const std::uint32_t chart = result_.charts.ofTriangle[t];
-      if (lit[chart] == 0) areas[chart] += mesh.cumulativeArea[t] - (t > 0 ? mesh.cumulativeArea[t - 1] : 0.0);
+      if (lit[chart].area == 0) areas[chart] += mesh.cumulativeArea[t] - (t > 0 ? mesh.cumulativeArea[t - 1] : 0.0);
     }
     return areas;
   }
@@ -157,18 +170,14 @@ class AdaptiveTextures {
 }  // namespace
 
 bool deservesTextures(const Shape& shape, std::span<const Impact> impacts, const CausticSettings& settings) {
+  if (fewLanded(impacts)) return false;
   AdaptiveTextures textures(shape, settings);
   return deservesTexture(textures.place(impacts), settings.error, settings.background);
 }
 
-SurfaceCaustics makeTextures(const Shape& shape, std::span<const Impact> impacts, const CausticSettings& settings) {
-  AdaptiveTextures textures(shape, settings);
-  textures.place(impacts);
-  return textures.restricted();
-}
-
 std::optional<SurfaceCaustics> makeCausticTextures(const Shape& shape, std::span<const Impact> impacts,
                                                    const CausticSettings& settings) {
+  if (fewLanded(impacts)) return std::nullopt;
   AdaptiveTextures textures(shape, settings);
   if (!deservesTexture(textures.place(impacts), settings.error, settings.background)) return std::nullopt;
   return textures.restricted();

@@ -23,9 +23,6 @@ struct CausticSettings {
 /// Whether textures should show these impacts on one side of a surface, or the mesh: step 1.
 bool deservesTextures(const Shape&, std::span<const Impact>, const CausticSettings&);
 
-/// Steps 2 to 4.
-SurfaceCaustics makeTextures(const Shape&, std::span<const Impact>, const CausticSettings&);
-
 /// All steps; nullopt where the mesh will do.
 std::optional<SurfaceCaustics> makeCausticTextures(const Shape&, std::span<const Impact>, const CausticSettings&);
 

@@ -145,17 +145,11 @@ SurfaceSides sidesWithTextures(const Scene& scene, const Elements& elements, std
   return result;
 }
 
-Caustics makeCaustics(const Scene& scene, const Elements& elements, std::vector<Impact> impacts, double error,
-                      const SurfaceSides& chosen) {
-  std::erase_if(impacts, [&](const Impact& i) { return !chosen[sideIndex(i.primitive, i.front)]; });
-  const auto sides = bySide(impacts);
-  std::vector<SurfaceCaustics> made(sides.size());
-  forEachSide(scene, elements, sides, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
-    made[i] = makeTextures(shape, sides[i], settings);
-    made[i].primitive = sides[i].front().primitive, made[i].front = sides[i].front().front;
-    DELTALUX_VALIDATED(validate(made[i]));
-  });
-  return indexed(std::move(made), scene.primitives.size());
+Caustics makeCaustics(const Scene& scene, const Elements& elements, std::vector<Impact> impacts, double error) {
+  Caustics caustics = indexed({}, scene.primitives.size());
+  const std::vector<char> all(2 * scene.primitives.size(), 1);
+  remakeCaustics(caustics, scene, elements, std::move(impacts), error, all);
+  return caustics;
 }
 
 std::size_t remakeCaustics(Caustics& caustics, const Scene& scene, const Elements& elements,

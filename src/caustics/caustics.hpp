@@ -34,9 +34,8 @@ using SurfaceSides = std::vector<bool>;
 /// elements: errors are measured against it.
 SurfaceSides sidesWithTextures(const Scene&, const Elements&, std::vector<Impact>, double error);
 
-/// The textures of these sides; those without an impact have none. The same for any number of threads.
-/// Cost: about 0.25 microseconds a texel.
-Caustics makeCaustics(const Scene&, const Elements&, std::vector<Impact>, double error, const SurfaceSides&);
+/// The textures of all sides that need them. The same for any number of threads. Cost: about 0.25 microseconds a texel.
+Caustics makeCaustics(const Scene&, const Elements&, std::vector<Impact>, double error);
 
 /// Gray irradiance of all light but the particles', by side: errors are measured against it, too. [W/m2]
 struct OtherLight {

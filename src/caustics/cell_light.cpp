@@ -11,12 +11,14 @@ CellLight collect(const CellGrid& grid, std::span<const ChartImpact> impacts) {
   CellLight light;
   std::vector<RgbSum> sums(grid.size(), RgbSum(0.0));
   std::vector<double> squares(grid.size(), 0.0);
+  light.fourths.assign(grid.size(), 0.0);
   for (const ChartImpact& impact : impacts) {
     const std::uint32_t cell = grid.cellAt(impact.st);
     DELTALUX_CHECK(cell != CellGrid::kNone, "particles landed on a surface without area");
     const double g = gray(impact.flux);
     sums[cell] += RgbSum(impact.flux);
     squares[cell] += g * g;
+    light.fourths[cell] += g * g * g * g;
     light.flux += RgbSum(impact.flux);
     light.squaredFlux += g * g;
   }
@@ -26,6 +28,7 @@ CellLight collect(const CellGrid& grid, std::span<const ChartImpact> impacts) {
     light.E.push_back(Rgb(sums[i] / area));  // [GD01 (1)]
     light.gray.push_back(gray(light.E.back()));
     light.squares.push_back(static_cast<float>(squares[i] / area));
+    light.fourths[i] /= area;
   }
   return light;
 }

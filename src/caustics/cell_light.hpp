@@ -16,11 +16,12 @@ struct ChartImpact {
 };
 
 struct CellLight {
-  std::vector<Rgb> E;          // sum of flux / area [W/m2]
-  std::vector<float> gray;     // of E
-  std::vector<float> squares;  // sum of gray flux squared / area: times a kernel's own square, the variance of gray E
-  RgbSum flux{0.0};            // of all particles
-  double squaredFlux = 0;      // sum of gray flux squared
+  std::vector<Rgb> E;           // sum of flux / area [W/m2]
+  std::vector<float> gray;      // of E
+  std::vector<float> squares;   // sum of gray flux squared / area: times a kernel's own square, the variance of gray E
+  std::vector<double> fourths;  // sum of its fourth power / area
+  RgbSum flux{0.0};             // of all particles
+  double squaredFlux = 0;       // sum of gray flux squared
   std::size_t particles = 0;
 
   /// Mean gray flux of a particle, each weighted by its flux: the grain of the noise.

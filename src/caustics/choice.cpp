@@ -1,16 +1,15 @@
 #include "caustics/choice.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "caustics/heat_flow.hpp"
 
 namespace deltalux {
 
 namespace {
-constexpr double kCoarse = 1.0 / 8;      // of the surface's size: what a mesh of few patches can show
-constexpr double kSignificance = 4;      // standard deviations
-constexpr double kLeastExpected = 0.05;  // particles in a cell: variances of rarer events are not to be divided by
+constexpr double kCoarse = 1.0 / 8;  // of the surface's size: what a mesh of few patches can show
+constexpr double kFewest = 10;       // equal particles
+constexpr double kSignificance = 4;  // standard deviations
 }  // namespace
 
 double contrast(const CellLight& light) {
@@ -20,9 +19,20 @@ double contrast(const CellLight& light) {
 }
 
 Departure& Departure::operator+=(const Departure& o) {
-  chiSquare += o.chiSquare, cells += o.cells, variance += o.variance;
+  excess += o.excess, precision += o.precision;
   squares += o.squares, flux += o.flux, area += o.area;
   return *this;
+}
+
+void Departure::add(double difference, const CellNoise& noise) {
+  if (!(noise.expected > 0) || !(noise.variance > 0)) return;
+  const double z2 = difference * difference / noise.variance;
+  // The second is never more than the first, but for rounding where next to nothing is expected.
+  const double kurtosis =
+      std::max(noise.fourth / (noise.variance * noise.variance), noise.variance / (noise.expected * noise.expected));
+  const double varianceOfZ2 = 2 + kurtosis;
+  excess += (z2 - 1) / varianceOfZ2;
+  precision += 1 / varianceOfZ2;
 }
 
 Departure departure(const CellGrid& grid, const CellLight& light) {
@@ -32,37 +42,47 @@ Departure departure(const CellGrid& grid, const CellLight& light) {
   if (!(result.area > 0) || !(grain > 0)) return result;
 
   const CellRaster raster(grid);
-  Slots smoothed = raster.laidOut(light.gray);
+  Channels smoothed(3);  // flux, its squares and fourth powers, in grains, over area
+  const auto inGrains = [&](const auto& perArea, double unit) {
+    std::vector<float> values;
+    for (const double v : perArea) values.push_back(static_cast<float>(v / unit));
+    return raster.laidOut(values);
+  };
+  smoothed[0] = inGrains(light.gray, grain);
+  smoothed[1] = inGrains(light.squares, grain * grain);
+  smoothed[2] = inGrains(light.fourths, grain * grain * grain * grain);
   const double reach = kCoarse * std::sqrt(result.area);
   HeatFlow(raster, {}).apply(smoothed, 0.5 * reach * reach);
-  result.cells = static_cast<double>(grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const double area = grid.area(i), smooth = smoothed[raster.slotOf(static_cast<std::uint32_t>(i))];
-    const double expected = std::max(smooth, kLeastExpected * grain / area), count = expected * area / grain;
-    const double difference = light.gray[i] - smooth;
-    result.chiSquare += difference * difference * area / (grain * expected);
-    result.variance += 2 + 1 / count;
-    result.squares += area * difference * difference - grain * std::max(smooth, 0.0);
+    const double area = grid.area(i);
+    const auto smooth = [&](int channel) {
+      return std::max<double>(smoothed[channel][raster.slotOf(static_cast<std::uint32_t>(i))], 0.0);
+    };
+    const double difference = light.gray[i] / grain - smooth(0);
+    result.add(difference * area, {smooth(0) * area, smooth(1) * area, smooth(2) * area});
+    result.squares += grain * grain * (area * difference * difference - smooth(1));
   }
   return result;
 }
 
-Departure departureBetween(std::span<const double> flux, std::span<const double> area, double grain) {
+Departure departureBetween(std::span<const PartLight> parts) {
   Departure result;
-  const double mean = std::accumulate(flux.begin(), flux.end(), 0.0) / std::accumulate(area.begin(), area.end(), 0.0);
-  for (std::size_t i = 0; i < flux.size() && mean > 0; ++i) {
-    if (!(area[i] > 0)) continue;
-    const double expected = mean * area[i], difference = flux[i] - expected;
-    result.chiSquare += difference * difference / (grain * expected);
-    result.cells += 1;
-    result.variance += 2 + grain / expected;
-    result.squares += difference * difference / area[i] - grain * mean;
+  PartLight all;
+  for (const PartLight& p : parts)
+    all.flux += p.flux, all.squares += p.squares, all.fourths += p.fourths, all.area += p.area;
+  for (const PartLight& p : parts) {
+    if (!(p.area > 0) || !(all.flux > 0)) continue;
+    const double share = p.area / all.area, difference = p.flux - share * all.flux;
+    result.add(difference, {share * all.flux, share * all.squares, share * all.fourths});
+    result.squares += (difference * difference - share * all.squares) / p.area;
   }
   return result;
 }
+
+bool tooFew(double flux, double squaredFlux) { return flux * flux <= kFewest * squaredFlux; }
 
 bool deservesTexture(const Departure& d, double error, double background) {
-  if (!(d.area > 0) || d.chiSquare <= d.cells + kSignificance * std::sqrt(d.variance)) return false;
+  if (!(d.area > 0) || d.excess <= kSignificance * std::sqrt(d.precision)) return false;
   const double spread = std::sqrt(std::max(d.squares, 0.0) / d.area);
   return spread > error * (d.flux / d.area + background);
 }

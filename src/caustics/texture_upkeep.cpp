@@ -5,6 +5,7 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "caustics/choice.hpp"
 #include "particles/side_index.hpp"
 
 namespace deltalux {
@@ -15,7 +16,6 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kMatters = 0.1;          // of the target error: differences that are a change
 constexpr double kMattersToChoice = 0.5;  // where there is no texture
 constexpr double kNoise = 0.25;           // of the noise of a tile's flux: smaller differences are no change
-constexpr double kFewest = 10;            // particles of one flux: fewer get no texture
 constexpr double kStrays = 2;             // particles that are no change where there are few
 constexpr double kOtherNoise = 1.25;      // times more or less noise matters: another reconstruction
 constexpr float kTexels = 256;            // across a side, at most: impacts that far apart are different ones
@@ -155,12 +155,11 @@ void TextureUpkeep::compare() {
     for (const auto& part : sums) tile_[t].difference += part[t].difference, tile_[t].squares += part[t].squares;
 }
 
-/// Too few for a texture, whatever they show. [GD01 3.1]
 bool TextureUpkeep::fewParticles(const SurfaceTiles::Side& side) const {
   double flux = 0, squares = 0;
   for (std::uint32_t t = side.first; t < side.first + side.count(); ++t)
     flux += gray(tile_[t].now), squares += tile_[t].squares;
-  return flux * flux <= kFewest * squares;
+  return tooFew(flux, squares);
 }
 
 bool TextureUpkeep::changed(std::size_t side, double background, bool textured) const {

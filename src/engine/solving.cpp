@@ -86,9 +86,9 @@ void Engine::State::round(Progress* progress) {
   const bool last = oracle.error <= least;
   const RefineReport refined = refineLinks(oracle, progress);
 
-  chooseTextures();
+  const SurfaceSides shown = chooseTextures();
   const Clock placing;
-  subdivideForParticles(s.elements, s.scene, s.particles, textured);
+  subdivideForParticles(s.elements, s.scene, s.particles, shown);
   s.report.times.particles += placing.seconds();
 
   const Clock gathering;
@@ -129,19 +129,23 @@ RefineReport Engine::State::refineLinks(const OracleSettings& oracle, Progress* 
   return refined;
 }
 
-void Engine::State::chooseTextures() {
+SurfaceSides Engine::State::chooseTextures() {
   Solution& s = *solution;
-  textured.assign(2 * s.scene.primitives.size(), false);
-  if (s.particles.impacts() == 0 || !s.settings.causticTextures) return;
+  if (s.particles.impacts() == 0 || !s.settings.causticTextures)
+    return SurfaceSides(2 * s.scene.primitives.size(), false);
   const Clock time;
-  textured = sidesWithTextures(s.scene, s.elements, impacts(s.particles, s.elements, s.scene), s.settings.error);
+  SurfaceSides sides =
+      sidesWithTextures(s.scene, s.elements, impacts(s.particles, s.elements, s.scene), s.settings.error);
   s.report.times.textures += time.seconds();
+  return sides;
 }
 
 void Engine::State::makeTextures() {
   Solution& s = *solution;
   const Clock time;
-  s.caustics = makeCaustics(s.scene, s.elements, impacts(s.particles, s.elements, s.scene), s.settings.error, textured);
+  std::vector<Impact> landed;
+  if (s.settings.causticTextures) landed = impacts(s.particles, s.elements, s.scene);
+  s.caustics = makeCaustics(s.scene, s.elements, std::move(landed), s.settings.error);
   DELTALUX_VALIDATED(validate(s.caustics));
   s.report.times.textures += time.seconds();
   countTextures();

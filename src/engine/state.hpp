@@ -43,7 +43,6 @@ struct Engine::State {
   std::shared_ptr<Solution> solution = std::make_shared<Solution>();
   double nextError = 0;   // of the next round
   bool finished = false;  // the last round has run
-  SurfaceSides textured;  // that textures show the particles of
   Clock clock;
   TimeBudget budget{0};
   SceneUpdate pending;                       // edits since the last update
@@ -64,8 +63,9 @@ struct Engine::State {
   void countParticles();
   void round(Progress* progress);
   RefineReport refineLinks(const OracleSettings& oracle, Progress* progress);
-  /// Sides whose particles textures show: their mesh need not. [GD01 3]
-  void chooseTextures();
+  /// Sides whose particles textures would show by the light there is: their mesh need not. [GD01 3]
+  SurfaceSides chooseTextures();
+  /// Of the light in the end, as updates judge it.
   void makeTextures();
   void countTextures();
   /// Gathers until the light no longer changes. [algorithm 3]

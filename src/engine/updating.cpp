@@ -159,7 +159,6 @@ void Engine::State::followWithTextures(StepReport& step) {
   if (!backlog.textures.empty()) s.caustics.surfaces = std::exchange(backlog.textures, {});
   if (!upkeep || followed.all) {
     upkeep.reset();
-    chooseTextures();
     makeTextures();
     step.texturesRebuilt = s.caustics.count();
   } else {

@@ -57,6 +57,36 @@ TEST(Choice, FiguresGetTextures) {
   }
 }
 
+/// Every so-many-th of the particles is so many times heavier: light that few paths bring.
+std::vector<Impact> withHeavyOnes(std::vector<Impact> impacts, std::size_t every, float times) {
+  for (std::size_t i = 0; i < impacts.size(); i += every) impacts[i].flux *= times;
+  return impacts;
+}
+
+TEST(Choice, FewHeavyParticlesDoNotHideAFigureElsewhere) {
+  const auto corner = [](Rng& rng) {
+    const double u = rng.uniform();
+    return test::inSquare(0.1 * u, 1 - 0.1 * rng.uniform());
+  };
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    std::vector<Impact> impacts = test::drawImpacts(5000, seed, test::discInVeil);
+    const std::vector<Impact> heavy = withHeavyOnes(test::drawImpacts(5000, seed, corner), 1, 300.0f);
+    impacts.insert(impacts.end(), heavy.begin(), heavy.begin() + 3);
+    const Histogram h(impacts);
+    EXPECT_TRUE(deservesTexture(departure(h.grid, h.light), 0.05, 0)) << seed;
+  }
+}
+
+TEST(Choice, EvenLightOfUnevenParticlesIsLeftToTheMesh) {
+  int textures = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed)
+    for (const std::size_t every : {10u, 100u, 1000u}) {
+      const Histogram h(withHeavyOnes(test::drawImpacts(5000, seed, test::evenly), every, 100.0f));
+      textures += deservesTexture(departure(h.grid, h.light), 0.05, 0);
+    }
+  EXPECT_LE(textures, 1);  // of 300
+}
+
 TEST(Choice, FiguresThatOtherLightDrownsDoNot) {
   const Histogram h(test::drawImpacts(20000, 1, test::discInVeil));
   EXPECT_FALSE(deservesTexture(departure(h.grid, h.light), 0.05, 1000));
