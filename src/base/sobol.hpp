@@ -53,15 +53,27 @@ struct UnitPair {
   double x, y;
 };
 
-/// Point `index` of the scrambled, shuffled sequence of `key`, in [0,1)^2.
-constexpr UnitPair scrambledSobol(std::uint32_t index, std::uint64_t key) {
-  const std::uint64_t seeds = mix64(key), more = mix64(seeds);
-  const std::uint32_t shuffled = reverseBits(scrambleReversed(reverseBits(index), static_cast<std::uint32_t>(seeds)));
-  // The first dimension is the index in reverse, so it is already as the scrambling wants it.
-  const std::uint32_t x = reverseBits(scrambleReversed(shuffled, static_cast<std::uint32_t>(seeds >> 32)));
-  const std::uint32_t y =
-      reverseBits(scrambleReversed(reverseBits(kSecondSobolDimension(shuffled)), static_cast<std::uint32_t>(more)));
-  return {x * 0x1p-32, y * 0x1p-32};
-}
+/// The scrambled, shuffled sequence of a key, in [0,1)^2.
+class ScrambledSobol {
+ public:
+  constexpr explicit ScrambledSobol(std::uint64_t key) {
+    const std::uint64_t seeds = mix64(key), more = mix64(seeds);
+    shuffle_ = static_cast<std::uint32_t>(seeds);
+    x_ = static_cast<std::uint32_t>(seeds >> 32), y_ = static_cast<std::uint32_t>(more);
+  }
+  constexpr UnitPair operator()(std::uint32_t index) const {
+    const std::uint32_t shuffled = reverseBits(scrambleReversed(reverseBits(index), shuffle_));
+    // The first dimension is the index in reverse, so it is already as the scrambling wants it.
+    const std::uint32_t x = reverseBits(scrambleReversed(shuffled, x_));
+    const std::uint32_t y = reverseBits(scrambleReversed(reverseBits(kSecondSobolDimension(shuffled)), y_));
+    return {x * 0x1p-32, y * 0x1p-32};
+  }
+
+ private:
+  std::uint32_t shuffle_ = 0, x_ = 0, y_ = 0;
+};
+
+/// Point `index` of the sequence of `key`.
+constexpr UnitPair scrambledSobol(std::uint32_t index, std::uint64_t key) { return ScrambledSobol(key)(index); }
 
 }  // namespace deltalux

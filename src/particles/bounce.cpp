@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "base/sobol.hpp"
-
 namespace deltalux {
 
 namespace {
@@ -17,13 +15,18 @@ bool takesParticles(const Material& m, bool front) {
 
 }  // namespace
 
-EventNumbers eventNumbers(std::uint64_t key, std::uint32_t index, int depth) {
-  const std::uint64_t own = combineKeys(key, 16 + static_cast<std::uint64_t>(depth));
-  if (depth < kStratified) {
-    const UnitPair a = scrambledSobol(index, own), b = scrambledSobol(index, ~own);
+EventSequence::EventSequence(std::uint64_t key, int depth)
+    : own_(combineKeys(key, 16 + static_cast<std::uint64_t>(depth))),
+      stratified_(depth < kStratified),
+      first_(own_),
+      second_(~own_) {}
+
+EventNumbers EventSequence::operator()(std::uint32_t index) const {
+  if (stratified_) {
+    const UnitPair a = first_(index), b = second_(index);
     return {{a.x, b.x, b.y}, a.y};
   }
-  Rng rng(own, index);
+  Rng rng(own_, index);
   EventNumbers u;
   for (int i = 0; i < 3; ++i) u.scatter[i] = rng.uniform();
   u.roulette = rng.uniform();

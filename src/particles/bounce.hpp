@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/sobol.hpp"
 #include "scene/bsdf.hpp"
 #include "tracing/ray.hpp"
 
@@ -23,8 +24,17 @@ struct EventNumbers {
   double roulette = 0;
 };
 
-/// Numbers of event `depth` of sample `index` of a link's key: stratified for the first events.
-EventNumbers eventNumbers(std::uint64_t key, std::uint32_t index, int depth);
+/// Numbers of event `depth` of the samples of a link's key: stratified for the first events.
+class EventSequence {
+ public:
+  EventSequence(std::uint64_t key, int depth);
+  EventNumbers operator()(std::uint32_t index) const;
+
+ private:
+  std::uint64_t own_;
+  bool stratified_;
+  ScrambledSobol first_, second_;
+};
 
 struct SpecularEvent {
   Vec3f direction;

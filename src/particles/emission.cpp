@@ -194,7 +194,7 @@ ParticleEmission::Aim ParticleEmission::aimAtFlat(const Vec3& from, std::uint32_
   }
   const Vec3 x = r.at(at), d = x - from;
   const double distance = glm::length(d);
-  if (!(height > 1e-7 * distance)) return a;  // edge on
+  if (!(height > 1e-7 * distance) || !(distance > 0)) return a;  // edge on
   a.direction = d / distance, a.distance = distance;
   a.density = omega > 0 ? 1 / omega : distance * distance * distance / (r.area() * height);
   const auto point = receivers_.flatPoint(cell, x);
@@ -287,11 +287,9 @@ bool ParticleEmission::hidesItself(std::uint32_t cell, const Vec3& position, con
 }
 
 void ParticleEmission::arrive(std::span<const LinkEnds> links, std::span<const FirstSegment> segments,
-                              std::span<Arrival> arrivals, std::uint64_t& rays) const {
-  std::vector<std::uint32_t> targets, opens;
-  std::vector<Ray> straight, open;
-  targets.reserve(segments.size()), straight.reserve(segments.size());
-  opens.reserve(segments.size()), open.reserve(segments.size());
+                              std::span<Arrival> arrivals, FirstRays& w, std::uint64_t& rays) const {
+  auto& [targets, opens, straight, open, passed, hits] = w;
+  targets.clear(), opens.clear(), straight.clear(), open.clear();
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const FirstSegment& s = segments[i];
     arrivals[i] = {};
@@ -299,9 +297,9 @@ void ParticleEmission::arrive(std::span<const LinkEnds> links, std::span<const F
       targets.push_back(static_cast<std::uint32_t>(i)), straight.push_back(s.ray);
     if (s.kind == FirstSegment::Kind::Open) opens.push_back(static_cast<std::uint32_t>(i)), open.push_back(s.ray);
   }
-  std::vector<Passing> passed(straight.size());
+  passed.resize(straight.size());
   tracer_.passings(straight, passed);
-  std::vector<Hit> hits(open.size());
+  hits.resize(open.size());
   tracer_.closestHits(open, hits);
   rays += straight.size() + open.size();
   for (std::size_t k = 0; k < targets.size(); ++k) {

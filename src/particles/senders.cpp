@@ -24,7 +24,8 @@ bool isDiffuse(const Material& m, bool front) {
 /// A few digits only, see Receivers.
 double rounded(double x) {
   int exponent = 0;
-  return std::ldexp(std::round(std::ldexp(std::frexp(x, &exponent), 12)), exponent - 12);
+  const double mantissa = std::frexp(x, &exponent);
+  return std::ldexp(std::round(std::ldexp(mantissa, 12)), exponent - 12);
 }
 
 }  // namespace
@@ -32,6 +33,7 @@ double rounded(double x) {
 Senders::Senders(const Scene& scene, const LightSampler& lights) : scene_(scene), lights_(lights) {
   double total = 0;
   for (std::size_t i = 0; i < scene.primitives.size(); ++i) total += area(edits::restShape(scene, PrimitiveId(i)));
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) beams_.push_back(beamOf(LightId(i)));
   for (std::size_t i = 0; i < scene.lights.size(); ++i) addLight(LightId(i), coarse(total) / kLampsOfScene);
   lightTrees_ = roots_.size();
   surfaceCells_ = static_cast<std::uint32_t>(cells_.size());
@@ -49,7 +51,7 @@ Senders::Senders(const Scene& scene, const LightSampler& lights) : scene_(scene)
     boundLeaf(c, restOf(cells_[c]));
   }
   boundNodes();
-  restBounds_ = bounds_;
+  rememberRest();
   for (std::uint32_t c = 0; c < cells_.size(); ++c)
     if (cells_[c].primitive.valid() && restOf(cells_[c]) != &scene[cells_[c].primitive].shape) place(c);
   boundNodes();
@@ -234,6 +236,7 @@ void Senders::weigh(std::span<const float> strength) {
   cumulative_.assign(1, 0.0);
   for (std::size_t i = 0; i < cells_.size(); ++i)
     cumulative_.push_back(cumulative_.back() + rounded(double(restMeasure_[i]) * strength[i]));
+  for (std::size_t n = 0; n < nodes_.size(); ++n) near_[n].weight = weightOf(nodes_[n]);
 }
 
 Senders::Choice Senders::choose(std::uint32_t at, double u) const {
@@ -245,24 +248,41 @@ Senders::Choice Senders::choose(std::uint32_t at, double u) const {
   return {cell, weight(cell) / weightOf(node)};
 }
 
+void Senders::rememberRest() {
+  near_.resize(nodes_.size());
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    NearNode& near = near_[n];
+    const RadixNode& node = nodes_[n];
+    near.center = bounds_[n].center, near.squaredRadius = bounds_[n].radius * bounds_[n].radius;
+    near.child[0] = node.child[0], near.child[1] = node.child[1];
+    const SenderCell &first = cells_[node.begin], &last = cells_[node.end - 1];
+    if (normals_[n].cosine < 1 || first.primitive != last.primitive || first.front != last.front) continue;
+    near.normal = normals_[n].axis;
+    const SurfacePoint p = samplePoint(edits::restShape(scene_, first.primitive), first.rect.at({0.5, 0.5}));
+    near.offset = glm::dot(near.normal, p.position);
+  }
+}
+
 Senders::Choice Senders::chooseNear(std::uint32_t at, const BoundingSphere& towards, double u) const {
   constexpr double kInside = 0.25;  // of the sphere's radius: what is within stands about so far from something there
+  constexpr double kAverted = 0x1p-5;  // share of what shines elsewhere: an edit may have turned it round
   const double least = kInside * kInside * towards.radius * towards.radius;
-  const auto spread = [&](std::uint32_t n) {
-    const Vec3 d = restBounds_[n].center - towards.center;
-    return glm::dot(d, d) + restBounds_[n].radius * restBounds_[n].radius + least;
+  const auto spread = [&](const NearNode& n) {
+    const Vec3 d = n.center - towards.center;
+    return glm::dot(d, d) + n.squaredRadius + least;
   };
   double chance = 1;
-  while (!nodes_[at].isLeaf()) {
+  while (near_[at].child[0] != RadixNode::kNone) {
+    const std::uint32_t* child = near_[at].child;
+    const NearNode &one = near_[child[0]], &other = near_[child[1]];
     // Weight over spread of the one, as a share of both.
-    const std::uint32_t one = nodes_[at].child[0], other = nodes_[at].child[1];
-    const double a = weightOf(nodes_[one]) * spread(other), b = weightOf(nodes_[other]) * spread(one);
-    const double first = a / (a + b);
-    const bool second = u >= first;
-    u = second ? (u - first) / (1 - first) : u / first;
-    u = std::min(u, 0x1.fffffffffffffp-1);
-    chance *= second ? 1 - first : first;
-    at = nodes_[at].child[second ? 1 : 0];
+    const double a = one.weight * spread(other) * (one.averted(towards) ? kAverted : 1.0);
+    const double b = other.weight * spread(one) * (other.averted(towards) ? kAverted : 1.0);
+    const double place = u * (a + b);
+    const bool second = place >= a && b > 0;
+    u = std::min(second ? (place - a) / b : place / a, 0x1.fffffffffffffp-1);
+    chance *= (second ? b : a) / (a + b);
+    at = child[second ? 1 : 0];
   }
   return {nodes_[at].begin, chance};
 }
@@ -274,29 +294,32 @@ SurfacePoint Senders::point(std::uint32_t cell, const Vec2& u) const {
   return p;
 }
 
+Senders::Beam Senders::beamOf(LightId light) const {
+  const auto& emitter = scene_[light].emitter;
+  const auto beam = [](const Vec3& axis, double halfAngle) {
+    const double halfSine = std::sin(0.5 * halfAngle);
+    // Not from the cosine, so that the sun's small disc keeps its digits.
+    return Beam{Frame(axis), 2 * halfSine * halfSine};
+  };
+  if (const auto* sun = std::get_if<SunLight>(&emitter)) return beam(sun->direction, sun->angularRadius);
+  if (const auto* dome = std::get_if<DomeLight>(&emitter)) return beam(dome->axis, dome->halfAngle);
+  return {};
+}
+
 Vec3 Senders::direction(std::uint32_t cell, const Vec2& u) const {
   const SenderCell& c = cells_[cell];
-  const auto& emitter = scene_[c.light].emitter;
-  Vec3 axis;
-  double halfAngle;
-  if (const auto* sun = std::get_if<SunLight>(&emitter)) {
-    axis = sun->direction, halfAngle = sun->angularRadius;
-  } else {
-    const auto& dome = std::get<DomeLight>(emitter);
-    axis = dome.axis, halfAngle = dome.halfAngle;
-  }
+  const Beam& beam = beams_[c.light.index()];
   const Vec2 at = c.rect.at(u);
-  const double halfSine = std::sin(0.5 * halfAngle);
-  // 1 - cos, so that the sun's small disc keeps its digits.
-  const double down = 2 * halfSine * halfSine * at.y, radius = std::sqrt(std::max(0.0, down * (2 - down)));
+  const double down = beam.depth * at.y, radius = std::sqrt(std::max(0.0, down * (2 - down)));
   const double phi = 2 * kPi * at.x;
-  return Frame(axis).toWorld({radius * std::cos(phi), radius * std::sin(phi), 1 - down});
+  return beam.frame.toWorld({radius * std::cos(phi), radius * std::sin(phi), 1 - down});
 }
 
 std::size_t Senders::memoryBytes() const {
   return cells_.capacity() * sizeof(SenderCell) + (restMeasure_.capacity() + leaf_.capacity()) * 4 +
-         nodes_.capacity() * sizeof(RadixNode) + 2 * bounds_.capacity() * sizeof(BoundingSphere) +
-         normals_.capacity() * sizeof(Cone) + cumulative_.capacity() * 8 + roots_.capacity() * 4;
+         nodes_.capacity() * sizeof(RadixNode) + bounds_.capacity() * sizeof(BoundingSphere) +
+         near_.capacity() * sizeof(NearNode) + beams_.capacity() * sizeof(Beam) + normals_.capacity() * sizeof(Cone) +
+         cumulative_.capacity() * 8 + roots_.capacity() * 4;
 }
 
 }  // namespace deltalux

@@ -57,7 +57,8 @@ class Senders {
     double chance = 1;
   };
   Choice choose(std::uint32_t node, double u) const;
-  /// The same, but the nearer to `towards` (at rest), the sooner: of senders at a place.
+  /// The same, but the nearer to `towards` (at rest), the sooner, and seldom what turns its back on it: of senders at a
+  /// place.
   Choice chooseNear(std::uint32_t node, const BoundingSphere& towards, double u) const;
   double weight(std::uint32_t cell) const { return cumulative_[cell + 1] - cumulative_[cell]; }
   double weightOf(const RadixNode& node) const { return cumulative_[node.end] - cumulative_[node.begin]; }
@@ -83,14 +84,35 @@ class Senders {
   void boundNodes();
   void boundLeaf(std::uint32_t cell, const Shape*);
 
+  /// What drawing by nearness asks, of things at rest, in one place.
+  struct NearNode {
+    Vec3 center{0};
+    double squaredRadius = 0;
+    Vec3 normal{0};              // of flat sides
+    double offset = -kInfinity;  // of the plane that they shine from; none: anywhere
+    double weight = 0;
+    std::uint32_t child[2] = {RadixNode::kNone, RadixNode::kNone};
+
+    bool averted(const BoundingSphere& from) const { return glm::dot(normal, from.center) + from.radius <= offset; }
+  };
+  void rememberRest();
+  /// Of a light at infinity: its axis, and one minus the cosine of the angle around it.
+  struct Beam {
+    Frame frame{Vec3(0, 0, 1)};
+    double depth = 0;
+  };
+  Beam beamOf(LightId) const;
+
   const Scene& scene_;
   const LightSampler& lights_;
   std::vector<SenderCell> cells_;
   std::vector<float> restMeasure_;   // by cell
   std::vector<std::uint32_t> leaf_;  // by cell: its node
   std::vector<RadixNode> nodes_;
-  std::vector<BoundingSphere> bounds_, restBounds_;
+  std::vector<BoundingSphere> bounds_;
+  std::vector<NearNode> near_;
   std::vector<Cone> normals_;
+  std::vector<Beam> beams_;  // by light
   std::vector<double> cumulative_;
   std::vector<std::uint32_t> roots_;
   std::size_t lightTrees_ = 0;

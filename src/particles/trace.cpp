@@ -35,9 +35,12 @@ class Tracing {
     while (!walkers.empty()) {
       rays.clear();
       std::size_t alive = 0;
+      EventSequence numbers(walkers.front().key, walkers.front().depth);
+      std::uint64_t now = walkers.front().key;
       for (Walker& w : walkers) {
+        if (w.key != now) now = w.key, numbers = EventSequence(w.key, w.depth);
         Ray ray;
-        if (!bounce(w, ray, r)) continue;
+        if (!bounce(w, numbers(w.index), ray, r)) continue;
         rays.push_back(ray);
         walkers[alive++] = w;
       }
@@ -71,16 +74,20 @@ class Tracing {
     std::vector<FirstSegment> segments(count);
     std::vector<LinkEnds> ends(count);
     std::vector<Arrival> arrivals(count);
+    FirstRays rays;
+    std::uint32_t now = ~0u;  // link
+    EmissionSequence numbers(0);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t path = pathAt(begin + i);
       const ParticleLink& link = particles_.links[particles_.link[path]];
+      if (particles_.link[path] != now) now = particles_.link[path], numbers = EmissionSequence(link.key);
       const auto index = static_cast<std::uint32_t>(path - link.firstPath);
       ends[i] = link.ends;
-      segments[i] = emission_.sample(link.ends, emissionNumbers(link.key, index));
+      segments[i] = emission_.sample(link.ends, numbers(index));
       particles_.sender[path] = segments[i].senderCell;
       particles_.originTriangle[path] = segments[i].originTriangle;
     }
-    emission_.arrive(ends, segments, arrivals, r.rays);
+    emission_.arrive(ends, segments, arrivals, rays, r.rays);
     std::vector<Walker> walkers;
     walkers.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -129,9 +136,8 @@ class Tracing {
   }
 
   /// The next event at the walker's surface; false when the path ends there.
-  bool bounce(Walker& w, Ray& ray, PathBlock& r) const {
+  bool bounce(Walker& w, const EventNumbers& u, Ray& ray, PathBlock& r) const {
     const Rgb before = w.throughput;
-    const EventNumbers u = eventNumbers(w.key, w.index, w.depth);
     const auto event = surfaces_.scatter(w.spot, w.direction, w.depth == 0, u);
     w.throughput = event ? before * event->weight : Rgb(0.0f);
     book(w, before, r.accounts[w.path]);
@@ -269,7 +275,7 @@ void append(std::span<const PathBlock> blocks, std::size_t begin, std::span<cons
 void trace(const Scene& scene, const RayTracer& tracer, const ParticleEmission& emission, int maxDepth, Particles& p,
            std::span<const std::uint32_t> only, std::size_t count) {
   DELTALUX_CHECK(maxDepth < 0xffff, "at most 65534 events");
-  constexpr std::size_t kTogether = 512;  // blocks whose memory is used again by the next
+  constexpr std::size_t kTogether = 128;  // blocks whose memory is used again by the next
   const Tracing tracing(scene, tracer, emission, p, maxDepth, only);
   std::vector<PathBlock> blocks(std::min(kTogether, (count + kBlock - 1) / kBlock));
   const std::size_t vertices = p.vertices.size(), impacts = p.impactSlots();

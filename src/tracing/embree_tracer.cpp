@@ -56,10 +56,13 @@ class EmbreeTracer final : public RayTracer {
 
   void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
     DELTALUX_CHECK(rays.size() == hits.size(), "one hit per ray");
-    parallelBlocks(rays.size(), kBatchBlock, [&](std::size_t begin, std::size_t end) {
+    const auto block = [&](std::size_t begin, std::size_t end) {
       for (std::size_t first = begin; first < end; first += kInFlight)
         traceFew(rays.subspan(first, std::min(kInFlight, end - first)), &hits[first]);
-    });
+    };
+    // A few rays are done before a task would have begun.
+    if (rays.size() > kBatchBlock) return parallelBlocks(rays.size(), kBatchBlock, block);
+    block(0, rays.size());
   }
 
   bool occluded(const Ray& ray) const override {

@@ -21,7 +21,10 @@ void RayTracer::transmittances(std::span<const Ray> rays, std::span<Rgb> results
 
 void RayTracer::passings(std::span<const Ray> rays, std::span<Passing> results) const {
   DELTALUX_CHECK(rays.size() == results.size(), "one result per ray");
-  parallelFor(rays.size(), kBatchBlock, [&](std::size_t i) { results[i] = passing(rays[i]); });
+  const auto one = [&](std::size_t i) { results[i] = passing(rays[i]); };
+  // A few rays are done before a task would have begun.
+  if (rays.size() > kBatchBlock) return parallelFor(rays.size(), kBatchBlock, one);
+  for (std::size_t i = 0; i < rays.size(); ++i) one(i);
 }
 
 }  // namespace deltalux

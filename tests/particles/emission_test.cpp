@@ -48,7 +48,8 @@ struct World {
     }
     std::vector<Arrival> arrivals(segments.size());
     std::uint64_t rays = 0;
-    emission->arrive(std::vector<LinkEnds>(segments.size(), ends), segments, arrivals, rays);
+    FirstRays memory;
+    emission->arrive(std::vector<LinkEnds>(segments.size(), ends), segments, arrivals, memory, rays);
     for (const Arrival& a : arrivals) m.add(a.primitive.valid() ? a.flux.g : 0.0);
     return m;
   }
