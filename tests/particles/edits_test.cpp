@@ -25,6 +25,14 @@ Scene cornell() {
   return scene;
 }
 
+/// The sun shines in by the open side.
+Scene sunlitCornell() {
+  Scene scene = cornell();
+  test::addLight(scene, SunLight{glm::normalize(Vec3(0.1, 0.3, -1)), 0.005, Rgb(2e4f)});
+  scene.lights.back().name = "sun";
+  return scene;
+}
+
 struct World {
   Scene scene = cornell();
   std::unique_ptr<RayTracer> tracer = makeEmbreeTracer(scene);
@@ -122,6 +130,27 @@ TEST(ParticleEdits, OtherMirrorsTraceAllAnew) {
   World w;
   EXPECT_TRUE(w.apply(SetMaterial{"tall_block_surface", Rgb(0.5f), std::nullopt}).all);
   expectFresh(w);
+}
+
+std::size_t arrivedFromTheSun(const World& w) {
+  const Particles& p = w.particles;
+  std::size_t count = 0;
+  for (std::size_t path = 0; path < p.paths(); ++path)
+    count += p.senderCells[p.sender[path]].kind == SenderKind::Sun && (p.fate[path] & kArrived);
+  return count;
+}
+
+/// What the emitters of a light at infinity are drawn from turns with it, and is right for what moves later.
+TEST(ParticleEdits, TheSunTurns) {
+  World w{sunlitCornell()};
+  for (const Vec3& shines : {Vec3(0.3, -0.2, 1), Vec3(-0.2, -0.4, 1)}) {
+    EXPECT_TRUE(w.apply(AimLight{"sun", shines}).all);
+    EXPECT_GT(arrivedFromTheSun(w), 500u);
+    expectFresh(w);
+    EXPECT_EQ(w.apply(ColourLight{"sun", Rgb(1.0f, 0.5f, 0.2f)}).rays, 0u);
+    expectFresh(w);
+    expectFollowed(w, TransformObject{"tall_block", turn(0.1, {0.37, 0, 0.35})});
+  }
 }
 
 /// A tracer that has the moving thing in a group of its own finds the same.
