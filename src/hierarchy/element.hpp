@@ -63,6 +63,7 @@ struct PatchDomain {
   std::uint32_t frame = 0;                     // flat: index of its plane
   std::uint32_t outline = 0, outlineSize = 0;  // flat: range in the outline pool, (u,v)
   float u0 = 0, v0 = 0, u1 = 1, v1 = 1;
+  std::uint32_t unused = 0;   // so that no byte of a stored record is left to chance
   std::uint64_t address = 1;  // path of quadrants from the input level: two bits a level below a leading 1
 };
 

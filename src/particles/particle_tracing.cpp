@@ -218,10 +218,9 @@ ParticleUpdate ParticleTracing::retrace(Particles& p, std::size_t count) {
   const std::uint64_t before = p.rays;
   retracePaths(scene_, tracer_, ends_->emission, settings_.maxDepth, p, paths);
   update.rays = p.rays - before;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
+  for (std::size_t i = 0; i < paths.size(); ++i)
     if (arrived[i] || (p.fate[paths[i]] & kArrived)) ++update.particles;
-    if (watch_) watch_->renew(p, paths[i]);
-  }
+  if (watch_) watch_->renew(p, paths);
   return update;
 }
 

@@ -22,10 +22,14 @@ bool PathWatch::comesNear(const Particles& p, std::size_t path) const {
   return v.empty();
 }
 
-void PathWatch::renew(const Particles& p, std::size_t path) {
-  const std::uint64_t bit = std::uint64_t(1) << (path % kPathsOfWord);
-  std::uint64_t& word = words_[path / kPathsOfWord];
-  word = comesNear(p, path) ? word | bit : word & ~bit;
+void PathWatch::renew(const Particles& p, std::span<const std::uint32_t> paths) {
+  std::vector<char> near(paths.size());
+  parallelFor(paths.size(), 256, [&](std::size_t i) { near[i] = comesNear(p, paths[i]); });
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::uint64_t bit = std::uint64_t(1) << (paths[i] % kPathsOfWord);
+    std::uint64_t& word = words_[paths[i] / kPathsOfWord];
+    word = near[i] ? word | bit : word & ~bit;
+  }
 }
 
 }  // namespace deltalux

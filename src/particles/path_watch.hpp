@@ -16,8 +16,8 @@ class PathWatch {
   bool covers(const Box& box) const {
     return box.empty() || (region_.contains(box.lower) && region_.contains(box.upper));
   }
-  /// The path goes elsewhere now.
-  void renew(const Particles&, std::size_t path);
+  /// These paths go elsewhere now.
+  void renew(const Particles&, std::span<const std::uint32_t> paths);
 
   static constexpr std::size_t kPathsOfWord = 64;
   /// Bits of kPathsOfWord paths each.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "hierarchy/outline.hpp"
 #include "radiosity/rounding.hpp"
+#include "radiosity/separation.hpp"
 
 namespace deltalux {
 
@@ -78,39 +78,8 @@ struct Ends {
   }
 };
 
-/// Corners of what an end occupies: the outline of a flat patch, else its box.
-std::size_t corners(const Elements& elements, ElementId e, std::array<Vec3, 12>& out) {
-  if (elements.isPatch(e) && elements.at(e).flat && elements.outline(e).size() <= out.size()) {
-    const PlaneFrame& f = elements.frames[elements.domain[e.index()].frame];
-    std::size_t n = 0;
-    for (const Vec2& q : elements.outline(e)) out[n++] = f.origin + q.x * f.edgeU + q.y * f.edgeV;
-    return n;
-  }
-  const ElementGeometry& g = elements.shape(e);
-  for (std::size_t i = 0; i < 8; ++i)
-    out[i] = {i & 1 ? g.upper.x : g.lower.x, i & 2 ? g.upper.y : g.lower.y, i & 4 ? g.upper.z : g.lower.z};
-  return 8;
-}
-
 /// Ends whose own corners are tighter than their box.
 bool flatEnd(const Elements& elements, ElementId e) { return elements.isPatch(e) && elements.at(e).flat; }
-
-bool segmentMeetsRectangle(const Vec2& a, const Vec2& b, const Vec2& lower, const Vec2& upper) {
-  // Clip the segment against the rectangle [Liang & Barsky 1984].
-  double t0 = 0, t1 = 1;
-  const Vec2 d = b - a;
-  for (int axis = 0; axis < 2; ++axis) {
-    if (d[axis] == 0) {
-      if (a[axis] < lower[axis] || a[axis] > upper[axis]) return false;
-      continue;
-    }
-    double enter = (lower[axis] - a[axis]) / d[axis], leave = (upper[axis] - a[axis]) / d[axis];
-    if (enter > leave) std::swap(enter, leave);
-    t0 = std::max(t0, enter), t1 = std::min(t1, leave);
-    if (t0 > t1) return false;
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -126,7 +95,7 @@ bool provablyBlocked(const Elements& elements, const Scene& scene, ElementId rec
   const float narrower =
       0.7f * std::min(elements.shape(receiver).radius,
                       elements.isDistant(sender) ? elements.shape(receiver).radius : elements.shape(sender).radius);
-  std::array<Vec3, 12> r, s;
+  std::array<Vec3, kMostCorners> r, s;
   std::size_t rCount = 0, sCount = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const ElementId c = candidates[i];
@@ -141,42 +110,10 @@ bool provablyBlocked(const Elements& elements, const Scene& scene, ElementId rec
     if (!apart && !(flatEnd(elements, receiver) || flatEnd(elements, sender))) continue;
     const PatchDomain& d = elements.domain[c.index()];
     if (isThinGlass(scene.materialOf(d.primitive))) continue;
-    const PlaneFrame& f = elements.frames[d.frame];
-    if (rCount == 0) rCount = corners(elements, receiver, r), sCount = corners(elements, sender, s);
-    // Strictly on opposite sides of the plane.
-    double rLow = kInfinity, rHigh = -kInfinity, sLow = kInfinity, sHigh = -kInfinity;
-    std::array<double, 12> rHeight, sHeight;
-    for (std::size_t k = 0; k < rCount; ++k) {
-      rHeight[k] = glm::dot(r[k] - f.origin, f.normal);
-      rLow = std::min(rLow, rHeight[k]), rHigh = std::max(rHigh, rHeight[k]);
-    }
-    for (std::size_t k = 0; k < sCount; ++k) {
-      sHeight[k] = glm::dot(s[k] - f.origin, f.normal);
-      sLow = std::min(sLow, sHeight[k]), sHigh = std::max(sHigh, sHeight[k]);
-    }
-    if (!((rHigh < 0 && sLow > 0) || (rLow > 0 && sHigh < 0))) continue;
-    // All segments between corners cross the plane in the hull of these points; their rectangle must lie inside.
-    const double uu = glm::dot(f.edgeU, f.edgeU), uv = glm::dot(f.edgeU, f.edgeV), vv = glm::dot(f.edgeV, f.edgeV);
-    const double determinant = uu * vv - uv * uv;
-    Vec2 lower(kInfinity), upper(-kInfinity);
-    bool within = true;
-    for (std::size_t a = 0; a < rCount && within; ++a) {
-      for (std::size_t b = 0; b < sCount && within; ++b) {
-        const double t = rHeight[a] / (rHeight[a] - sHeight[b]);
-        const Vec3 q = glm::mix(r[a], s[b], t) - f.origin;
-        const double qu = glm::dot(q, f.edgeU), qv = glm::dot(q, f.edgeV);
-        const Vec2 p{(qu * vv - qv * uv) / determinant, (qv * uu - qu * uv) / determinant};
-        lower = glm::min(lower, p), upper = glm::max(upper, p);
-        within = p.x >= 0 && p.y >= 0 && p.x <= 1 && p.y <= 1;
-      }
-    }
-    if (!within) continue;
-    const auto outline = elements.outline(c);
-    if (!outlineContains(outline, 0.5 * (lower + upper))) continue;
-    bool inside = true;
-    for (std::size_t k = 0; k < outline.size() && inside; ++k)
-      inside = !segmentMeetsRectangle(outline[k], outline[(k + 1) % outline.size()], lower, upper);
-    if (inside) return true;
+    if (rCount == 0) rCount = cornersOf(elements, receiver, r), sCount = cornersOf(elements, sender, s);
+    if (separates(elements.frames[d.frame], elements.outline(c), std::span(r).first(rCount),
+                  std::span(s).first(sCount)))
+      return true;
   }
   return false;
 }

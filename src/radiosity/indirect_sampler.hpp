@@ -107,6 +107,9 @@ class IndirectSampler {
   };
   /// In ascending order.
   std::vector<Again> meeting(ElementId leaf, const SpaceChange&, const TransferRow&) const;
+  bool turn(ElementId leaf, const LinkChanges&, std::span<const LinkId> changed, const SpaceChange&,
+            TransferRow&) const;
+  bool relink(ElementId leaf, const LinkChanges&, std::span<const LinkId> changed, TransferRow&) const;
   std::vector<Again> moved(ElementId leaf, const TransferRow&) const;
   bool uneven(ElementId leaf, std::span<const Again>, const TransferRow&) const;
   bool coveredBy(std::span<const LinkId> changed, const RowTerm&) const;

@@ -49,6 +49,7 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(ElementId leaf, con
 
 bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed,
                              const SpaceChange& space, int rays, TransferRow& row, std::uint64_t& traced) const {
+  if (space.hiddenFrom(leaf) && !space.moved(leaf) && turn(leaf, links, changed, space, row)) return false;
   const auto stale = [&](const RowTerm& t) {
     const LinkChange change = changeOf(links, t.link);
     return change == LinkChange::Changed || (change == LinkChange::Touched && coveredBy(changed, t));
@@ -65,6 +66,59 @@ bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span
   const bool other = retrace(leaf, again, row, traced);
   const bool dealt = !changed.empty() && dealChanged(leaf, changed, rays, row, traced);
   return gone || other || dealt;
+}
+
+/// The row of a leaf from which all that moved is hidden, before and after, brings what it did, over the links that
+/// there are now. False where it must be looked at all the same.
+bool IndirectSampler::turn(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed,
+                           const SpaceChange& space, TransferRow& row) const {
+  if (!changed.empty() && !relink(leaf, links, changed, row)) return false;
+  if (!space.meets(row.reach.objects)) return true;
+  const bool bright = std::any_of(row.terms.begin(), row.terms.end(),
+                                  [&](const RowTerm& t) { return t.count > 0 && space.moved(t.sender); });
+  const PrimitiveId occluder = space.occluder(leaf);
+  if (bright || !occluder.valid()) return !bright;
+  // Rays to what moved, and those that it was found to block, end where it is hidden now: when that goes, they are
+  // drawn again.
+  const Polygon& wall = std::get<Polygon>(scene_[occluder].shape);
+  const ElementGeometry& g = elements_.shape(leaf);
+  const Vec3 from(0.5f * (g.lower + g.upper));
+  const double height = glm::dot(from - wall.origin, wall.normal);
+  const auto endAtWall = [&](RayCode& ray, const Vec3& d) {
+    const double t = -height / glm::dot(d, wall.normal);
+    if (t > 0 && std::isfinite(t)) ray = rayCode(Vec3f(t * d), true);
+  };
+  std::vector<std::uint32_t> met;
+  space.meetsRays(g, row.rays, met);
+  for (const std::uint32_t i : met)
+    if (blocked(row.rays[i]) && end(row.rays[i]) > 0) endAtWall(row.rays[i], Vec3(direction(towards(row.rays[i]))));
+  for (std::size_t i = 0; i < row.terms.size(); ++i)
+    if (const ElementId sender = row.terms[i].sender; space.moved(sender))
+      endAtWall(row.rays[i], Vec3(elements_.shape(sender).center) - from);
+  row.reach.objects.add(scene_, occluder);
+  return true;
+}
+
+/// Gives terms over links that are no more those that cover them now. False where that is not all there is to it.
+bool IndirectSampler::relink(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed,
+                             TransferRow& row) const {
+  const auto covers = [&](LinkId id, const RowTerm& t) {
+    const Link& l = links_[id];
+    return l.state != LinkState::Free && holds(elements_, l.receiver, leaf) && holds(elements_, l.sender, t.sender);
+  };
+  std::vector<LinkId> active;
+  for (RowTerm& t : row.terms) {
+    if (changeOf(links, t.link) != LinkChange::Changed) continue;
+    if (!covers(t.link, t)) {
+      if (active.empty())
+        for (const LinkId top : changed) activeBelow(links_, elements_, top, leaf, active);
+      const auto now = std::find_if(active.begin(), active.end(), [&](LinkId id) { return covers(id, t); });
+      if (now == active.end()) return false;
+      t.link = *now;
+    }
+    if (t.clear && links_[t.link].visibility != Visibility::Clear) return false;
+  }
+  return true;
 }
 
 /// The rays of all terms, for a leaf that has moved itself.

@@ -47,6 +47,7 @@ LineSpace::Finding LineSpace::examine(LinkId id) const {
     if (elements_.isDistant(l.sender) ? !change_.meetsBeam(r, s.center, kBeside * s.radius)
                                       : !change_.meets(r.center, r.radius, s.center, s.radius))
       return f;
+    if (change_.hiddenFrom(l.receiver) || change_.hiddenFrom(l.sender)) return f;
     const Shaft shaft(r, s);
     left = before_.meets(shaft), arrives = after_.meets(shaft);
   }

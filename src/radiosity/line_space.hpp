@@ -4,6 +4,8 @@
 // the two boxes on the way down. Run before the elements move: the ends of all links but those that are marked anyway
 // stay where they are, so each shaft is built once and tested against the old bounds and the new.
 //
+// What sees nothing of what moves prunes links likewise: nothing changes between it and anything else that stays.
+//
 // A touched link is looked at anew only when that can tell another story: an end of it moved, a ray that sampled its
 // visibility meets the bounds, it was proven clear, or proven blocked by what now goes.
 // Cost: some 0.1 microseconds a link visited; links visited are those of shafts through the bounds, and their siblings.

@@ -94,8 +94,11 @@ ConcernedLeaves LeafTransfers::concerned(const Elements& elements, const Links& 
   parallelFor(near.size(), kBlock, [&](std::size_t i) {
     const ElementGeometry& g = elements.shape(near[i]);
     const LeafRow& row = *find(near[i]);
-    const bool byLights = !inScene || uncovers(elements, near[i], space) || space.meets(g, row.direct.reach);
-    met[i] = static_cast<char>((byLights ? kByLights : 0) | (space.meets(g, row.indirect.reach) ? kByLeaves : 0));
+    bool byLights = !inScene || space.meets(g, row.direct.reach), byLeaves = space.meets(g, row.indirect.reach);
+    if ((byLights || byLeaves) && space.hiddenFrom(near[i]))  // then rays that are blocked anyway lead elsewhere
+      byLights = false, byLeaves = space.meets(row.indirect.reach.objects);
+    byLights |= uncovers(elements, near[i], space);
+    met[i] = static_cast<char>((byLights ? kByLights : 0) | (byLeaves ? kByLeaves : 0));
   });
   for (std::size_t i = 0; i < near.size(); ++i)
     if (met[i]) add(near[i], met[i]);

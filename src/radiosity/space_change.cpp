@@ -63,6 +63,7 @@ void SpaceChange::add(const Box& box) {
   const Vec3f size = glm::max(glm::abs(Vec3f(box.lower)), glm::abs(Vec3f(box.upper)));
   const Vec3f slack(kSlack * std::max({size.x, size.y, size.z, 1e-3f}));
   parts_.add({Vec3f(box.lower) - slack, Vec3f(box.upper) + slack});
+  hidden_.reset();
 }
 
 void SpaceChange::addMoved(std::span<const ElementId> inputs, const Elements& elements, const Scene& scene) {
@@ -76,6 +77,7 @@ void SpaceChange::addMoved(std::span<const ElementId> inputs, const Elements& el
 
 void SpaceChange::addInputs(std::span<const ElementId> inputs) {
   inputs_.insert(inputs_.end(), inputs.begin(), inputs.end());
+  hidden_.reset();
   std::sort(inputs_.begin(), inputs_.end());
   inputs_.erase(std::unique(inputs_.begin(), inputs_.end()), inputs_.end());
 }
@@ -92,9 +94,25 @@ void SpaceChange::addObject(ObjectId top) {
 void SpaceChange::add(const SpaceChange& more) {
   for (const ObjectId top : more.tops_) addObject(top);
   parts_.add(more.parts_);
+  hidden_.reset();
   moved_.grow(more.moved_.size());
   more.moved_.forEach([&](std::size_t i, char moved) { moved_.at(i) |= moved; });
   addInputs(more.inputs_);
+}
+
+void SpaceChange::findHidden(const Elements& elements, const Scene& scene, const RayTracer& tracer, ElementId grown) {
+  hidden_.reset();
+  Box region{Vec3(parts_.all().lower), Vec3(parts_.all().upper)};
+  const auto add = [&](ElementId e) {
+    const ElementGeometry& g = elements.shape(e);
+    if (g.area > 0) region.extend(Box{Vec3(g.lower), Vec3(g.upper)});
+  };
+  for (const ElementId input : inputs_) {
+    if (elements.isDistant(input)) return;
+    add(input);
+  }
+  if (grown.valid()) add(grown);
+  if (!parts_.empty()) hidden_ = std::make_shared<OutOfSight>(elements, scene, tracer, region);
 }
 
 float SpaceChange::nearness(const Vec3f& center, float radius) const {

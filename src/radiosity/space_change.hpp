@@ -2,6 +2,7 @@
 // Where a scene has changed: the bounds of what moved, before and after, and what that does to the links.
 #include <algorithm>
 #include <deltalux/math.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "base/paged_array.hpp"
 #include "hierarchy/link.hpp"
 #include "radiosity/box_groups.hpp"
+#include "radiosity/out_of_sight.hpp"
 #include "radiosity/ray_code.hpp"
 #include "radiosity/row_reach.hpp"
 #include "radiosity/shaft.hpp"
@@ -35,6 +37,12 @@ class SpaceChange {
   }
 
   bool empty() const { return parts_.empty(); }
+  /// Finds out what sees nothing of all this, nor of what has grown, while the rest stands still; until more is added.
+  void findHidden(const Elements&, const Scene&, const RayTracer&, ElementId grown = {});
+  /// Whether an element is known to see nothing of what moved, where it was and where it is (out_of_sight.hpp).
+  bool hiddenFrom(ElementId e) const { return hidden_ && hidden_->holds(e); }
+  /// The polygon that hides it from an element; none where another reason does.
+  PrimitiveId occluder(ElementId e) const { return hidden_ ? hidden_->occluder(e) : PrimitiveId(); }
   /// The largest share that the bounds of one thing take of the hemisphere around a ball, about; 1 for those near by.
   float nearness(const Vec3f& center, float radius) const;
   /// Conservative: never false when what moved is met.
@@ -74,6 +82,7 @@ class SpaceChange {
   PagedArray<char> moved_;
   std::vector<ObjectId> tops_;      // of what moved; ascending
   std::vector<ObjectSet> objects_;  // each of one of them
+  std::shared_ptr<const OutOfSight> hidden_;
 };
 
 /// What a link has come to, by its index.

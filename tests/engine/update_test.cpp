@@ -82,8 +82,13 @@ TEST(Update, ManySmallMovesCarryTheirLightOn) {
   EXPECT_LT(test::unsettled(engine.solution().get()).relative.p95, 0.005);
 }
 
-/// Terms of indirect rows that would bring something else, were all their rays traced anew; and all terms.
-std::pair<std::size_t, std::size_t> termsThatAreStale(const Solution& s) {
+struct Staleness {
+  std::size_t terms = 0;    // of indirect rows
+  std::size_t bring = 0;    // those that would bring something else, were all rays traced anew
+  std::size_t towards = 0;  // those whose ray would be remembered to lead elsewhere
+};
+
+Staleness staleness(const Solution& s) {
   Elements elements = s.elements;
   LeafTransfers transfers = s.transfers;
   LinkMarks all;
@@ -94,7 +99,7 @@ std::pair<std::size_t, std::size_t> termsThatAreStale(const Solution& s) {
   for (const LeafRow& row : transfers.rows()) leaves.byLeaves.push_back(row.leaf);
   std::sort(leaves.byLeaves.begin(), leaves.byLeaves.end());
   transfers.update(elements, s.links, s.scene, *s.tracer, {}, all, {}, everywhere, leaves);
-  std::size_t stale = 0, count = 0;
+  Staleness stale;
   for (std::size_t i = 0; i < transfers.rows().size(); ++i) {
     const TransferRow &was = s.transfers.rows()[i].indirect, &is = transfers.rows()[i].indirect;
     EXPECT_EQ(was.terms.size(), is.terms.size());
@@ -107,10 +112,11 @@ std::pair<std::size_t, std::size_t> termsThatAreStale(const Solution& s) {
     add(was, 1), add(is, -1);
     for (std::size_t k = 0; k < bring.size(); ++k) {
       if (!elements.isLeaf(is.terms[k].sender)) continue;  // another ray, since its sender has been split
-      ++count, stale += !(towards(was.rays[k]) == towards(is.rays[k])) || glm::length(bring[k]) > 1e-6;
+      ++stale.terms, stale.bring += glm::length(bring[k]) > 1e-6;
+      stale.towards += !(towards(was.rays[k]) == towards(is.rays[k]));
     }
   }
-  return {stale, count};
+  return stale;
 }
 
 TEST(Update, NoRayIsMissed) {
@@ -137,10 +143,37 @@ TEST(Update, NoRayIsMissed) {
   for (const TransformObject& move : moves) {
     engine.apply(move);
     engine.update();
-    const auto [stale, terms] = termsThatAreStale(engine.solution().get());
-    EXPECT_GT(terms, 10000u);
-    EXPECT_EQ(stale, 0u) << "after " << move.object;
+    const Staleness stale = staleness(engine.solution().get());
+    EXPECT_GT(stale.terms, 10000u);
+    EXPECT_EQ(stale.bring, 0u) << "after " << move.object;
   }
+}
+
+TEST(Update, WhatMovedOutOfSightIsFoundWhereItIsWhenItsScreenGoes) {
+  Scene scene = roomWithBox();
+  const ObjectId screen = internObject(scene, "screen", '.');
+  const MaterialId gray = test::addMaterial(scene, "gray", test::lambert(0.4f));
+  test::addBox(scene, gray, {0.2, 1.0, 0}, {2.8, 1.05, 2.2}, false);
+  for (std::size_t i = scene.primitives.size() - 6; i < scene.primitives.size(); ++i)
+    scene.primitives[i].object = screen;
+  SolveSettings settings;
+  settings.error = 0.1, settings.diffuseOnly = true;
+  Engine engine(scene, settings);
+  engine.solve();
+  for (const Vec3& by : {Vec3(0.3, 0.9, 0), Vec3(-0.4, 0.1, 0.2), Vec3(0, -0.5, -0.1)}) {
+    engine.apply(moveBox(by));
+    engine.update();
+    const Solution& s = engine.solution().get();
+    EXPECT_EQ(staleness(s).bring, 0u);
+    EXPECT_NO_THROW(s.transfers.validate(s.elements, s.links));
+  }
+  EXPECT_GT(staleness(engine.solution().get()).towards, 0u) << "nothing was out of sight: this shows nothing";
+  engine.apply(RemoveObject{"screen"});
+  engine.update();
+  const Staleness stale = staleness(engine.solution().get());
+  EXPECT_GT(stale.terms, 10000u);
+  EXPECT_EQ(stale.bring, 0u);
+  EXPECT_EQ(stale.towards, 0u);
 }
 
 TEST(Update, DiffuseOnlyFollowsLights) {
@@ -247,11 +280,14 @@ TEST(Update, RemovingWhatIsRoundAndCloseLeavesNothingOfIt) {
   Engine engine = test::solved(scene, 0.1);
   const Restore back = engine.apply(RemoveObject{"ball"});
   engine.update();
-  const auto [gone, terms] = termsThatAreStale(engine.solution().get());
-  EXPECT_EQ(gone, 0u) << "of " << terms;
+  const Staleness gone = staleness(engine.solution().get());
+  EXPECT_EQ(gone.bring, 0u) << "of " << gone.terms;
+  EXPECT_EQ(gone.towards, 0u) << "of " << gone.terms;
   engine.apply(back);
   engine.update();
-  EXPECT_EQ(termsThatAreStale(engine.solution().get()).first, 0u);
+  const Staleness there = staleness(engine.solution().get());
+  EXPECT_EQ(there.bring, 0u);
+  EXPECT_EQ(there.towards, 0u);
 }
 
 TEST(Update, ManyRandomMovesHoldTogetherAndEndWhereAFreshSolveDoes) {
