@@ -227,7 +227,7 @@ Engine::State::Motion Engine::State::leave(const SceneUpdate& edits, StepReport&
   motion.inputs.insert(motion.inputs.end(), lights.begin(), lights.end());
   motion.all.addMoved(motion.inputs, s.elements, s.scene);
   if (primitives.empty() && motion.inputs.empty()) return motion;
-  motion.all.findHidden(s.elements, s.scene, *s.tracer);
+  motion.all.findHidden(s.elements, s.scene);
   motion.marks = LineSpace(s.links, s.elements, s.scene, motion.all, before, after).visit();
   reshape(s.elements, s.scene, motion.inputs);
   if (!lights.empty()) creditLights(s.elements);
@@ -246,7 +246,7 @@ RowWork Engine::State::arrive(Motion& motion, const Growth& growth, StepReport& 
     motion.inputs.insert(motion.inputs.end(), growth.woken.begin(), growth.woken.end());
     motion.all.addMoved(motion.inputs, s.elements, s.scene);
   }
-  if (!growth.empty()) motion.all.findHidden(s.elements, s.scene, *s.tracer, growth.root);
+  if (!growth.empty()) motion.all.findHidden(s.elements, s.scene, growth.root);
   if (growth.root.valid()) addRootLinks(s.links, s.elements, growth.root);
   step.linksVisited = marks.visited;
   step.times.visibility += time.seconds();

@@ -57,7 +57,7 @@ class Umbras {
  private:
   struct Umbra {
     std::uint32_t first, count;  // of planes
-    PrimitiveId occluder;
+    ElementId occluder;
     float covered;  // solid angle, about
   };
   enum class Place : char { Outside, Across, Inside };
@@ -79,18 +79,18 @@ class Umbras {
     const PlaneFrame& f = elements_.frames[d.frame];
     std::vector<Vec3> outline;
     for (const Vec2& q : elements_.outline(e)) outline.push_back(f.origin + q.x * f.edgeU + q.y * f.edgeV);
-    if (outline.size() <= kMostEdges && isConvex(outline, f.normal)) return add(d.primitive, outline, f.normal);
+    if (outline.size() <= kMostEdges && isConvex(outline, f.normal)) return add(e, outline, f.normal);
     const auto* polygon = std::get_if<Polygon>(&scene_[d.primitive].shape);
     if (!polygon) return;
     for (const auto& triangle : polygon->triangles) {
       const std::array<Vec3, 3> part{polygon->vertices[triangle[0]], polygon->vertices[triangle[1]],
                                      polygon->vertices[triangle[2]]};
-      add(d.primitive, part, f.normal);
+      add(e, part, f.normal);
     }
   }
 
   /// The umbra of a convex polygon.
-  void add(PrimitiveId occluder, std::span<const Vec3> outline, Vec3 normal) {
+  void add(ElementId occluder, std::span<const Vec3> outline, Vec3 normal) {
     Vec3 area(0.0), center(0.0);
     for (std::size_t i = 0; i < outline.size(); ++i) {
       area += 0.5 * glm::cross(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);

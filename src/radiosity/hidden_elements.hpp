@@ -12,11 +12,11 @@ namespace deltalux {
 
 struct HiddenElement {
   ElementId element;
-  PrimitiveId occluder;
+  ElementId occluder;  // a flat patch of the input level
 };
 
 /// The topmost elements of the scene's trees that are known to be hidden from `region`, down to little parts of
-/// surfaces, each with a polygon that hides them. What lies in the region hides nothing.
+/// surfaces, each with what hides it. What lies in the region hides nothing.
 std::vector<HiddenElement> hiddenElements(const Elements&, const Scene&, const Box& region);
 
 }  // namespace deltalux

@@ -76,11 +76,12 @@ bool IndirectSampler::turn(ElementId leaf, const LinkChanges& links, std::span<c
   if (!space.meets(row.reach.objects)) return true;
   const bool bright = std::any_of(row.terms.begin(), row.terms.end(),
                                   [&](const RowTerm& t) { return t.count > 0 && space.moved(t.sender); });
-  const PrimitiveId occluder = space.occluder(leaf);
+  const ElementId occluder = space.occluder(leaf);
   if (bright || !occluder.valid()) return !bright;
   // Rays to what moved, and those that it was found to block, end where it is hidden now: when that goes, they are
   // drawn again.
-  const Polygon& wall = std::get<Polygon>(scene_[occluder].shape);
+  const PatchDomain& domain = elements_.domain[occluder.index()];
+  const PlaneFrame& wall = elements_.frames[domain.frame];
   const ElementGeometry& g = elements_.shape(leaf);
   const Vec3 from(0.5f * (g.lower + g.upper));
   const double height = glm::dot(from - wall.origin, wall.normal);
@@ -95,7 +96,7 @@ bool IndirectSampler::turn(ElementId leaf, const LinkChanges& links, std::span<c
   for (std::size_t i = 0; i < row.terms.size(); ++i)
     if (const ElementId sender = row.terms[i].sender; space.moved(sender))
       endAtWall(row.rays[i], Vec3(elements_.shape(sender).center) - from);
-  row.reach.objects.add(scene_, occluder);
+  row.reach.objects.add(scene_, domain.primitive);
   return true;
 }
 

@@ -100,7 +100,7 @@ void SpaceChange::add(const SpaceChange& more) {
   addInputs(more.inputs_);
 }
 
-void SpaceChange::findHidden(const Elements& elements, const Scene& scene, const RayTracer& tracer, ElementId grown) {
+void SpaceChange::findHidden(const Elements& elements, const Scene& scene, ElementId grown) {
   hidden_.reset();
   Box region{Vec3(parts_.all().lower), Vec3(parts_.all().upper)};
   const auto add = [&](ElementId e) {
@@ -112,7 +112,7 @@ void SpaceChange::findHidden(const Elements& elements, const Scene& scene, const
     add(input);
   }
   if (grown.valid()) add(grown);
-  if (!parts_.empty()) hidden_ = std::make_shared<OutOfSight>(elements, scene, tracer, region);
+  if (!parts_.empty()) hidden_ = std::make_shared<OutOfSight>(elements, scene, region);
 }
 
 float SpaceChange::nearness(const Vec3f& center, float radius) const {

@@ -38,11 +38,11 @@ class SpaceChange {
 
   bool empty() const { return parts_.empty(); }
   /// Finds out what sees nothing of all this, nor of what has grown, while the rest stands still; until more is added.
-  void findHidden(const Elements&, const Scene&, const RayTracer&, ElementId grown = {});
+  void findHidden(const Elements&, const Scene&, ElementId grown = {});
   /// Whether an element is known to see nothing of what moved, where it was and where it is (out_of_sight.hpp).
   bool hiddenFrom(ElementId e) const { return hidden_ && hidden_->holds(e); }
-  /// The polygon that hides it from an element; none where another reason does.
-  PrimitiveId occluder(ElementId e) const { return hidden_ ? hidden_->occluder(e) : PrimitiveId(); }
+  /// The flat patch that hides it from an element; none where another reason does.
+  ElementId occluder(ElementId e) const { return hidden_ ? hidden_->occluder(e) : ElementId(); }
   /// The largest share that the bounds of one thing take of the hemisphere around a ball, about; 1 for those near by.
   float nearness(const Vec3f& center, float radius) const;
   /// Conservative: never false when what moved is met.

@@ -58,7 +58,8 @@ TEST(HiddenElements, LieBehindTheirOccluders) {
     for (const HiddenElement& h : hiddenElements(elements, scene, region)) {
       Scene alone;
       alone.materials = scene.materials;
-      alone.primitives.push_back({scene[h.occluder].shape, scene[h.occluder].material, {}});
+      const Primitive& p = scene[elements.domain[h.occluder.index()].primitive];
+      alone.primitives.push_back({p.shape, p.material, {}});
       const auto occluder = makeEmbreeTracer(alone);
       const Box box = elements.box(h.element);
       for (int k = 0; k < 32; ++k)
@@ -89,7 +90,7 @@ TEST(HiddenElements, AreNoneBehindGlassOrWhatLiesInTheRegion) {
     const Elements elements = buildElements(scene, surfaceSides(scene));
     const Box beside{Vec3(-0.5), Vec3(0.5)}, across{Vec3(-0.5), Vec3(1.5, 0.5, 0.5)};
     EXPECT_EQ(hiddenElements(elements, scene, beside).empty(), glass);
-    for (const HiddenElement& h : hiddenElements(elements, scene, across)) EXPECT_NE(h.occluder, PrimitiveId(0u));
+    for (const HiddenElement& h : hiddenElements(elements, scene, across)) EXPECT_NE(elements.domain[h.occluder.index()].primitive, PrimitiveId(0u));
   }
 }
 

@@ -63,7 +63,7 @@ TEST(OutOfSight, HoldsOfTheOtherRoomAndOfNothingThatSees) {
   const auto tracer = makeEmbreeTracer(scene);
   const Elements elements = buildElements(scene, surfaceSides(scene));
   const Box region{room.center(), room.center() + Vec3(0.4, 0.3, 0.3)};
-  const OutOfSight hidden(elements, scene, *tracer, region);
+  const OutOfSight hidden(elements, scene, region);
   Rng rng(5);
   int inOther = 0, hiddenThere = 0, seeing = 0;
   for (std::size_t i = 0; i < elements.size(); ++i) {
