@@ -18,12 +18,25 @@ namespace deltalux {
 namespace {
 
 constexpr std::size_t kBlock = 64;
+constexpr std::size_t kManyElements = 16384;
 constexpr int kByLights = 1, kByLeaves = 2;  // which row of a leaf is concerned
 
 /// Whether what moved may have covered some of the leaf, or may cover it now.
 bool uncovers(const Elements& elements, ElementId leaf, const SpaceChange& space) {
   const Box beside = SurfaceReaches::beside(elements.shape(leaf));
   return space.meets(Vec3f(beside.lower), Vec3f(beside.upper));
+}
+
+/// Which rows of a leaf a move may change by itself. `hidden`: it is known to see nothing of what moves; then only rays
+/// that are blocked may lead elsewhere. `inScene`: else rays to lights at infinity may go on to what moves.
+int concernedBy(const Elements& elements, const LeafRow& row, const SpaceChange& space, bool inScene, bool hidden) {
+  if (hidden) return space.meets(row.indirect.reach.objects) ? kByLeaves : 0;
+  const ElementGeometry& g = elements.shape(row.leaf);
+  bool byLights = !inScene || space.meets(g, row.direct.reach), byLeaves = space.meets(g, row.indirect.reach);
+  if ((byLights || byLeaves) && space.hiddenFrom(row.leaf))
+    byLights = false, byLeaves = space.meets(row.indirect.reach.objects);
+  byLights |= uncovers(elements, row.leaf, space);
+  return (byLights ? kByLights : 0) | (byLeaves ? kByLeaves : 0);
 }
 
 /// Of the receiving leaves at or below `top` those that are not visited yet.
@@ -39,8 +52,8 @@ void visitLeaves(const Elements& elements, ElementId top, PagedArray<char>& visi
 }  // namespace
 
 void LeafTransfers::dropNoLeaves(const Elements& elements) {
-  for (std::size_t e = 0; e < rowOf_.size(); ++e) {
-    if (rowOf_[e] == kNone || elements.isReceivingLeaf(ElementId(e))) continue;
+  const auto isStale = [&](std::size_t e) { return rowOf_[e] != kNone && !elements.isReceivingLeaf(ElementId(e)); };
+  for (const std::size_t e : parallelWhere(rowOf_.size(), kManyElements, isStale)) {
     const std::uint32_t row = std::exchange(rowOf_[e], kNone);
     if (row + 1 < rows_.size()) {
       rows_[row] = std::move(rows_.back());
@@ -79,29 +92,23 @@ ConcernedLeaves LeafTransfers::concerned(const Elements& elements, const Links& 
   PagedArray<char> visited(elements.size());
   for (const ElementId input : space.inputs())
     visitLeaves(elements, input, visited, [&](ElementId e) { add(e, kByLights | kByLeaves); });
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    if (const ElementId e(i); !find(e) && elements.isReceivingLeaf(e)) add(e, kByLights | kByLeaves);
+  const auto isNew = [&](std::size_t i) { return !find(ElementId(i)) && elements.isReceivingLeaf(ElementId(i)); };
+  for (const std::size_t i : parallelWhere(elements.size(), kManyElements, isNew))
+    add(ElementId(i), kByLights | kByLeaves);
 
-  const bool inScene = space.within(elements.sceneBox);  // else rays to lights at infinity may go on to it
-  std::vector<ElementId> near;
-  visited = PagedArray<char>(elements.size());
-  reaches_.forEachMet(space, !inScene, [&](ElementId input) {
-    visitLeaves(elements, input, visited, [&](ElementId e) {
-      if (find(e)) near.push_back(e);
+  const bool inScene = space.within(elements.sceneBox);
+  const std::vector<ElementId> surfaces = reaches_.met(space, !inScene);
+  std::vector<std::vector<std::pair<ElementId, int>>> met((surfaces.size() + kBlock - 1) / kBlock);
+  parallelFor(surfaces.size(), kBlock, [&](std::size_t i) {
+    const bool hidden = space.hiddenFrom(surfaces[i]);
+    forEachLeafBelow(elements, surfaces[i], [&](ElementId e) {
+      const LeafRow* row = find(e);
+      if (const int by = row ? concernedBy(elements, *row, space, inScene, hidden) : 0)
+        met[i / kBlock].push_back({e, by});
     });
   });
-  std::vector<char> met(near.size(), 0);
-  parallelFor(near.size(), kBlock, [&](std::size_t i) {
-    const ElementGeometry& g = elements.shape(near[i]);
-    const LeafRow& row = *find(near[i]);
-    bool byLights = !inScene || space.meets(g, row.direct.reach), byLeaves = space.meets(g, row.indirect.reach);
-    if ((byLights || byLeaves) && space.hiddenFrom(near[i]))  // then rays that are blocked anyway lead elsewhere
-      byLights = false, byLeaves = space.meets(row.indirect.reach.objects);
-    byLights |= uncovers(elements, near[i], space);
-    met[i] = static_cast<char>((byLights ? kByLights : 0) | (byLeaves ? kByLeaves : 0));
-  });
-  for (std::size_t i = 0; i < near.size(); ++i)
-    if (met[i]) add(near[i], met[i]);
+  for (const auto& some : met)
+    for (const auto& [leaf, by] : some) add(leaf, by);
 
   ConcernedLeaves out;
   found.forEach([&](std::size_t e, char by) {

@@ -1,5 +1,7 @@
 #include "radiosity/surface_reaches.hpp"
 
+#include "base/parallel.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -35,6 +37,16 @@ void SurfaceReaches::add(const Elements& elements, ElementId leaf, const Transfe
     reach->extend(g, s.lower, s.upper);
     s.objects.add(reach->objects);
   }
+}
+
+std::vector<ElementId> SurfaceReaches::met(const SpaceChange& space, bool everywhere) const {
+  const auto isMet = [&](std::size_t i) {
+    const Surface& s = surfaces_[i];
+    return everywhere || space.meets(s.objects) || (space.meets(s.lower, s.upper) && !space.hiddenFrom(s.element));
+  };
+  std::vector<ElementId> found;
+  for (const std::size_t i : parallelWhere(surfaces_.size(), 1024, isMet)) found.push_back(surfaces_[i].element);
+  return found;
 }
 
 bool SurfaceReaches::holds(const Elements& elements, ElementId leaf, const TransferRow& row) const {

@@ -17,13 +17,8 @@ class SurfaceReaches {
   /// Takes in what a row reaches, of a leaf of these elements.
   void add(const Elements&, ElementId leaf, const TransferRow& direct, const TransferRow& indirect);
 
-  /// visit(element) of all surfaces that something moving may touch, or whose rows it may. `everywhere`: all
-  /// surfaces that have rows.
-  template <class Visit>
-  void forEachMet(const SpaceChange& space, bool everywhere, const Visit& visit) const {
-    for (const Surface& s : surfaces_)
-      if (everywhere || space.meets(s.objects) || space.meets(s.lower, s.upper)) visit(s.element);
-  }
+  /// All surfaces that something moving may touch, or whose rows it may. `everywhere`: all that have rows.
+  std::vector<ElementId> met(const SpaceChange&, bool everywhere) const;
   /// Whether what the row of a leaf reaches is known.
   bool holds(const Elements&, ElementId leaf, const TransferRow&) const;
   std::size_t memoryBytes() const;
