@@ -188,7 +188,7 @@ void Engine::State::solveAfresh(Progress* progress) {
 
 bool Engine::State::resolve(const LeafTransferSettings& settings, Progress* progress) {
   Solution& s = *solution;
-  transfer.reset();
+  transfer.reset(), settling.reset(), upkeep.reset();  // of the rows and the mesh that there were
   creditLights(s.elements);
   const LeafTransferReport r = s.transfers.build(s.elements, s.links, s.scene, *s.tracer, settings);
   s.report.counts.raysVisibility += r.rays;
