@@ -3,6 +3,7 @@
 // hashes, so that any number of independent pairs can be padded to one sample. Every power-of-two prefix is stratified.
 // [Burley20: Burley 2020, "Practical Hash-based Owen Scrambling"; Laine and Karras 2011]
 #include <cstdint>
+#include <span>
 
 #include "base/random.hpp"
 
@@ -26,28 +27,16 @@ constexpr std::uint32_t scrambleReversed(std::uint32_t x, std::uint32_t seed) {
   return x;
 }
 
-/// The second dimension of the sequence, byte by byte of the index.
-class SecondSobolDimension {
- public:
-  constexpr SecondSobolDimension() {
-    std::uint32_t direction = 0x80000000u;
-    for (int byte = 0; byte < 4; ++byte) {
-      for (int bit = 0; bit < 8; ++bit, direction ^= direction >> 1) {
-        for (int i = 0; i < 256; ++i) {
-          if (i >> bit & 1) table_[byte][i] ^= direction;
-        }
-      }
-    }
-  }
-  constexpr std::uint32_t operator()(std::uint32_t index) const {
-    return table_[0][index & 255u] ^ table_[1][index >> 8 & 255u] ^ table_[2][index >> 16 & 255u] ^
-           table_[3][index >> 24];
-  }
-
- private:
-  std::uint32_t table_[4][256] = {};
-};
-inline constexpr SecondSobolDimension kSecondSobolDimension;
+/// The second dimension of the sequence, its bits in reverse: its matrix is Pascal's triangle modulo 2, which comes
+/// apart into a factor for each bit of the bits' places.
+constexpr std::uint32_t secondSobolReversed(std::uint32_t index) {
+  std::uint32_t x = index;
+  x ^= x >> 16;
+  x ^= (x & 0xff00ff00u) >> 8;
+  x ^= (x & 0xf0f0f0f0u) >> 4;
+  x ^= (x & 0xccccccccu) >> 2;
+  return x ^ (x & 0xaaaaaaaau) >> 1;
+}
 
 struct UnitPair {
   double x, y;
@@ -65,8 +54,12 @@ class ScrambledSobol {
     const std::uint32_t shuffled = reverseBits(scrambleReversed(reverseBits(index), shuffle_));
     // The first dimension is the index in reverse, so it is already as the scrambling wants it.
     const std::uint32_t x = reverseBits(scrambleReversed(shuffled, x_));
-    const std::uint32_t y = reverseBits(scrambleReversed(reverseBits(kSecondSobolDimension(shuffled)), y_));
+    const std::uint32_t y = reverseBits(scrambleReversed(secondSobolReversed(shuffled), y_));
     return {x * 0x1p-32, y * 0x1p-32};
+  }
+  /// Those from `first` on, several at a time.
+  constexpr void points(std::uint32_t first, std::span<UnitPair> all) const {
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = (*this)(first + static_cast<std::uint32_t>(i));
   }
 
  private:

@@ -10,6 +10,7 @@ namespace {
 constexpr double kFar = 3.0;           // radii from a sphere's centre beyond which points in it are drawn alone
 constexpr double kFarRectangle = 3.0;  // the same for rectangles, whose solid angle is known
 constexpr double kWide = 1.5;          // sr: wider cones are not worth one
+constexpr double kLeeway = 1.05;       // times a sphere's radius: those of curved cells are found by samples
 constexpr float kAverted = 0.05f;      // of a sample that falls where its sender does not shine
 constexpr double kVeryFar = 1e100;     // where a spotlight's focal offset no longer matters
 
@@ -29,19 +30,18 @@ const Emission& ParticleEmission::emission(const SenderCell& c) const {
   return *scene_.materialOf(c.primitive).emission;
 }
 
-FirstSegment ParticleEmission::sample(const LinkEnds& link, const EmissionNumbers& u) const {
-  FirstSegment s;
+void ParticleEmission::sample(const LinkEnds& link, const EmissionNumbers& u, FirstSegment& s) const {
+  s = {};
   const Senders::Choice chosen = choose(link, u.choice.x);
   const double share = 1 / chosen.chance;
   s.senderCell = chosen.cell;
   // What was removed keeps its place among cells.
-  if (!(senders_.cells()[s.senderCell].measure > 0)) return s;
+  if (!(senders_.cells()[s.senderCell].measure > 0)) return;
   const SenderKind kind = senders_.cells()[s.senderCell].kind;
   if (kind == SenderKind::Sun || kind == SenderKind::Sky)
     fromInfinity(link, u, share, s);
   else
     fromPlace(link, u, share, s);
-  return s;
 }
 
 /// A cluster close to its receivers holds few cells that are much closer than the others: those are to be drawn.
@@ -97,10 +97,16 @@ void ParticleEmission::fromPlace(const LinkEnds& link, const EmissionNumbers& u,
     y.position = senders_.bound(link.sender).center;
   } else {
     const SurfacePoint p = senders_.point(s.senderCell, u.origin);
-    y = {p.position, p.normal, true};
+    y.position = p.position, y.normal = p.normal, y.lambertian = true;
     s.originTriangle = p.triangle;
+    if (const auto omega = behind(y, link.receiver)) {
+      const float whole = c.kind == SenderKind::Side ? static_cast<float>(1 / kPi) : gray(emission(c).radiance);
+      s.bound = kAverted * static_cast<float>(share * c.measure * *omega) * whole;
+      return;
+    }
   }
-  const Aim a = aim(y, link.receiver, u.choice.y, u.direction);
+  Aim a;
+  aim(y, link.receiver, u.choice.y, u.direction, a);
   s.receiverCell = a.cell;
   if (!(a.density > 0)) return;
   const double weight = share * c.measure / a.density;
@@ -142,34 +148,42 @@ void ParticleEmission::fromPlace(const LinkEnds& link, const EmissionNumbers& u,
   }
 }
 
-ParticleEmission::Aim ParticleEmission::aim(const Origin& y, std::uint32_t at, double choice, const Vec2& u) const {
+/// About the solid angle of a receiver that lies behind the surface of an origin, whatever its points.
+std::optional<double> ParticleEmission::behind(const Origin& y, std::uint32_t at) const {
+  const BoundingSphere& ball = receivers_.bound(at);
+  const Vec3 d = ball.center - y.position;
+  if (glm::dot(d, y.normal) + kLeeway * std::max(ball.radius, 0.0) > 0 || !receivers_.holdsAll(at)) return std::nullopt;
+  return kPi * square(ball.radius) / glm::dot(d, d);
+}
+
+void ParticleEmission::aim(const Origin& y, std::uint32_t at, double choice, const Vec2& u, Aim& a) const {
   const RadixNode& node = receivers_.nodes()[at];
   const BoundingSphere& ball = receivers_.bound(at);
-  if (ball.empty()) return {};
+  if (ball.empty()) return;
   const bool flat = node.isLeaf() && receivers_.isFlat(node.begin);
   if (flat || glm::distance(y.position, ball.center) > kFar * ball.radius)
-    return aimAtCell(y.position, node, choice, u);
+    return aimAtCell(y.position, node, choice, u, a);
   if (choice < 0.5) {
-    Aim a = aimAround(y, ball, u);
+    aimAround(y, ball, u, a);
     a.density *= 0.5;
-    return a;
+    return;
   }
-  Aim a = aimAtCell(y.position, node, 2 * choice - 1, u);
+  aimAtCell(y.position, node, 2 * choice - 1, u, a);
   if (a.density > 0) {
     const double other = densityAround(y, ball, a.direction);
     a.balance = a.density / (a.density + other);  // [Veach97 9.8]
     a.density *= 0.5;
   }
-  return a;
 }
 
-ParticleEmission::Aim ParticleEmission::aimAtCell(const Vec3& from, const RadixNode& node, double choice,
-                                                  const Vec2& u) const {
+void ParticleEmission::aimAtCell(const Vec3& from, const RadixNode& node, double choice, const Vec2& u, Aim& a) const {
   const std::uint32_t cell = node.isLeaf() ? node.begin : receivers_.choose(node, choice);
-  if (!(receivers_.area(cell) > 0)) return {};
-  Aim a = receivers_.isFlat(cell) ? aimAtFlat(from, cell, u) : aimAtCurved(from, cell, u);
+  if (!(receivers_.area(cell) > 0)) return;
+  if (receivers_.isFlat(cell))
+    aimAtFlat(from, cell, u, a);
+  else
+    aimAtCurved(from, cell, u, a);
   if (!node.isLeaf()) a.density *= receivers_.weight(cell) / receivers_.weightOf(node);
-  return a;
 }
 
 bool ParticleEmission::seenBySolidAngle(const Vec3& from, const Rectangle& r) const {
@@ -180,8 +194,7 @@ bool ParticleEmission::seenBySolidAngle(const Vec3& from, const Rectangle& r) co
   return squared < square(kFarRectangle * longest) && height * r.area() > 1e-7 * squared * std::sqrt(squared);
 }
 
-ParticleEmission::Aim ParticleEmission::aimAtFlat(const Vec3& from, std::uint32_t cell, const Vec2& u) const {
-  Aim a;
+void ParticleEmission::aimAtFlat(const Vec3& from, std::uint32_t cell, const Vec2& u, Aim& a) const {
   a.cell = cell;
   const Rectangle r = receivers_.rectangle(cell);
   const double height = std::abs(glm::dot(r.corner - from, r.normal()));
@@ -194,31 +207,28 @@ ParticleEmission::Aim ParticleEmission::aimAtFlat(const Vec3& from, std::uint32_
   }
   const Vec3 x = r.at(at), d = x - from;
   const double distance = glm::length(d);
-  if (!(height > 1e-7 * distance) || !(distance > 0)) return a;  // edge on
+  if (!(height > 1e-7 * distance) || !(distance > 0)) return;  // edge on
   a.direction = d / distance, a.distance = distance;
   a.density = omega > 0 ? 1 / omega : distance * distance * distance / (r.area() * height);
   const auto point = receivers_.flatPoint(cell, x);
-  if (!point) return a;
+  if (!point) return;
   a.kind = FirstSegment::Kind::Target;
   a.target = x, a.normal = point->normal;
-  return a;
 }
 
-ParticleEmission::Aim ParticleEmission::aimAtCurved(const Vec3& from, std::uint32_t cell, const Vec2& u) const {
-  Aim a;
+void ParticleEmission::aimAtCurved(const Vec3& from, std::uint32_t cell, const Vec2& u, Aim& a) const {
   a.cell = cell;
   const ReceiverPoint x = receivers_.curvedPoint(cell, u);
   const Vec3 d = x.position - from;
   const double distance = glm::length(d);
-  if (!(distance > 0)) return a;
+  if (!(distance > 0)) return;
   a.direction = d / distance, a.distance = distance;
   const double cosine = std::abs(glm::dot(a.direction, x.normal));
-  if (!(cosine > 0)) return a;
+  if (!(cosine > 0)) return;
   a.density = distance * distance / (receivers_.area(cell) * cosine);
-  if (hidesItself(cell, x.position, -a.direction, &from)) return a;
+  if (hidesItself(cell, x.position, -a.direction, &from)) return;
   a.kind = FirstSegment::Kind::Target;
   a.target = x.position, a.normal = x.normal;
-  return a;
 }
 
 double ParticleEmission::densityAtCell(const Vec3& from, const RadixNode& node, std::uint32_t cell, const Vec3& at,
@@ -249,8 +259,7 @@ double coneDepth(const Vec3& toCenter, double radius) {
 
 }  // namespace
 
-ParticleEmission::Aim ParticleEmission::aimAround(const Origin& y, const BoundingSphere& ball, const Vec2& u) const {
-  Aim a;
+void ParticleEmission::aimAround(const Origin& y, const BoundingSphere& ball, const Vec2& u, Aim& a) const {
   a.kind = FirstSegment::Kind::Open;
   const Vec3 toCenter = ball.center - y.position;
   const double depth = coneDepth(toCenter, ball.radius), phi = 2 * kPi * u.y;
@@ -264,7 +273,6 @@ ParticleEmission::Aim ParticleEmission::aimAround(const Origin& y, const Boundin
     a.direction = Frame(axis).toWorld({r * std::cos(phi), r * std::sin(phi), 1 - down});
   }
   a.density = densityAround(y, ball, a.direction);
-  return a;
 }
 
 double ParticleEmission::densityAround(const Origin& y, const BoundingSphere& ball, const Vec3& direction) const {
@@ -317,19 +325,20 @@ void ParticleEmission::arrive(std::span<const LinkEnds> links, std::span<const F
     a.flux = s.flux * share * (byEither ? s.balance : 1.0f);
   }
   for (std::size_t k = 0; k < opens.size(); ++k)
-    if (hits[k]) arrivals[opens[k]] = meet(links[opens[k]], segments[opens[k]], hits[k]);
+    if (hits[k]) meet(links[opens[k]], segments[opens[k]], hits[k], arrivals[opens[k]]);
 }
 
-Arrival ParticleEmission::meet(const LinkEnds& link, const FirstSegment& s, const Hit& hit) const {
+void ParticleEmission::meet(const LinkEnds& link, const FirstSegment& s, const Hit& hit, Arrival& a) const {
   const RadixNode& node = receivers_.nodes()[link.receiver];
   const std::uint32_t cell = receivers_.cellOf(hit);
   if (cell < node.begin || cell >= node.end) {
-    Arrival blocked;
-    blocked.blocker = hit.primitive;
-    blocked.position = hit.position, blocked.distance = hit.t;
-    return blocked;
+    a.blocker = hit.primitive;
+    a.position = hit.position, a.distance = hit.t;
+    return;
   }
-  Arrival a{hit.primitive, {}, hit.triangle, hit.position, hit.normal, s.direction, hit.t, s.flux};
+  a.primitive = hit.primitive, a.triangle = hit.triangle;
+  a.position = hit.position, a.normal = hit.normal, a.direction = s.direction;
+  a.distance = hit.t, a.flux = s.flux;
   const double other = densityAtCell(Vec3(s.origin), node, cell, Vec3(hit.position), glm::normalize(Vec3(hit.normal)));
   a.flux *= static_cast<float>(s.density / (s.density + other));  // [Veach97 9.8]
   const SenderCell& c = senders_.cells()[s.senderCell];
@@ -337,7 +346,6 @@ Arrival ParticleEmission::meet(const LinkEnds& link, const FirstSegment& s, cons
     const double focal = glm::length(emission(c).spot->direction);
     a.flux *= static_cast<float>(square(a.distance / (a.distance + focal)));
   }
-  return a;
 }
 
 bool ParticleEmission::averted(const LinkEnds& link) const {

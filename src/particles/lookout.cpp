@@ -48,8 +48,13 @@ void Lookout::look(const LinkEnds& ends, std::uint64_t key, int count, Looks& lo
   const std::uint64_t own = combineKeys(key, kLookSeed);
   const EmissionSequence numbers(own);
   const EventSequence events(own, 0);
+  std::array<EmissionNumbers, EmissionSequence::kMost> some;
   for (int i = 0; i < more; ++i) {
-    w.segments[i] = emission_.sample(ends, numbers(static_cast<std::uint32_t>(first + i)));
+    const std::size_t at = static_cast<std::size_t>(i) % some.size();
+    if (at == 0)
+      numbers(static_cast<std::uint32_t>(first + i),
+              std::span(some).first(std::min(some.size(), static_cast<std::size_t>(more - i))));
+    emission_.sample(ends, some[at], w.segments[i]);
     const FirstSegment& s = w.segments[i];
     looks.expect(exitanceOf(s.senderCell) * s.bound * albedoOf(s, ends));
   }

@@ -81,6 +81,7 @@ Particles planParticles(const Scene& scene, const RayTracer& tracer, const Parti
   if (!moved(scene)) return plan(scene, tracer, settings);
   Scene rest = scene;
   for (const Placement& p : scene.placements) rest.primitives[p.primitive.index()].shape = p.rest;
+  rest.placements.clear();
   return plan(rest, *makeEmbreeTracer(rest), settings);
 }
 

@@ -109,7 +109,7 @@ Receivers::Receivers(const Scene& scene) : scene_(scene), surfaceOf_(scene.primi
     cumulative_.push_back(cumulative_.back() + deltalux::weightOf(area, surfaces_[cell.surface].albedo));
   }
   appendRadixTree(nodes_, codes, 0, kSeed);
-  bounds_.resize(nodes_.size());
+  bounds_.resize(nodes_.size()), holdsAll_.assign(nodes_.size(), 1);
   leaf_.resize(cells_.size());
   for (std::size_t n = 0; n < nodes_.size(); ++n)
     if (nodes_[n].isLeaf()) leaf_[nodes_[n].begin] = static_cast<std::uint32_t>(n);
@@ -166,10 +166,11 @@ std::vector<Receivers::Motion> Receivers::follow(std::span<const PrimitiveId> mo
     }
   }
   boundNodes();
-  const std::vector<char> fixed = heldAtRest();
+  const Edited is = edited();
   for (std::size_t n = nodes_.size(); n-- > 0;) {
+    holdsAll_[n] = nodes_[n].isLeaf() || !(is.none[n] && is.some[n]);
     if (nodes_[n].isLeaf()) continue;
-    if (fixed[n]) bounds_[n] = restBounds_[n];
+    if (is.none[n]) bounds_[n] = restBounds_[n];
     for (const std::uint32_t child : nodes_[n].child)
       if (motion[child] != Motion::None) motion[n] = Motion::Below;
     if (!(bounds_[n] == before[n])) motion[n] = Motion::Bound;
@@ -177,15 +178,17 @@ std::vector<Receivers::Motion> Receivers::follow(std::span<const PrimitiveId> mo
   return motion;
 }
 
-/// By node: some of its cells are where they were read.
-std::vector<char> Receivers::heldAtRest() const {
-  std::vector<char> edited(scene_.primitives.size(), 0), held(nodes_.size(), 0);
+Receivers::Edited Receivers::edited() const {
+  std::vector<char> edited(scene_.primitives.size(), 0);
+  Edited is{std::vector<char>(nodes_.size(), 0), std::vector<char>(nodes_.size(), 0)};
   for (const Placement& p : scene_.placements) edited[p.primitive.index()] = !p.present || p.matrix != Mat4(1.0);
   for (std::size_t n = nodes_.size(); n-- > 0;) {
     const RadixNode& node = nodes_[n];
-    held[n] = node.isLeaf() ? !edited[primitive(node.begin).index()] : held[node.child[0]] || held[node.child[1]];
+    const auto below = [&](const std::vector<char>& v) { return v[node.child[0]] || v[node.child[1]]; };
+    is.some[n] = node.isLeaf() ? edited[primitive(node.begin).index()] : below(is.some);
+    is.none[n] = node.isLeaf() ? !edited[primitive(node.begin).index()] : below(is.none);
   }
-  return held;
+  return is;
 }
 
 /// From today's leaves.
@@ -304,7 +307,7 @@ BoundingSphere Receivers::boundOf(const Cell& c, const Shape& shape) const {
 std::size_t Receivers::memoryBytes() const {
   return surfaces_.capacity() * sizeof(Surface) + cells_.capacity() * sizeof(Cell) +
          nodes_.capacity() * sizeof(RadixNode) + 2 * bounds_.capacity() * sizeof(BoundingSphere) +
-         leaf_.capacity() * 4 + cumulative_.capacity() * 8 + surfaceOf_.capacity() * 4;
+         holdsAll_.capacity() + leaf_.capacity() * 4 + cumulative_.capacity() * 8 + surfaceOf_.capacity() * 4;
 }
 
 }  // namespace deltalux

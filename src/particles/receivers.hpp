@@ -39,6 +39,8 @@ class Receivers {
   const std::vector<RadixNode>& nodes() const { return nodes_; }
   std::uint32_t root() const { return 0; }
   const BoundingSphere& bound(std::uint32_t node) const { return bounds_[node]; }
+  /// Whether all below the node lies within that.
+  bool holdsAll(std::uint32_t node) const { return holdsAll_[node]; }
   bool isFlat(std::uint32_t cell) const { return cells_[cell].flat; }
   PrimitiveId primitive(std::uint32_t cell) const { return surfaces_[cells_[cell].surface].primitive; }
   std::uint32_t triangle(std::uint32_t cell) const { return surfaces_[cells_[cell].surface].triangle; }
@@ -88,7 +90,11 @@ class Receivers {
   void place(Surface&, const Shape&) const;
   bool onSurface(const Surface&, const Vec3&) const;
   void boundNodes();
-  std::vector<char> heldAtRest() const;
+  /// By node: whether some of its cells are where they were read, and whether some are not.
+  struct Edited {
+    std::vector<char> none, some;
+  };
+  Edited edited() const;
   BoundingSphere boundOf(const Cell&, const Shape&) const;
 
   const Scene& scene_;
@@ -96,6 +102,7 @@ class Receivers {
   std::vector<Cell> cells_;
   std::vector<RadixNode> nodes_;
   std::vector<BoundingSphere> bounds_, restBounds_;  // by node
+  std::vector<char> holdsAll_;                       // by node
   std::vector<std::uint32_t> leaf_;                  // by cell: its node
   std::vector<double> cumulative_;                   // of weights, one more
   std::vector<std::uint32_t> surfaceOf_;             // by primitive: first surface, or none

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
@@ -30,28 +31,27 @@ class Tracing {
   void trace(std::size_t begin, std::size_t end, PathBlock& r) const {
     r.begin(end - begin);
     std::vector<Walker> walkers = emit(begin, end, r);
-    std::vector<Ray> rays;
-    std::vector<Hit> hits;
-    while (!walkers.empty()) {
-      rays.clear();
+    std::vector<std::uint32_t> going(walkers.size());  // places of those on their way
+    std::iota(going.begin(), going.end(), 0u);
+    std::vector<Ray> rays(walkers.size());
+    std::vector<Hit> hits(walkers.size());
+    while (!going.empty()) {
       std::size_t alive = 0;
-      EventSequence numbers(walkers.front().key, walkers.front().depth);
-      std::uint64_t now = walkers.front().key;
-      for (Walker& w : walkers) {
+      const Walker& first = walkers[going.front()];
+      EventSequence numbers(first.key, first.depth);
+      std::uint64_t now = first.key;
+      for (const std::uint32_t i : going) {
+        Walker& w = walkers[i];
         if (w.key != now) now = w.key, numbers = EventSequence(w.key, w.depth);
-        Ray ray;
-        if (!bounce(w, numbers(w.index), ray, r)) continue;
-        rays.push_back(ray);
-        walkers[alive++] = w;
+        if (bounce(w, numbers(w.index), rays[alive], r)) going[alive++] = i;
       }
-      walkers.resize(alive);
-      hits.resize(alive);
-      tracer_.closestHits(rays, hits);
+      going.resize(alive);
+      tracer_.closestHits(std::span(rays).first(alive), std::span(hits).first(alive));
       r.rays += alive;
-      std::size_t going = 0;
+      std::size_t left = 0;
       for (std::size_t i = 0; i < alive; ++i)
-        if (meet(walkers[i], hits[i], r)) walkers[going++] = walkers[i];
-      walkers.resize(going);
+        if (meet(walkers[going[i]], hits[i], r)) going[left++] = going[i];
+      going.resize(left);
     }
   }
 
@@ -75,15 +75,25 @@ class Tracing {
     std::vector<LinkEnds> ends(count);
     std::vector<Arrival> arrivals(count);
     FirstRays rays;
-    std::uint32_t now = ~0u;  // link
-    EmissionSequence numbers(0);
+    EmissionSequence sequence(0);
+    std::array<EmissionNumbers, EmissionSequence::kMost> numbers;
+    std::size_t from = 0, until = 0;  // paths that there are numbers for
+    std::uint32_t now = ~0u;          // link
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t path = pathAt(begin + i);
       const ParticleLink& link = particles_.links[particles_.link[path]];
-      if (particles_.link[path] != now) now = particles_.link[path], numbers = EmissionSequence(link.key);
-      const auto index = static_cast<std::uint32_t>(path - link.firstPath);
+      if (particles_.link[path] != now) {
+        now = particles_.link[path], sequence = EmissionSequence(link.key);
+        from = until = path;
+      }
+      if (path < from || path >= until) {
+        const std::size_t last =
+            only_.empty() ? std::min<std::size_t>(path + (count - i), link.firstPath + link.paths) : path + 1;
+        from = path, until = std::min(last, from + numbers.size());
+        sequence(static_cast<std::uint32_t>(from - link.firstPath), std::span(numbers).first(until - from));
+      }
       ends[i] = link.ends;
-      segments[i] = emission_.sample(link.ends, numbers(index));
+      emission_.sample(link.ends, numbers[path - from], segments[i]);
       particles_.sender[path] = segments[i].senderCell;
       particles_.originTriangle[path] = segments[i].originTriangle;
     }

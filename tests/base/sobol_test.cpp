@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 namespace deltalux {
@@ -21,6 +22,27 @@ TEST(Sobol, PowersOfTwoAreStratified) {
         EXPECT_EQ(cells.size(), std::size_t{1} << m) << "key " << key << " split " << split;
       }
     }
+  }
+}
+
+/// By the recurrence of its direction numbers.
+TEST(Sobol, TheSecondDimensionIsPascalsTriangle) {
+  for (std::uint32_t i = 0; i < 4096; ++i) {
+    const std::uint32_t index = i * 2654435761u;
+    std::uint32_t expected = 0, direction = 0x80000000u;
+    for (int bit = 0; bit < 32; ++bit, direction ^= direction >> 1)
+      if (index >> bit & 1) expected ^= direction;
+    ASSERT_EQ(secondSobolReversed(index), reverseBits(expected)) << index;
+  }
+}
+
+TEST(Sobol, SeveralAtATimeAreThoseOneByOne) {
+  const ScrambledSobol sequence(5);
+  std::array<UnitPair, 13> points;
+  sequence.points(1000, points);
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    EXPECT_EQ(points[i].x, sequence(1000 + i).x);
+    EXPECT_EQ(points[i].y, sequence(1000 + i).y);
   }
 }
 

@@ -44,7 +44,7 @@ struct World {
       Rng rng(key, i);
       EmissionNumbers u;
       for (Vec2* v : {&u.choice, &u.origin, &u.direction}) *v = {rng.uniform(), rng.uniform()};
-      segments.push_back(emission->sample(ends, u));
+      emission->sample(ends, u, segments.emplace_back());
     }
     std::vector<Arrival> arrivals(segments.size());
     std::uint64_t rays = 0;
