@@ -5,6 +5,7 @@
 
 #include "base/cosine_direction.hpp"
 #include "hierarchy/outline.hpp"
+#include "tracing/analytic_surface.hpp"
 
 namespace deltalux {
 
@@ -21,7 +22,7 @@ double kernelBetween(const PatchPoint& x, const PatchPoint& y) {
 }
 
 /// Where a ray from above meets a flat patch.
-std::optional<PatchPoint> meet(const Elements& elements, ElementId patch, const Vec3& origin, const Vec3& w) {
+std::optional<PatchPoint> meetFlat(const Elements& elements, ElementId patch, const Vec3& origin, const Vec3& w) {
   const PatchDomain& d = elements.domain[patch.index()];
   const PlaneFrame& f = elements.frames[d.frame];
   const Vec3 n = elements.at(patch).front ? f.normal : -f.normal;
@@ -40,6 +41,35 @@ std::optional<PatchPoint> meet(const Elements& elements, ElementId patch, const 
   return PatchPoint{Vec3f(p), Vec3f(n)};
 }
 
+template <class Surface>
+std::optional<PatchPoint> meetCurved(const Surface& surface, const Shape& shape, const PatchDomain& d, double side,
+                                     const Vec3& origin, const Vec3& w) {
+  const Crossings crossings = surface.crossings(origin, w);
+  for (int i = 0; i < crossings.count; ++i) {
+    const double t = crossings.t[static_cast<std::size_t>(i)];
+    if (!(t > 0)) continue;
+    const Vec3 p = origin + t * w, n = side * surface.normal(p);
+    if (!(glm::dot(w, n) < 0)) continue;
+    const Vec2 at = parameterAt(shape, p);
+    if (at.x >= d.u0 && at.x <= d.u1 && at.y >= d.v0 && at.y <= d.v1) return PatchPoint{Vec3f(p), Vec3f(n)};
+  }
+  return std::nullopt;
+}
+
+/// Where a ray meets a patch on its side.
+std::optional<PatchPoint> meet(const Elements& elements, const Scene& scene, ElementId patch, const Vec3& origin,
+                               const Vec3& w) {
+  if (elements.at(patch).flat) return meetFlat(elements, patch, origin, w);
+  const PatchDomain& d = elements.domain[patch.index()];
+  const Shape& shape = scene[d.primitive].shape;
+  const double side = elements.at(patch).front ? 1.0 : -1.0;
+  const auto on = [&](const auto& surface) { return meetCurved(surface, shape, d, side, origin, w); };
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return on(SphereSurface(*sphere));
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return on(CylinderSurface(*cylinder));
+  if (const auto* cone = std::get_if<Cone>(&shape)) return on(ConeSurface(*cone));
+  return on(RingSurface(std::get<Ring>(shape)));
+}
+
 }  // namespace
 
 bool areClose(const Elements& elements, ElementId a, ElementId b) {
@@ -56,7 +86,7 @@ ClosePair closePair(const Elements& elements, const Scene& scene, const PatchPoi
   if (i < kUniform) {
     pair.to = samplePatch(elements, scene, patch, a, b);
   } else {
-    const auto to = meet(elements, patch, Vec3(from.position), cosineDirection(Frame(Vec3(from.normal)), a, b));
+    const auto to = meet(elements, scene, patch, Vec3(from.position), cosineDirection(Frame(Vec3(from.normal)), a, b));
     if (!to) return pair;
     pair.to = *to;
   }

@@ -24,10 +24,10 @@ struct ClosePair {
 
 inline constexpr int kClosePairs = 8;
 
-/// Candidate `i` from the point `from` to a flat leaf patch, by two numbers in [0,1).
+/// Candidate `i` from the point `from` to a leaf patch, by two numbers in [0,1).
 ClosePair closePair(const Elements&, const Scene&, const PatchPoint& from, ElementId patch, int i, double a, double b);
 
-/// From a point of `pointAt` (of two numbers in [0,1)) to one of a flat leaf patch; none when all candidates face away.
+/// From a point of `pointAt` (of two numbers in [0,1)) to one of a leaf patch; none when all candidates face away.
 /// Its weight is that of all candidates: in the mean the kernel.
 template <class PointAt>
 std::optional<ClosePair> sampleClosePair(const Elements& elements, const Scene& scene, const PointAt& pointAt,

@@ -12,6 +12,8 @@ namespace {
 
 constexpr float kNear = 8.0f;         // in radii of the leaf: nearer to a sender than this, K is taken at all its nodes
 constexpr float kSmall = 0.5f;        // radius of a sender, in those of the leaf, that counts as small
+constexpr int kSets = 6;              // of pairs of points
+constexpr int kFewSets = 2;           // where K only shares out rays
 constexpr float kGauss = 1.1547005f;  // from centroids of quadrants to nodes that integrate cubics
 
 bool isRectangle(const Elements& elements, ElementId patch) {
@@ -32,14 +34,16 @@ bool crosses(const ElementGeometry& g, const ElementGeometry& plane) {
 
 /// What is in plain view has no noise that would hide an error of K: then at all nodes. What a large leaf gets of a
 /// small patch close to it lies between its nodes: then at the nodes of that, the other way round. What faces a part of
-/// it may face none of its nodes: then between many points.
+/// it may face none of its nodes, and what is curved and close has its light go between other places than nodes: then
+/// between many points.
 float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const {
   const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(sender);
   const bool flat = elements_.at(leaf).flat;
   if (flat && exact(sender) && areClose(elements_, leaf, sender)) {
-    if (crosses(r, s)) return kernelOverPairs(leaf, sender);
+    if (crosses(r, s)) return kernelOverPairs(leaf, sender, kSets);
     if (s.radius < kSmall * r.radius) return s.area / r.area * kernelOverNodes(sender, leaf);
   }
+  if (!exact(sender) && isClosePatch(leaf, sender)) return kernelOverPairs(leaf, sender, kFewSets);
   const float reach = kNear * r.radius + s.radius;
   const Vec3f d = s.center - r.center;
   if (!clear && flat && glm::dot(d, d) > reach * reach)
@@ -62,16 +66,15 @@ float IndirectSampler::kernelOverNodes(ElementId at, ElementId of) const {
 }
 
 /// By chance, right in the mean.
-float IndirectSampler::kernelOverPairs(ElementId leaf, ElementId sender) const {
-  constexpr int kSets = 6;
+float IndirectSampler::kernelOverPairs(ElementId leaf, ElementId sender, int sets) const {
   const std::uint64_t key = combineKeys(combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]), 11);
   double sum = 0;
-  for (int k = 0; k < kSets * kClosePairs; ++k) {
+  for (int k = 0; k < sets * kClosePairs; ++k) {
     const auto u = stratified4(key, k);
     const PatchPoint x = samplePatch(elements_, scene_, leaf, u[2], u[3]);
     sum += closePair(elements_, scene_, x, sender, k % kClosePairs, u[0], u[1]).weight;
   }
-  return static_cast<float>(sum / kSets);
+  return static_cast<float>(sum / sets);
 }
 
 }  // namespace deltalux

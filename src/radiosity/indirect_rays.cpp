@@ -12,8 +12,7 @@ namespace deltalux {
 namespace {
 
 constexpr int kFacingTries = 16;            // more points of a flat sender when some face away
-constexpr int kTries = 2;                   // points of a curved one, of which one is picked
-constexpr int kCloseTries = 8;              // so where it is close
+constexpr int kTries = 2;                   // pairs of points with a curved one, of which one is picked
 constexpr float kBlocked = 0x1.fffffep-1f;  // of a ray: furthest place of what blocks it
 
 }  // namespace
@@ -93,10 +92,11 @@ SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index)
 SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index, const PatchPoint* at) const {
   const std::uint64_t key = rayKey(leaf, sender);
   const Place place{*this, leaf, at};
-  if (!exact(sender))
-    return shootMeasured(sender, key, index, isClosePatch(leaf, sender) ? kCloseTries : kTries, place);
-  if (isClosePatch(leaf, sender))
+  if (isClosePatch(leaf, sender)) {
     if (const auto pair = sampleClosePair(elements_, scene_, place, sender, key, index)) return along(*pair, sender);
+    if (!exact(sender)) return {};
+  }
+  if (!exact(sender)) return shootMeasured(sender, key, index, place);
   for (int tries = 0; tries < kFacingTries; ++tries) {
     const auto u = stratified4(combineKeys(key, tries), index);
     const SenderSample s = sampleLeafOf(elements_, scene_, place(u[2], u[3]), sender, u[0], u[1]);
@@ -106,20 +106,19 @@ SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index,
 }
 
 /// Of a few pairs of points one in proportion to its kernel; their mean is its weight [TCE05].
-SenderSample IndirectSampler::shootMeasured(ElementId sender, std::uint64_t key, int index, int tries,
-                                            const Place& place) const {
-  std::array<SenderSample, kCloseTries> samples;
+SenderSample IndirectSampler::shootMeasured(ElementId sender, std::uint64_t key, int index, const Place& place) const {
+  std::array<SenderSample, kTries> samples;
   double total = 0;
-  for (int i = 0; i < tries; ++i) {
+  for (int i = 0; i < kTries; ++i) {
     const auto u = stratified4(combineKeys(key, static_cast<std::uint64_t>(i)), index);
     SenderSample& s = samples[static_cast<std::size_t>(i)];
     s = sampleLeafOf(elements_, scene_, place(u[2], u[3]), sender, u[0], u[1]);
     total += s.weight;
   }
-  const double u = stratified4(combineKeys(key, static_cast<std::uint64_t>(tries)), index)[0];
-  SenderSample* picked = pickByWeight(std::span(samples).first(static_cast<std::size_t>(tries)), total, u);
+  const double u = stratified4(combineKeys(key, kTries), index)[0];
+  SenderSample* picked = pickByWeight(std::span<SenderSample>(samples), total, u);
   if (!picked) return {};
-  picked->weight = total / tries;
+  picked->weight = total / kTries;
   return *picked;
 }
 

@@ -90,7 +90,9 @@ IndirectSampler::Term IndirectSampler::term(ElementId leaf, LinkId link, Element
   if (!(B > 0) || (!exact(sender) && averted(leaf, sender))) return t;
   t.K = static_cast<float>(kernelOf(sender, open >= 1.0f));
   if (!exact(sender)) t.K = atLeast(elements_, leaf, elements_.shape(leaf).center, sender, t.K);
-  t.weight = t.K * B * std::sqrt(open) * (exact(sender) ? 1.0f : kUneven);
+  float K = t.K;  // of pairs of points, by chance: then what nodes say counts, too
+  if (exact(sender) && open < 1.0f && isClosePatch(leaf, sender)) K = std::max(K, kernelOverNodes(leaf, sender));
+  t.weight = K * B * std::sqrt(open) * (exact(sender) ? 1.0f : kUneven);
   return t;
 }
 
@@ -129,12 +131,15 @@ std::vector<IndirectSampler::Term> IndirectSampler::apart(ElementId leaf, std::v
   return parts;
 }
 
-/// What a part of a sender may bring to the middle of the leaf; of flat parts, by their centre alone.
+/// What a part of a sender may bring to the middle of the leaf; of flat parts, by their centre alone; of what is curved
+/// and close, to all of the leaf.
 float IndirectSampler::guess(ElementId leaf, const PatchPoint& x, ElementId part) const {
   const float B = strength(leaf, part);
   if (!(B > 0) || averted(leaf, part)) return 0.0f;
   if (!exact(part)) {
-    const auto K = static_cast<float>(kernelAtPoint(elements_, scene_, x.position, x.normal, part));
+    const float K = isClosePatch(leaf, part)
+                        ? kernelOverPairs(leaf, part, 1)
+                        : static_cast<float>(kernelAtPoint(elements_, scene_, x.position, x.normal, part));
     return kUneven * B * atLeast(elements_, leaf, x.position, part, K);
   }
   const ElementGeometry& g = elements_.shape(part);

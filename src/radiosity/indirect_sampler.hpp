@@ -81,7 +81,7 @@ class IndirectSampler {
   std::uint64_t rayKey(ElementId leaf, ElementId sender) const;
   /// The ray of a dealt term, from a point or anywhere on the leaf (null); no leaf where no points face each other.
   SenderSample shoot(ElementId leaf, ElementId sender, int index, const PatchPoint* at) const;
-  SenderSample shootMeasured(ElementId sender, std::uint64_t key, int index, int tries, const Place&) const;
+  SenderSample shootMeasured(ElementId sender, std::uint64_t key, int index, const Place&) const;
   SenderSample shoot(ElementId leaf, ElementId sender, int index) const;
   SenderSample shootBack(ElementId leaf, ElementId sender, int index) const;
   SenderSample shootMeasuring(ElementId leaf, ElementId sender, int index) const;
@@ -121,7 +121,7 @@ class IndirectSampler {
                    std::uint64_t& traced) const;
   float kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const;
   float kernelOverNodes(ElementId at, ElementId of) const;
-  float kernelOverPairs(ElementId leaf, ElementId sender) const;
+  float kernelOverPairs(ElementId leaf, ElementId sender, int sets) const;
   bool exact(ElementId sender) const;
   bool averted(ElementId leaf, ElementId sender) const;
   /// Whether a term needs no ray.
