@@ -4,6 +4,8 @@
 // [GD01 4.3] Links may follow again while rows wait: these then look for what any of the moves did.
 //
 // Leaves that moved, or have no row yet, do not wait: they would be dark, or trace rays from where they no longer are.
+#include <algorithm>
+
 #include "radiosity/leaf_transfers.hpp"
 
 namespace deltalux {
@@ -27,7 +29,7 @@ class RowQueue {
   int moves() const { return moves_; }
   std::size_t size() const { return waiting_.size(); }
   /// Of the light that is another, what still waits.
-  double stale() const { return light_ > 0 ? stale_ * waitingLight_ / light_ : 0.0; }
+  double stale() const { return light_ > 0 ? stale_ * std::max(waitingLight_, 0.0) / light_ : 0.0; }
 
   /// The leaves that cannot wait.
   const ConcernedLeaves& urgent() const { return urgent_; }
