@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "radiosity/separation.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -12,15 +14,6 @@ constexpr double kLeastCovered = 0.05;  // solid angle of a polygon about the re
 constexpr double kSlack = 1e-5;         // of the coordinates: what must lie between, for what rounding does
 constexpr int kFinest = 2;              // subdivisions of the input level that are told apart
 constexpr std::size_t kMostEdges = 8;   // polygons with more are taken by their triangles
-
-using Corners = std::array<Vec3, 8>;
-
-Corners cornersOf(const Box& box) {
-  Corners out;
-  for (std::size_t i = 0; i < 8; ++i)
-    out[i] = {i & 1 ? box.upper.x : box.lower.x, i & 2 ? box.upper.y : box.lower.y, i & 4 ? box.upper.z : box.lower.z};
-  return out;
-}
 
 bool isConvex(std::span<const Vec3> outline, const Vec3& normal) {
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -40,7 +33,11 @@ struct Plane {
 class Umbras {
  public:
   Umbras(const Elements& elements, const Scene& scene, const Box& region)
-      : elements_(elements), scene_(scene), region_(region), middle_(region.center()), corners_(cornersOf(region)) {
+      : elements_(elements),
+        scene_(scene),
+        region_(region),
+        middle_(region.center()),
+        corners_(cornersOf(region.lower, region.upper)) {
     for (const ElementId root : elements.sceneRoots()) collect(root);
     std::sort(umbras_.begin(), umbras_.end(), [](const Umbra& a, const Umbra& b) {
       return a.covered != b.covered ? a.covered > b.covered : a.first < b.first;
@@ -167,7 +164,7 @@ class Umbras {
   const Scene& scene_;
   const Box region_;
   const Vec3 middle_;
-  const Corners corners_;
+  const std::array<Vec3, 8> corners_;
   std::vector<Plane> planes_;
   std::vector<Umbra> umbras_;
   std::vector<std::uint32_t> candidates_;

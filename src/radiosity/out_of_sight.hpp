@@ -5,7 +5,6 @@
 // cluster hides all in it. In a house, most of what is in other rooms is out of sight.
 // Cost: that of what is hidden, and some nanoseconds for an element whose parent is not, once; four bytes an element.
 #include <atomic>
-#include <deltalux/shape.hpp>
 #include <memory>
 
 #include "hierarchy/element.hpp"

@@ -94,7 +94,6 @@ void SpaceChange::addObject(ObjectId top) {
 void SpaceChange::add(const SpaceChange& more) {
   for (const ObjectId top : more.tops_) addObject(top);
   parts_.add(more.parts_);
-  hidden_.reset();
   moved_.grow(more.moved_.size());
   more.moved_.forEach([&](std::size_t i, char moved) { moved_.at(i) |= moved; });
   addInputs(more.inputs_);
