@@ -79,27 +79,42 @@ LineSpace::Finding LineSpace::examine(LinkId id) const {
   return f;
 }
 
+/// What there is among some links of a level.
+struct LineSpace::Block {
+  std::vector<LinkId> next, touched, moved, lit;
+  std::vector<DisturbedLink> anew;
+};
+
+void LineSpace::examine(std::span<const LinkId> links, Block& found) const {
+  for (const LinkId id : links) {
+    const Finding f = examine(id);
+    if (!f.met) continue;
+    if (f.touched) found.touched.push_back(id);
+    if (f.moved)
+      found.moved.push_back(id);
+    else if (f.anew)
+      found.anew.push_back({id, f.rays});
+    if (f.lit && (f.moved || f.anew)) found.lit.push_back(id);
+    for (std::size_t c = 0; c < links_[id].childCount; ++c) found.next.push_back(links_.child(id, c));
+  }
+}
+
 LinkMarks LineSpace::visit() const {
+  constexpr std::size_t kBlock = 256;
+  const auto append = [](const auto& from, auto& to) { to.insert(to.end(), from.begin(), from.end()); };
   LinkMarks marks;
   marks.changes = LinkChanges(links_.size(), LinkChange::None);
   std::vector<LinkId> level = links_.roots, next;
-  std::vector<Finding> findings;
   while (!level.empty()) {
-    findings.assign(level.size(), {});
-    parallelFor(level.size(), 256, [&](std::size_t i) { findings[i] = examine(level[i]); });
+    std::vector<Block> blocks((level.size() + kBlock - 1) / kBlock);
+    parallelBlocks(level.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+      examine(std::span(level).subspan(begin, end - begin), blocks[begin / kBlock]);
+    });
     marks.visited += level.size();
     next.clear();
-    for (std::size_t i = 0; i < level.size(); ++i) {
-      const Finding& f = findings[i];
-      const LinkId id = level[i];
-      if (!f.met) continue;
-      if (f.touched) marks.changes.at(id.index()) = LinkChange::Touched;
-      if (f.moved)
-        marks.moved.push_back(id);
-      else if (f.anew)
-        marks.anew.push_back({id, f.rays});
-      if (f.lit && (f.moved || f.anew)) marks.lit.push_back(id);
-      for (std::size_t c = 0; c < links_[id].childCount; ++c) next.push_back(links_.child(id, c));
+    for (const Block& b : blocks) {
+      append(b.next, next), append(b.moved, marks.moved), append(b.anew, marks.anew), append(b.lit, marks.lit);
+      for (const LinkId id : b.touched) marks.changes.at(id.index()) = LinkChange::Touched;
     }
     std::swap(level, next);
   }

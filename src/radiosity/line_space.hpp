@@ -9,6 +9,8 @@
 // A touched link is looked at anew only when that can tell another story: an end of it moved, a ray that sampled its
 // visibility meets the bounds, it was proven clear, or proven blocked by what now goes.
 // Cost: some 0.1 microseconds a link visited; links visited are those of shafts through the bounds, and their siblings.
+#include <span>
+
 #include "radiosity/space_change.hpp"
 
 namespace deltalux {
@@ -40,7 +42,9 @@ class LineSpace {
 
  private:
   struct Finding;
+  struct Block;
   Finding examine(LinkId) const;
+  void examine(std::span<const LinkId>, Block& found) const;
   bool heldBack(const Link&) const;
   /// It moves, or some of it.
   bool involved(ElementId e) const { return change_.moved(e) || above_[e.index()]; }
