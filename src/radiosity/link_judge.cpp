@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kSomeSamples = 8, kManySamples = 16;
 constexpr std::size_t kShortList = 8;  // of blockers: sooner looked through than rays are traced
+constexpr std::size_t kHandedOn = 32;  // of blockers: links below look through them as soon as their parent does
 constexpr float kFineCell = 0.2f;      // radians: sky cells larger than this are split before the surface they light
 constexpr float kFinestCell = 0.06f;   // radians: smaller ones are not split
 
@@ -145,6 +146,7 @@ Verdict LinkJudge::judgeBetween(const Link& before, std::uint32_t rays, const Ca
 }
 
 Verdict LinkJudge::pass(const Link& link, const Candidates& candidates) const {
+  if (candidates.count <= kHandedOn) return passUnseen(link, candidates);
   Verdict v;
   v.link = link;
   OwnBlockers(*this, link, candidates, v).list();
