@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cosine_direction.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 
@@ -200,8 +201,8 @@ CoarseExitance coarseExitance(const Scene& scene, const RayTracer& tracer, const
         for (int k = 0; k < kVertices; ++k) {
           sum += throughput * choice.direct(v, tracer, rng, weights, rays[begin / 64]) / kPaths;
           if (k + 1 == kVertices) break;
-          const double a = rng.uniform(), phi = 2 * kPi * rng.uniform(), r = std::sqrt(a);
-          const Vec3 w = Frame(v.normal).toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - a)});
+          const double a = rng.uniform(), b = rng.uniform();
+          const Vec3 w = cosineDirection(Frame(v.normal), a, b);
           const Hit hit = look(scene, tracer, v, w, rays[begin / 64]);
           if (!hit) break;
           throughput *= kNominalReflectance;

@@ -7,12 +7,8 @@ namespace deltalux {
 
 namespace {
 
-constexpr double kFar = 3.0;           // radii from a sphere's centre beyond which points in it are drawn alone
-constexpr double kFarRectangle = 3.0;  // the same for rectangles, whose solid angle is known
-constexpr double kWide = 1.5;          // sr: wider cones are not worth one
-constexpr double kLeeway = 1.05;       // times a sphere's radius: those of curved cells are found by samples
-constexpr float kAverted = 0.05f;      // of a sample that falls where its sender does not shine
-constexpr double kVeryFar = 1e100;     // where a spotlight's focal offset no longer matters
+constexpr float kAverted = 0.05f;   // of a sample that falls where its sender does not shine
+constexpr double kVeryFar = 1e100;  // where a spotlight's focal offset no longer matters
 
 double square(double x) { return x * x; }
 
@@ -22,7 +18,7 @@ double farDistance(const Scene& scene) { return 4 * coarse(std::max(bounds(scene
 
 ParticleEmission::ParticleEmission(const Scene& scene, const RayTracer& tracer, const Senders& senders,
                                    const Receivers& receivers)
-    : scene_(scene), tracer_(tracer), senders_(senders), receivers_(receivers) {
+    : scene_(scene), tracer_(tracer), senders_(senders), receivers_(receivers), aiming_(scene, receivers) {
   far_ = farDistance(scene);
 }
 
@@ -81,7 +77,7 @@ void ParticleEmission::fromInfinity(const LinkEnds& link, const EmissionNumbers&
   const double weight = share * c.measure * area, cosine = std::abs(glm::dot(x.normal, w));
   s.flux = static_cast<float>(weight * cosine) * L;
   s.bound = std::max(gray(s.flux), kAverted * static_cast<float>(weight) * gray(L));
-  if (isBlack(s.flux) || hidesItself(cell, x.position, w, nullptr)) return;
+  if (isBlack(s.flux) || aiming_.hidesItself(cell, x.position, w, nullptr)) return;
   s.kind = FirstSegment::Kind::Target;
   s.target = x.position, s.normal = x.normal;
   s.direction = -Vec3f(w);
@@ -92,21 +88,21 @@ void ParticleEmission::fromInfinity(const LinkEnds& link, const EmissionNumbers&
 
 void ParticleEmission::fromPlace(const LinkEnds& link, const EmissionNumbers& u, double share, FirstSegment& s) const {
   const SenderCell& c = senders_.cells()[s.senderCell];
-  Origin y;
+  SendingPoint y;
   if (c.kind == SenderKind::Point) {
     y.position = senders_.bound(link.sender).center;
   } else {
     const SurfacePoint p = senders_.point(s.senderCell, u.origin);
     y.position = p.position, y.normal = p.normal, y.lambertian = true;
     s.originTriangle = p.triangle;
-    if (const auto omega = behind(y, link.receiver)) {
+    if (const auto omega = aiming_.behind(y, link.receiver)) {
       const float whole = c.kind == SenderKind::Side ? static_cast<float>(1 / kPi) : gray(emission(c).radiance);
       s.bound = kAverted * static_cast<float>(share * c.measure * *omega) * whole;
       return;
     }
   }
   Aim a;
-  aim(y, link.receiver, u.choice.y, u.direction, a);
+  aiming_.aim(y, link.receiver, u.choice.y, u.direction, a);
   s.receiverCell = a.cell;
   if (!(a.density > 0)) return;
   const double weight = share * c.measure / a.density;
@@ -146,152 +142,6 @@ void ParticleEmission::fromPlace(const LinkEnds& link, const EmissionNumbers& u,
     s.ray.direction = s.direction;
     s.ray.origin = offsetOrigin(s.origin, Vec3f(y.normal), s.direction);
   }
-}
-
-/// About the solid angle of a receiver that lies behind the surface of an origin, whatever its points.
-std::optional<double> ParticleEmission::behind(const Origin& y, std::uint32_t at) const {
-  const BoundingSphere& ball = receivers_.bound(at);
-  const Vec3 d = ball.center - y.position;
-  if (glm::dot(d, y.normal) + kLeeway * std::max(ball.radius, 0.0) > 0 || !receivers_.holdsAll(at)) return std::nullopt;
-  return kPi * square(ball.radius) / glm::dot(d, d);
-}
-
-void ParticleEmission::aim(const Origin& y, std::uint32_t at, double choice, const Vec2& u, Aim& a) const {
-  const RadixNode& node = receivers_.nodes()[at];
-  const BoundingSphere& ball = receivers_.bound(at);
-  if (ball.empty()) return;
-  const bool flat = node.isLeaf() && receivers_.isFlat(node.begin);
-  if (flat || glm::distance(y.position, ball.center) > kFar * ball.radius)
-    return aimAtCell(y.position, node, choice, u, a);
-  if (choice < 0.5) {
-    aimAround(y, ball, u, a);
-    a.density *= 0.5;
-    return;
-  }
-  aimAtCell(y.position, node, 2 * choice - 1, u, a);
-  if (a.density > 0) {
-    const double other = densityAround(y, ball, a.direction);
-    a.balance = a.density / (a.density + other);  // [Veach97 9.8]
-    a.density *= 0.5;
-  }
-}
-
-void ParticleEmission::aimAtCell(const Vec3& from, const RadixNode& node, double choice, const Vec2& u, Aim& a) const {
-  const std::uint32_t cell = node.isLeaf() ? node.begin : receivers_.choose(node, choice);
-  if (!(receivers_.area(cell) > 0)) return;
-  if (receivers_.isFlat(cell))
-    aimAtFlat(from, cell, u, a);
-  else
-    aimAtCurved(from, cell, u, a);
-  if (!node.isLeaf()) a.density *= receivers_.weight(cell) / receivers_.weightOf(node);
-}
-
-bool ParticleEmission::seenBySolidAngle(const Vec3& from, const Rectangle& r) const {
-  const Vec3 toCenter = r.at({0.5, 0.5}) - from;
-  const double longest = std::max(r.lengthA, r.lengthB), height = std::abs(glm::dot(toCenter, r.normal()));
-  const double squared = glm::dot(toCenter, toCenter);
-  // Far away area is as good; at a grazing angle the solid angle has lost its digits.
-  return squared < square(kFarRectangle * longest) && height * r.area() > 1e-7 * squared * std::sqrt(squared);
-}
-
-void ParticleEmission::aimAtFlat(const Vec3& from, std::uint32_t cell, const Vec2& u, Aim& a) const {
-  a.cell = cell;
-  const Rectangle r = receivers_.rectangle(cell);
-  const double height = std::abs(glm::dot(r.corner - from, r.normal()));
-  double omega = 0;
-  Vec2 at = u;
-  if (seenBySolidAngle(from, r)) {
-    const SolidAngleRectangle seen(r, from);
-    omega = seen.solidAngle();
-    at = seen.sample(u);
-  }
-  const Vec3 x = r.at(at), d = x - from;
-  const double distance = glm::length(d);
-  if (!(height > 1e-7 * distance) || !(distance > 0)) return;  // edge on
-  a.direction = d / distance, a.distance = distance;
-  a.density = omega > 0 ? 1 / omega : distance * distance * distance / (r.area() * height);
-  const auto point = receivers_.flatPoint(cell, x);
-  if (!point) return;
-  a.kind = FirstSegment::Kind::Target;
-  a.target = x, a.normal = point->normal;
-}
-
-void ParticleEmission::aimAtCurved(const Vec3& from, std::uint32_t cell, const Vec2& u, Aim& a) const {
-  a.cell = cell;
-  const ReceiverPoint x = receivers_.curvedPoint(cell, u);
-  const Vec3 d = x.position - from;
-  const double distance = glm::length(d);
-  if (!(distance > 0)) return;
-  a.direction = d / distance, a.distance = distance;
-  const double cosine = std::abs(glm::dot(a.direction, x.normal));
-  if (!(cosine > 0)) return;
-  a.density = distance * distance / (receivers_.area(cell) * cosine);
-  if (hidesItself(cell, x.position, -a.direction, &from)) return;
-  a.kind = FirstSegment::Kind::Target;
-  a.target = x.position, a.normal = x.normal;
-}
-
-double ParticleEmission::densityAtCell(const Vec3& from, const RadixNode& node, std::uint32_t cell, const Vec3& at,
-                                       const Vec3& normal) const {
-  const double chance = node.isLeaf() ? 1.0 : receivers_.weight(cell) / receivers_.weightOf(node);
-  const Vec3 d = at - from;
-  const double squared = glm::dot(d, d), distance = std::sqrt(squared);
-  if (receivers_.isFlat(cell)) {
-    const Rectangle r = receivers_.rectangle(cell);
-    const double height = std::abs(glm::dot(r.corner - from, r.normal()));
-    if (!(height > 1e-7 * distance)) return 0;
-    if (seenBySolidAngle(from, r)) return chance / SolidAngleRectangle(r, from).solidAngle();
-    return chance * squared * distance / (r.area() * height);
-  }
-  const double cosine = std::abs(glm::dot(d, normal)) / distance;
-  return cosine > 0 ? chance * squared / (receivers_.area(cell) * cosine) : 0.0;
-}
-
-namespace {
-
-/// 1 - cos of the cone that a sphere fills; 2 from inside.
-double coneDepth(const Vec3& toCenter, double radius) {
-  const double squared = glm::dot(toCenter, toCenter), r2 = square(radius * (1 + 1e-6));
-  if (!(squared > r2)) return 2;
-  const double sin2 = r2 / squared;
-  return sin2 / (1 + std::sqrt(1 - sin2));
-}
-
-}  // namespace
-
-void ParticleEmission::aimAround(const Origin& y, const BoundingSphere& ball, const Vec2& u, Aim& a) const {
-  a.kind = FirstSegment::Kind::Open;
-  const Vec3 toCenter = ball.center - y.position;
-  const double depth = coneDepth(toCenter, ball.radius), phi = 2 * kPi * u.y;
-  if (2 * kPi * depth > kWide && y.lambertian) {
-    const double r = std::sqrt(u.x), z = std::sqrt(1 - u.x);
-    a.direction = Frame(y.normal).toWorld({r * std::cos(phi), r * std::sin(phi), z});
-  } else {
-    const double down = u.x * depth, r = std::sqrt(std::max(0.0, down * (2 - down)));
-    const double length = glm::length(toCenter);
-    const Vec3 axis = length > 0 ? toCenter / length : Vec3(0, 0, 1);
-    a.direction = Frame(axis).toWorld({r * std::cos(phi), r * std::sin(phi), 1 - down});
-  }
-  a.density = densityAround(y, ball, a.direction);
-}
-
-double ParticleEmission::densityAround(const Origin& y, const BoundingSphere& ball, const Vec3& direction) const {
-  const Vec3 toCenter = ball.center - y.position;
-  const double depth = coneDepth(toCenter, ball.radius), omega = 2 * kPi * depth;
-  if (omega > kWide && y.lambertian) return std::max(0.0, glm::dot(direction, y.normal)) / kPi;
-  // What an edit has moved away from its neighbours may be outside.
-  const bool inCone = glm::dot(direction, toCenter) >= (1 - depth - 1e-9) * glm::length(toCenter);
-  return inCone ? 1 / omega : 0;
-}
-
-/// The far side of a ball that light does not pass straight through: known without a ray.
-bool ParticleEmission::hidesItself(std::uint32_t cell, const Vec3& position, const Vec3& towardsLight,
-                                   const Vec3* from) const {
-  const Primitive& p = scene_[receivers_.primitive(cell)];
-  const auto* ball = std::get_if<Sphere>(&p.shape);
-  if (!ball || isThinGlass(scene_[p.material])) return false;
-  if (from && glm::distance(*from, ball->center) <= ball->radius) return false;
-  return glm::dot(position - ball->center, towardsLight) < 0;
 }
 
 void ParticleEmission::arrive(std::span<const LinkEnds> links, std::span<const FirstSegment> segments,
@@ -339,7 +189,8 @@ void ParticleEmission::meet(const LinkEnds& link, const FirstSegment& s, const H
   a.primitive = hit.primitive, a.triangle = hit.triangle;
   a.position = hit.position, a.normal = hit.normal, a.direction = s.direction;
   a.distance = hit.t, a.flux = s.flux;
-  const double other = densityAtCell(Vec3(s.origin), node, cell, Vec3(hit.position), glm::normalize(Vec3(hit.normal)));
+  const double other =
+      aiming_.densityAtCell(Vec3(s.origin), node, cell, Vec3(hit.position), glm::normalize(Vec3(hit.normal)));
   a.flux *= static_cast<float>(s.density / (s.density + other));  // [Veach97 9.8]
   const SenderCell& c = senders_.cells()[s.senderCell];
   if (c.kind == SenderKind::Lamp && emission(c).spot) {

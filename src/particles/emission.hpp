@@ -2,21 +2,16 @@
 // The first segment of particles: from a point of a sender towards the receivers below a node, with the flux that the
 // sample stands for. The expected flux is exact whatever the two ends are:
 //
-//   Target  a point is drawn on a receiver (flat ones near the sender by solid angle [UFK13], others by area, cells of
-//   a
-//           cluster by area and reflectance); the segment to it must be free but for thin glass. Suns and skies always.
-//   Open    a direction is drawn into the bounding sphere of the node, or any where the sphere is near; what it meets
-//           first must be below the node.
+//   Target  goes to a point of a receiver; it must be free but for thin glass. Suns and skies always.
+//   Open    goes in a direction; what it meets first must be below the node.
 //
-// Near clusters and near curved receivers take either with even chances, weighted by the balance heuristic [Veach97
-// 9.2.2]: the first is bad where receivers are close, the second where they fill little of what bounds them. A target
-// behind glass is met by the first alone. Which strategies serve a sample depends on its origin and the node.
+// How they are drawn: aiming.hpp. A target behind glass is met by the first alone.
 // Cost: 0.1-0.3 microseconds without the ray.
 #include <array>
 #include <span>
 
 #include "base/sobol.hpp"
-#include "particles/receivers.hpp"
+#include "particles/aiming.hpp"
 #include "particles/senders.hpp"
 #include "tracing/ray_tracer.hpp"
 
@@ -52,7 +47,7 @@ class EmissionSequence {
 };
 
 struct FirstSegment {
-  enum class Kind : std::uint8_t { None, Target, Open };
+  using Kind = Aim::Kind;
   Kind kind = Kind::None;
   bool atInfinity = false;  // the sender is: `ray` then starts at the target
   std::uint32_t senderCell = 0, originTriangle = 0;
@@ -103,33 +98,7 @@ class ParticleEmission {
   bool averted(const LinkEnds&) const;
 
  private:
-  struct Origin {
-    Vec3 position{0}, normal{0};
-    bool lambertian = false;  // has a normal, and a cosine about it
-  };
-  struct Aim {
-    FirstSegment::Kind kind = FirstSegment::Kind::None;
-    std::uint32_t cell = 0;
-    Vec3 direction{0}, target{0}, normal{0};
-    double distance = 0;
-    double density = 0;  // per solid angle
-    double balance = 1;
-  };
-
   Senders::Choice choose(const LinkEnds&, double u) const;
-  std::optional<double> behind(const Origin&, std::uint32_t node) const;
-  /// `Aim`: none as yet.
-  void aim(const Origin&, std::uint32_t node, double choice, const Vec2& u, Aim&) const;
-  void aimAtCell(const Vec3& from, const RadixNode&, double choice, const Vec2& u, Aim&) const;
-  void aimAtFlat(const Vec3& from, std::uint32_t cell, const Vec2& u, Aim&) const;
-  void aimAtCurved(const Vec3& from, std::uint32_t cell, const Vec2& u, Aim&) const;
-  void aimAround(const Origin&, const BoundingSphere&, const Vec2& u, Aim&) const;
-  /// Densities per solid angle of those: of a point of a cell below the node, and of a direction.
-  double densityAtCell(const Vec3& from, const RadixNode&, std::uint32_t cell, const Vec3& at,
-                       const Vec3& normal) const;
-  double densityAround(const Origin&, const BoundingSphere&, const Vec3& direction) const;
-  bool seenBySolidAngle(const Vec3& from, const Rectangle&) const;
-  bool hidesItself(std::uint32_t cell, const Vec3& position, const Vec3& towardsLight, const Vec3* from) const;
   void fromInfinity(const LinkEnds&, const EmissionNumbers&, double share, FirstSegment&) const;
   void fromPlace(const LinkEnds&, const EmissionNumbers&, double share, FirstSegment&) const;
   void meet(const LinkEnds&, const FirstSegment&, const Hit&, Arrival&) const;
@@ -139,6 +108,7 @@ class ParticleEmission {
   const RayTracer& tracer_;
   const Senders& senders_;
   const Receivers& receivers_;
+  Aiming aiming_;
   double far_;  // distance at which suns and skies are drawn from
 };
 

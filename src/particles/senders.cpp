@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/random.hpp"
+#include "base/unit_circle.hpp"
 #include "particles/side_index.hpp"
 #include "scene/edit/plan.hpp"
 
@@ -311,8 +312,7 @@ Vec3 Senders::direction(std::uint32_t cell, const Vec2& u) const {
   const Beam& beam = beams_[c.light.index()];
   const Vec2 at = c.rect.at(u);
   const double down = beam.depth * at.y, radius = std::sqrt(std::max(0.0, down * (2 - down)));
-  const double phi = 2 * kPi * at.x;
-  return beam.frame.toWorld({radius * std::cos(phi), radius * std::sin(phi), 1 - down});
+  return beam.frame.toWorld(Vec3(radius * onUnitCircle(at.x), 1 - down));
 }
 
 std::size_t Senders::memoryBytes() const {

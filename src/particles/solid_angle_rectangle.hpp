@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <deltalux/math.hpp>
 
+#include "base/unit_circle.hpp"
+
 namespace deltalux {
 
 /// A rectangle: corner, unit edge directions at right angles, lengths.
@@ -38,8 +40,8 @@ class SolidAngleRectangle {
 
   /// Where on the rectangle, as shares of its edges.
   Vec2 sample(const Vec2& u) const {
-    const double phi = u.x * omega_ + k_;
-    const double f = (std::cos(phi) * b0_ - b1_) / std::sin(phi);
+    const Vec2 phi = onUnitCircle((u.x * omega_ + k_) / (2 * kPi));
+    const double f = (phi.x * b0_ - b1_) / phi.y;
     const double c = std::clamp(std::copysign(1 / std::sqrt(f * f + b0_ * b0_), f), -1.0, 1.0);
     const double x = std::clamp(-c * z_ / std::max(std::sqrt(1 - c * c), 1e-12), x0_, x1_);
     const double d2 = x * x + z_ * z_;

@@ -6,7 +6,7 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
-#include "base/random.hpp"
+#include "base/per_thread.hpp"
 #include "particles/bounce.hpp"
 #include "particles/path_block.hpp"
 
@@ -14,7 +14,7 @@ namespace deltalux {
 
 namespace {
 
-constexpr std::size_t kBlock = 512;
+constexpr std::size_t kBlock = PathBlock::kPaths;
 
 class Tracing {
  public:
@@ -28,18 +28,19 @@ class Tracing {
         only_(only),
         far_(static_cast<float>(farDistance(scene))) {}
 
-  void trace(std::size_t begin, std::size_t end, PathBlock& r) const {
+  void trace(std::size_t begin, std::size_t end, PathBlock& r) {
     r.begin(end - begin);
-    std::vector<Walker> walkers = emit(begin, end, r);
-    std::vector<std::uint32_t> going(walkers.size());  // places of those on their way
+    Memory& memory = memory_.local();
+    auto& [walkers, going, rays, hits, first] = memory;
+    emit(begin, end, memory.first, walkers, r);
+    going.resize(walkers.size());
     std::iota(going.begin(), going.end(), 0u);
-    std::vector<Ray> rays(walkers.size());
-    std::vector<Hit> hits(walkers.size());
+    if (rays.size() < walkers.size()) rays.resize(walkers.size()), hits.resize(walkers.size());
     while (!going.empty()) {
       std::size_t alive = 0;
-      const Walker& first = walkers[going.front()];
-      EventSequence numbers(first.key, first.depth);
-      std::uint64_t now = first.key;
+      const Walker& foremost = walkers[going.front()];
+      EventSequence numbers(foremost.key, foremost.depth);
+      std::uint64_t now = foremost.key;
       for (const std::uint32_t i : going) {
         Walker& w = walkers[i];
         if (w.key != now) now = w.key, numbers = EventSequence(w.key, w.depth);
@@ -65,16 +66,34 @@ class Tracing {
     Vec3f direction{0.0f};
     SurfaceSpot spot;
     PrimitiveId medium;  // dielectric that the path is in
+
+    // Part by part: what was just written in parts stalls when it is copied as a whole.
+    void arrive(PrimitiveId primitive, std::uint32_t triangle, const Vec3f& position, const Vec3f& normal, bool front) {
+      spot.primitive = primitive, spot.triangle = triangle, spot.front = front;
+      spot.position = position, spot.normal = normal;
+    }
+  };
+  /// Of a thread, used again by its next block.
+  struct Memory {
+    std::vector<Walker> walkers;
+    std::vector<std::uint32_t> going;  // places of those on their way
+    std::vector<Ray> rays;
+    std::vector<Hit> hits;
+    struct First {
+      std::vector<FirstSegment> segments;
+      std::vector<LinkEnds> ends;
+      std::vector<Arrival> arrivals;
+      FirstRays rays;
+    } first;
   };
 
   std::size_t pathAt(std::size_t i) const { return only_.empty() ? i : only_[i]; }
 
-  std::vector<Walker> emit(std::size_t begin, std::size_t end, PathBlock& r) const {
+  void emit(std::size_t begin, std::size_t end, Memory::First& memory, std::vector<Walker>& walkers,
+            PathBlock& r) const {
     const std::size_t count = end - begin;
-    std::vector<FirstSegment> segments(count);
-    std::vector<LinkEnds> ends(count);
-    std::vector<Arrival> arrivals(count);
-    FirstRays rays;
+    auto& [segments, ends, arrivals, rays] = memory;
+    segments.resize(count), ends.resize(count), arrivals.resize(count);
     EmissionSequence sequence(0);
     std::array<EmissionNumbers, EmissionSequence::kMost> numbers;
     std::size_t from = 0, until = 0;  // paths that there are numbers for
@@ -98,8 +117,7 @@ class Tracing {
       particles_.originTriangle[path] = segments[i].originTriangle;
     }
     emission_.arrive(ends, segments, arrivals, rays, r.rays);
-    std::vector<Walker> walkers;
-    walkers.reserve(count);
+    walkers.clear(), walkers.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       const FirstSegment& s = segments[i];
       if (s.kind == FirstSegment::Kind::None) continue;
@@ -117,26 +135,23 @@ class Tracing {
       }
       r.addVertex(path, a.position, a.primitive);
       r.fate[path] = kArrived | kFirstEnd;
-      walkers.push_back(begun(pathAt(begin + i), path, a, r));
+      start(walkers.emplace_back(), pathAt(begin + i), path, a, r);
     }
-    return walkers;
   }
 
-  Walker begun(std::size_t global, std::uint32_t path, const Arrival& a, PathBlock& r) const {
+  void start(Walker& w, std::size_t global, std::uint32_t path, const Arrival& a, PathBlock& r) const {
     const ParticleLink& link = particles_.links[particles_.link[global]];
-    Walker w;
     w.path = path;
     w.index = static_cast<std::uint32_t>(global - link.firstPath);
     w.key = link.key;
     w.throughput = a.flux;
     w.direction = a.direction;
-    w.spot = {a.primitive, a.triangle, a.position, a.normal, a.front()};
+    w.arrive(a.primitive, a.triangle, a.position, a.normal, a.front());
     if (!surfaces_.takes(w.spot.primitive, w.spot.front)) r.accounts[path].entered = w.throughput;
     if (!w.spot.front && surfaces_.body(w.spot.primitive)) {
       w.medium = w.spot.primitive;
       if (std::isfinite(a.distance)) absorb(w, a.distance, r);
     }
-    return w;
   }
 
   void absorb(Walker& w, float distance, PathBlock& r) const {
@@ -201,9 +216,9 @@ class Tracing {
     }
     if (w.medium.valid()) absorb(w, hit.t, r);
     r.addVertex(w.path, hit.position, hit.primitive);
-    w.spot = {hit.primitive, hit.triangle, hit.position, hit.normal, hit.front};
+    w.arrive(hit.primitive, hit.triangle, hit.position, hit.normal, hit.front);
     const bool takes = surfaces_.takes(hit.primitive, hit.front);
-    if (takes) r.addImpact(w.path, hit, surfaces_.parameters(hit), w.throughput);
+    if (takes) r.addLanding(w.path, hit, surfaces_.parameters(hit), w.throughput);
     if (surfaces_.passesOn(hit.primitive, hit.front)) return true;
     if (!takes) r.accounts[w.path].absorbed += w.throughput;
     return false;
@@ -216,13 +231,8 @@ class Tracing {
   int maxDepth_;
   std::span<const std::uint32_t> only_;  // paths, or all of them
   float far_;
+  PerThread<Memory> memory_;  // batches of rays as small as ours are traced in no loop of their own
 };
-
-PathAccount closed(const PathBlock::Account& a, std::size_t path) {
-  const std::uint64_t chance = mix64(path);
-  const auto bits = [&](int i) { return static_cast<std::uint32_t>(chance >> 12 * i); };
-  return {{a.entered, bits(0)}, {a.passed, bits(1)}, {a.absorbed, bits(2)}, {a.left, bits(3)}};
-}
 
 /// Room for what `count` paths make when `done` of them have made what there is by now.
 template <class... Arrays>
@@ -237,56 +247,11 @@ void reserveFor(std::size_t count, std::size_t done, std::size_t before, Arrays&
   (reserve(arrays), ...);
 }
 
-/// Where the entries of each path go, behind `first`, when those of all are put in the order of paths.
-std::vector<std::uint32_t> placesFrom(std::uint32_t first, std::span<const std::uint32_t> counts) {
-  std::vector<std::uint32_t> places(counts.size());
-  for (std::size_t k = 0; k < counts.size(); ++k) places[k] = first, first += counts[k];
-  return places;
-}
-
-/// Puts what blocks of the paths from `begin` on made behind what is there, by path.
-void append(std::span<const PathBlock> blocks, std::size_t begin, std::span<const std::uint32_t> only, Particles& p) {
-  std::vector<std::size_t> vertex{p.vertices.size()}, impact{p.impactSlots()};
-  for (const PathBlock& b : blocks) {
-    vertex.push_back(vertex.back() + b.vertices.size());
-    impact.push_back(impact.back() + b.primitive.size());
-    p.rays += b.rays;
-  }
-  DELTALUX_CHECK(vertex.back() < 0x100000000ull, "fewer than 2^32 vertices of particles");
-  p.vertices.resize(vertex.back());
-  p.met.resize(vertex.back());
-  p.primitive.resize(impact.back());
-  p.triangleAndSide.resize(impact.back());
-  p.uv.resize(impact.back());
-  p.throughput.resize(impact.back());
-  parallelFor(blocks.size(), 1, [&](std::size_t b) {
-    const PathBlock& r = blocks[b];
-    auto nextVertex = placesFrom(static_cast<std::uint32_t>(vertex[b]), r.vertexCount);
-    auto nextImpact = placesFrom(static_cast<std::uint32_t>(impact[b]), r.impactCount);
-    for (std::size_t k = 0; k < r.vertexCount.size(); ++k) {
-      const std::size_t at = begin + b * kBlock + k, path = only.empty() ? at : only[at];
-      p.range[path] = {nextVertex[k], nextImpact[k], static_cast<std::uint16_t>(r.vertexCount[k]),
-                       static_cast<std::uint16_t>(r.impactCount[k])};
-      p.fate[path] = r.fate[k];
-      p.account[path] = closed(r.accounts[k], path);
-    }
-    for (std::size_t i = 0; i < r.vertexOf.size(); ++i) {
-      const std::uint32_t to = nextVertex[r.vertexOf[i]]++;
-      p.vertices[to] = r.vertices[i], p.met[to] = r.met[i];
-    }
-    for (std::size_t i = 0; i < r.impactOf.size(); ++i) {
-      const std::uint32_t to = nextImpact[r.impactOf[i]]++;
-      p.primitive[to] = r.primitive[i], p.triangleAndSide[to] = r.triangleAndSide[i];
-      p.uv[to] = r.uv[i], p.throughput[to] = r.throughput[i];
-    }
-  });
-}
-
 void trace(const Scene& scene, const RayTracer& tracer, const ParticleEmission& emission, int maxDepth, Particles& p,
            std::span<const std::uint32_t> only, std::size_t count) {
   DELTALUX_CHECK(maxDepth < 0xffff, "at most 65534 events");
   constexpr std::size_t kTogether = 128;  // blocks whose memory is used again by the next
-  const Tracing tracing(scene, tracer, emission, p, maxDepth, only);
+  Tracing tracing(scene, tracer, emission, p, maxDepth, only);
   std::vector<PathBlock> blocks(std::min(kTogether, (count + kBlock - 1) / kBlock));
   const std::size_t vertices = p.vertices.size(), impacts = p.impactSlots();
   for (std::size_t first = 0; first < count; first += kTogether * kBlock) {
