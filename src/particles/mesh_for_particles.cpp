@@ -1,6 +1,8 @@
 #include "particles/mesh_for_particles.hpp"
 
+#include <algorithm>
 #include <array>
+#include <span>
 
 #include "base/parallel.hpp"
 #include "hierarchy/patch.hpp"
@@ -24,61 +26,87 @@ struct Quarter {
   double error(double area) const { return (2 * kClearly * squares - sum * sum) / area; }
 };
 
+/// What has fallen on a leaf.
 struct Tally {
+  ElementId leaf;
   std::array<Quarter, 4> quarters;
   std::uint32_t count = 0;
 };
+
+struct Fallen {
+  ElementId leaf;
+  glm::vec2 uv{0.0f};
+  float weight = 0;
+};
+
+/// Impacts on sides that do not keep their mesh, in the order of the particles.
+std::vector<Fallen> fallenOn(const Elements& elements, const Scene& scene, const Particles& p,
+                             const std::vector<bool>& keep) {
+  constexpr std::size_t kBlock = 4096;
+  std::vector<std::vector<Fallen>> found((p.paths() + kBlock - 1) / kBlock);
+  const SideLocator locator(elements, scene);
+  parallelFor(p.paths(), kBlock, [&](std::size_t path) {
+    for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
+      if (!keep.empty() && keep[sideIndex(p, i)]) continue;
+      const ElementId side = locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
+      if (!side.valid()) continue;
+      const float power = p.links[p.link[path]].scale * p.nominal[p.sender[path]];
+      found[path / kBlock].push_back({locator.leafAt(side, Vec2(p.uv[i])), p.uv[i], power * gray(p.throughput[i])});
+    }
+  });
+  std::vector<Fallen> all;
+  for (const auto& block : found) all.insert(all.end(), block.begin(), block.end());
+  return all;
+}
+
+/// By leaf, in the order of ids.
+std::vector<Tally> tally(const Elements& elements, std::span<const Fallen> fallen) {
+  std::vector<std::uint32_t> place(elements.size(), Id<void>::kNone);
+  std::vector<Tally> tallies;
+  for (const Fallen& f : fallen) {
+    std::uint32_t& at = place[f.leaf.index()];
+    if (at == Id<void>::kNone) at = static_cast<std::uint32_t>(tallies.size()), tallies.emplace_back().leaf = f.leaf;
+    const PatchDomain& d = elements.domain[f.leaf.index()];
+    const int quarter = (f.uv.x > 0.5f * (d.u0 + d.u1) ? 1 : 0) + (f.uv.y > 0.5f * (d.v0 + d.v1) ? 2 : 0);
+    tallies[at].quarters[quarter].add(f.weight);
+    ++tallies[at].count;
+  }
+  std::sort(tallies.begin(), tallies.end(), [](const Tally& a, const Tally& b) { return a.leaf < b.leaf; });
+  return tallies;
+}
+
+/// Whether quarters of the leaf show what fell on it clearly better than the whole.
+bool showsDetail(const Tally& t, double area) {
+  Quarter whole;
+  double parts = 0;
+  for (const Quarter& q : t.quarters) {
+    parts += q.error(area / 4);
+    whole.sum += q.sum, whole.squares += q.squares;
+  }
+  return parts < whole.error(area);
+}
 
 }  // namespace
 
 std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const Particles& p,
                                   const std::vector<bool>& coarse, const std::vector<bool>& keep) {
-  std::vector<ElementId> leaf(p.impactSlots());
-  std::vector<float> weights(p.impactSlots());
-  {
-    const SideLocator locator(elements, scene);
-    parallelFor(p.paths(), 1024, [&](std::size_t path) {
-      const float power = p.links[p.link[path]].scale * p.nominal[p.sender[path]];
-      for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
-        if (!keep.empty() && keep[2 * p.primitive[i].index() + (p.triangleAndSide[i] & 1)]) continue;
-        const ElementId side = locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
-        if (side.valid()) leaf[i] = locator.leafAt(side, Vec2(p.uv[i]));
-        weights[i] = power * gray(p.throughput[i]);
-      }
-    });
-  }
+  std::vector<Fallen> fallen = fallenOn(elements, scene, p, keep);
   std::size_t total = 0;
   for (int level = 0; level < kLevels; ++level) {
-    std::vector<Tally> tallies(elements.size());
-    for (std::size_t i = 0; i < leaf.size(); ++i) {
-      if (!leaf[i].valid()) continue;
-      const PatchDomain& d = elements.domain[leaf[i].index()];
-      const int quarter = (p.uv[i].x > 0.5f * (d.u0 + d.u1) ? 1 : 0) + (p.uv[i].y > 0.5f * (d.v0 + d.v1) ? 2 : 0);
-      Tally& t = tallies[leaf[i].index()];
-      t.quarters[quarter].add(weights[i]);
-      ++t.count;
-    }
     std::size_t split = 0;
-    for (std::size_t e = 0; e < tallies.size(); ++e) {
-      const Tally& t = tallies[e];
+    for (const Tally& t : tally(elements, fallen)) {
       if (t.count < kFewest) continue;
-      const bool shown = coarse[sideIndex(elements.domain[e].primitive, elements.topology[e].front)];
-      if (shown && elements.topology[e].depth >= kShownDepth) continue;
-      const double A = elements.geometry[e].area;
-      Quarter whole;
-      double parts = 0;
-      for (const Quarter& q : t.quarters) {
-        parts += q.error(A / 4);
-        whole.sum += q.sum, whole.squares += q.squares;
-      }
-      if (parts < whole.error(A)) split += subdivide(elements, scene, ElementId(e));
+      const ElementTopology& e = elements.at(t.leaf);
+      if (coarse[sideIndex(elements.domain[t.leaf.index()].primitive, e.front)] && e.depth >= kShownDepth) continue;
+      if (showsDetail(t, elements.shape(t.leaf).area)) split += subdivide(elements, scene, t.leaf);
     }
     if (split == 0) break;
     total += split;
+    // What stays whole now stays so.
+    std::erase_if(fallen, [&](const Fallen& f) { return elements.isLeaf(f.leaf); });
     const SideLocator locator(elements, scene);
-    parallelFor(leaf.size(), 4096, [&](std::size_t i) {
-      if (leaf[i].valid()) leaf[i] = locator.leafAt(leaf[i], Vec2(p.uv[i]));
-    });
+    parallelFor(fallen.size(), 4096,
+                [&](std::size_t i) { fallen[i].leaf = locator.leafAt(fallen[i].leaf, Vec2(fallen[i].uv)); });
   }
   return total;
 }
