@@ -8,7 +8,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <deltalux/io.hpp>
@@ -19,7 +18,7 @@
 
 #include "base/parallel.hpp"
 #include "particles/particles.hpp"
-#include "processor_time.hpp"
+#include "stopwatch.hpp"
 
 namespace deltalux {
 namespace {
@@ -112,11 +111,9 @@ void run(int argc, char** argv) {
   std::size_t segments = 0;
   for (int round = 0; round < kRounds; ++round) {
     p = {};  // not what it takes to free it
-    const auto begun = std::chrono::steady_clock::now();
-    const double start = bench::processorSeconds();
+    const bench::Stopwatch watch;
     p = traceParticles(scene, *tracer, settings);
-    seconds = std::min(seconds, bench::processorSeconds() - start);
-    wall = std::min(wall, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+    seconds = std::min(seconds, watch.processor()), wall = std::min(wall, watch.wall());
     const std::vector<Ray> rays = raysOf(p);
     segments = rays.size();
     raw = std::min(raw, rawSeconds(*tracer, rays));

@@ -15,7 +15,6 @@
 // Options: diffuse-only, error=E, metres=M (of a scene unit), each, unchecked.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <deltalux/check.hpp>
@@ -25,8 +24,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "processor_time.hpp"
 #include "scene_copies.hpp"
+#include "stopwatch.hpp"
 
 namespace deltalux::bench {
 namespace {
@@ -64,17 +63,6 @@ struct Options {
     }
     return o;
   }
-};
-
-/// Wall and processor time since it was made.
-class Stopwatch {
- public:
-  double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  double processor() const { return processorSeconds() - cpu_; }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double cpu_ = processorSeconds();
 };
 
 struct Seconds {

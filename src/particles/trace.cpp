@@ -30,9 +30,8 @@ class Tracing {
 
   void trace(std::size_t begin, std::size_t end, PathBlock& r) {
     r.begin(end - begin);
-    Memory& memory = memory_.local();
-    auto& [walkers, going, rays, hits, first] = memory;
-    emit(begin, end, memory.first, walkers, r);
+    auto& [walkers, going, rays, hits, first] = memory_.local();
+    emit(begin, end, first, walkers, r);
     going.resize(walkers.size());
     std::iota(going.begin(), going.end(), 0u);
     if (rays.size() < walkers.size()) rays.resize(walkers.size()), hits.resize(walkers.size());

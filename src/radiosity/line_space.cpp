@@ -8,6 +8,12 @@
 namespace deltalux {
 
 namespace {
+
+template <class T>
+void append(const std::vector<T>& from, std::vector<T>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
 constexpr float kBeside = 1.05f;  // of the angle of a sky's cell: no direction of it is farther from its centre
 }  // namespace
 
@@ -101,7 +107,6 @@ void LineSpace::examine(std::span<const LinkId> links, Block& found) const {
 
 LinkMarks LineSpace::visit() const {
   constexpr std::size_t kBlock = 256;
-  const auto append = [](const auto& from, auto& to) { to.insert(to.end(), from.begin(), from.end()); };
   LinkMarks marks;
   marks.changes = LinkChanges(links_.size(), LinkChange::None);
   std::vector<LinkId> level = links_.roots, next;
@@ -125,7 +130,6 @@ void add(const LinkMarks& more, LinkMarks& marks) {
   if (marks.changes.empty()) marks.changes = LinkChanges(more.changes.size(), LinkChange::None);
   more.changes.forEach(
       [&](std::size_t i, LinkChange change) { marks.changes.at(i) = std::max(marks.changes[i], change); });
-  const auto append = [](const auto& from, auto& to) { to.insert(to.end(), from.begin(), from.end()); };
   append(more.anew, marks.anew), append(more.moved, marks.moved), append(more.lit, marks.lit);
   marks.visited += more.visited;
 }

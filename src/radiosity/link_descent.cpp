@@ -143,10 +143,14 @@ bool LinkDescent::settle(const Task& task, const Verdict& v, Block& block) {
   }
   if (same) return true;
   if (interior || v.news || v.split != Split::None || v.link.carries() != link.listed) return false;
-  links_.judged(task.link, v.link);
-  block.report.provenClear += v.link.visibility == Visibility::Clear;
-  block.report.provenBlocked += v.link.visibility == Visibility::Blocked;
+  accept(task.link, v.link, block.report);
   return true;
+}
+
+void LinkDescent::accept(LinkId id, const Link& as, RefineReport& report) {
+  links_.judged(id, as);
+  report.provenClear += as.visibility == Visibility::Clear;
+  report.provenBlocked += as.visibility == Visibility::Blocked;
 }
 
 void LinkDescent::commit(const Pending& p, bool stopping, std::vector<Task>& next) {
@@ -159,9 +163,7 @@ void LinkDescent::commit(const Pending& p, bool stopping, std::vector<Task>& nex
   } else if (v.news) {
     changed(id);
   }
-  links_.judged(id, v.link);
-  report_.provenClear += v.link.visibility == Visibility::Clear;
-  report_.provenBlocked += v.link.visibility == Visibility::Blocked;
+  accept(id, v.link, report_);
   if (v.split == Split::None) return;
   const bool optional = v.link.receiver != v.link.sender && v.link.K >= 0 && v.link.visibility != Visibility::Unknown;
   if (stopping && optional) {

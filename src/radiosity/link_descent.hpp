@@ -75,6 +75,7 @@ class LinkDescent {
   static bool isNews(const LinkJudge&, const Link& before, const Link& after);
   std::uint32_t raysOf(LinkId) const;
   bool settle(const Task&, const Verdict&, Block&);
+  void accept(LinkId, const Link& as, RefineReport&);
   void commit(const Pending&, bool stopping, std::vector<Task>& next);
   void descend(const Task&, const Verdict&, std::vector<Task>& next, bool fresh) const;
 

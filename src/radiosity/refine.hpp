@@ -3,9 +3,8 @@
 // level by level, with the blocker lists handed from parent to child; accepts links whose error is within the budget
 // and splits an end of the others [GD01 2.1; Sillion 1995 III.B; Haines & Wallace 1991].
 //
-// A level is judged in parallel from frozen elements, then committed in order, so the result does not depend on the
-// thread count. Links accepted earlier are judged again with today's radiosities: refining an already refined tree
-// with a smaller error continues it (multigridding).
+// How it goes down, level by level, on how many threads ever: link_descent.hpp. Links accepted earlier are judged again
+// with today's radiosities: refining an already refined tree with a smaller error continues it (multigridding).
 // Cost: one kernel, one shaft and at most kMaxSamples rays a link.
 #include <functional>
 
