@@ -7,7 +7,9 @@
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
 #include "hierarchy/patch.hpp"
+#include "hierarchy/side_locator.hpp"
 #include "particles/bounce.hpp"
+#include "scene/stops_light.hpp"
 
 namespace deltalux {
 
@@ -40,10 +42,20 @@ Surfaces surfacesOf(const Solution& s) {
 }
 
 struct Outcome {
-  RgbSum escaped{0.0}, panes{0.0};
+  RgbSum escaped{0.0}, panes{0.0}, gaps{0.0};
 
-  Outcome& operator+=(const Outcome& o) { return escaped += o.escaped, panes += o.panes, *this; }
+  Outcome& operator+=(const Outcome& o) { return escaped += o.escaped, panes += o.panes, gaps += o.gaps, *this; }
 };
+
+/// What covered parts of leaves would send, which do not: rays start there, too.
+RgbSum sentUnderCovers(const Elements& elements) {
+  return parallelSum<RgbSum>(elements.size(), kBlock, [&](std::size_t e) {
+    const ElementGeometry& g = elements.geometry[e];
+    return elements.isReceivingLeaf(ElementId(e))
+               ? (double(g.area) - double(g.litArea())) * RgbSum(elements.radiometry[e].B)
+               : RgbSum(0.0);
+  });
+}
 
 /// What becomes of light that diffuse surfaces send and that reaches none: rays from leaves, in proportion to the power
 /// that they send.
@@ -56,7 +68,8 @@ Outcome diffuseLight(const Solution& s) {
                                         : 0.0));
   const double total = power.back();
   if (!(total > 0)) return {};
-  return parallelSum<Outcome>(kRays, kBlock, [&](std::size_t i) {
+  const SideElements sides(elements, s.scene);
+  Outcome all = parallelSum<Outcome>(kRays, kBlock, [&](std::size_t i) {
     const auto index = static_cast<std::uint32_t>(i);
     const UnitPair at = scrambledSobol(index, kKey), to = scrambledSobol(index, ~kKey);
     const double u = (static_cast<double>(i) + 0.5) / kRays * total;
@@ -75,16 +88,24 @@ Outcome diffuseLight(const Solution& s) {
         outcome.escaped = flux;
         break;
       }
-      const auto* glass = std::get_if<ThinGlass>(&s.scene.materialOf(hit.primitive).surface);
-      if (!glass) break;
+      const Material& material = s.scene.materialOf(hit.primitive);
+      const auto* glass = std::get_if<ThinGlass>(&material.surface);
+      if (!glass) {
+        if (stopsLight(material) && !sides.side(hit.primitive, hit.triangle, hit.front).valid()) outcome.gaps = flux;
+        break;
+      }
       const double cosine = std::abs(glm::dot(Vec3(hit.normal), Vec3(ray.direction)));
       const RgbSum passes(transmittance(*glass, cosine));
-      outcome.panes += flux * (1.0 - passes - RgbSum(reflectance(*glass, cosine)));
+      // What they reflect is particles' light, or nobody's.
+      const RgbSum reflects(s.settings.diffuseOnly ? Rgb(0.0f) : reflectance(*glass, cosine));
+      outcome.panes += flux * (1.0 - passes - reflects);
       flux *= passes;
       ray.origin = offsetOrigin(hit.position, hit.normal, ray.direction);
     }
     return outcome;
   });
+  all.gaps -= sentUnderCovers(elements);
+  return all;
 }
 
 struct Specular {
@@ -105,6 +126,8 @@ Specular specularLight(const Solution& s, const ParticleTransfer& transfer) {
     if (cell.kind != SenderKind::Side) sum.ofLights = power * RgbSum(p.account[path].entered.value());
     sum.passed = power * RgbSum(p.account[path].passed.value());
     sum.absorbed = power * RgbSum(p.account[path].absorbed.value());
+    for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i)
+      if (!transfer.placed(i)) sum.absorbed += power * RgbSum(p.throughput[i]);
     if (!(p.fate[path] & kCut)) sum.escaped = power * RgbSum(p.account[path].left.value());
     return sum;
   });
@@ -119,7 +142,8 @@ EnergyLedger energyBalance(const Solution& s, const ParticleTransfer& transfer, 
   const double unit = s.scene.metresPerUnit * s.scene.metresPerUnit;
   EnergyLedger ledger;
   ledger.emittedW = unit * gray(surfaces.direct + specular.ofLights);
-  ledger.absorbedW = unit * gray(surfaces.absorbed - specular.passed + specular.absorbed + diffuse.panes);
+  ledger.absorbedW =
+      unit * gray(surfaces.absorbed - specular.passed + specular.absorbed + diffuse.panes + diffuse.gaps);
   ledger.escapedW = unit * gray(diffuse.escaped + specular.escaped);
   ledger.unsettledW = unit * gray(unsettled);
   return ledger;

@@ -47,6 +47,9 @@ class ParticleTransfer {
   /// Radiosity of the element, or scale of the light, that sends a path; black when it has no element. [W/m2, or 1]
   Rgb power(std::size_t path, const Elements&, const Scene&) const;
 
+  /// Whether an impact of a path that arrived lies on an element.
+  bool placed(std::size_t impact) const { return elementOf_[impact] != kNone; }
+
   std::size_t pairs() const;
   /// Gray throughput (by the particles' nominal senders) that landed where there is no element [W].
   double lost() const { return lost_; }

@@ -1,0 +1,22 @@
+// The energy of our large scenes, at the default error.
+#include <gtest/gtest.h>
+
+#include <deltalux/engine.hpp>
+#include <deltalux/io.hpp>
+
+namespace deltalux {
+namespace {
+
+double residueOf(const char* name) {
+  Scene scene = loadScene({std::string(DELTALUX_SOURCE_DIR "/scenes/") + name}).scene;
+  const EnergyLedger l = Engine(std::move(scene), {}).solve().energy;
+  return (*l.emittedW - *l.absorbedW - *l.escapedW - *l.unsettledW) / *l.emittedW;
+}
+
+TEST(EnergyOfLargeScenes, LodgeInTheMorning) { EXPECT_NEAR(residueOf("lodge/morning.rad"), 0, 1e-3); }
+/// What is left is noise of rows, and what feedback of particles is damped (spread_levels.hpp).
+TEST(EnergyOfLargeScenes, LodgeAtNight) { EXPECT_NEAR(residueOf("lodge/night.rad"), 0, 5e-3); }
+TEST(EnergyOfLargeScenes, Street) { EXPECT_NEAR(residueOf("street/day.rad"), 0, 1e-3); }
+
+}  // namespace
+}  // namespace deltalux
