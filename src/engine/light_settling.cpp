@@ -17,13 +17,14 @@ namespace deltalux {
 
 namespace {
 
-constexpr float kSame = 1e-5f;     // relative difference of light that is none
-constexpr double kTold = 1e-4;     // of what a region sends: changes that are told at once
-constexpr float kMatters = 4e-3f;  // of the irradiance of a leaf: that it does not miss
-constexpr double kDark = 1e-3;     // of the mean radiosity: irradiance that is nothing to speak of
-constexpr double kLeft = 0.5;      // of what may be missed: what is left when it was more
-constexpr double kMost = 0.4;      // of all rows: when it matters to more, all are gathered
-constexpr double kWithheld = 0.1;  // the same of what is not told
+constexpr float kSame = 1e-5f;      // relative difference of light that is none
+constexpr double kTold = 1e-4;      // of what a region sends: changes that are told at once
+constexpr float kSamePool = 1e-3f;  // the same of what rows gather too much of
+constexpr float kMatters = 4e-3f;   // of the irradiance of a leaf: that it does not miss
+constexpr double kDark = 1e-3;      // of the mean radiosity: irradiance that is nothing to speak of
+constexpr double kLeft = 0.5;       // of what may be missed: what is left when it was more
+constexpr double kMost = 0.4;       // of all rows: when it matters to more, all are gathered
+constexpr double kWithheld = 0.1;   // the same of what is not told
 
 bool differ(const Rgb& a, const Rgb& b) {
   return maxChannel(glm::abs(a - b)) > kSame * std::max(maxChannel(a), maxChannel(b));
@@ -82,6 +83,7 @@ LightSettling::LightSettling(const Parts& parts, const Elements& elements) : reg
   });
   const std::vector<ElementId>& surfaces = parts.particles.surfaces();
   parallelFor(surfaces.size(), 64, [&](std::size_t i) { learn(surfaces[i], parts, elements); });
+  pools_ = parts.rows.surplus().pools(elements);
 }
 
 void LightSettling::follow(const Elements& elements) {
@@ -175,16 +177,34 @@ LightSettling::Work LightSettling::firstWork(const Parts& parts, Elements& eleme
 
 /// Adds the leaves where what is gathered is another. `anew`: the rows are others than they were.
 void LightSettling::gather(const Parts& parts, Elements& elements, Work& work, bool anew) {
+  const RowSurplus& surplus = parts.rows.surplus();
+  std::vector<Rgb> before;
+  const auto gatherFrom = [&](std::size_t first) {
+    before.resize(work.rows.size());
+    parallelFor(work.rows.size() - first, 64, [&](std::size_t k) {
+      const std::size_t i = first + k, e = work.rows[i].index();
+      before[i] = elements.radiometry[e].indirect;
+      const LeafRow& row = *parts.rows.find(work.rows[i]);
+      if (i + 1 < work.rows.size()) prefetch(std::span(parts.rows.find(work.rows[i + 1])->indirect.transfers));
+      if (anew) learn(row);
+      parts.rows.gatherIndirect(row, elements, seen_);
+      misses_[e] = 0;
+    });
+  };
+  gatherFrom(0);
+  std::vector<ElementId> sharing;
+  surplus.listen(elements, surplus.pools(elements), kSamePool, pools_, sharing);
+  std::sort(sharing.begin(), sharing.end());
+  sharing.erase(std::unique(sharing.begin(), sharing.end()), sharing.end());
+  const std::size_t own = work.rows.size();
+  std::erase_if(sharing, [&](ElementId e) { return std::binary_search(work.rows.begin(), work.rows.end(), e); });
+  work.rows.insert(work.rows.end(), sharing.begin(), sharing.end());
+  gatherFrom(own);
   std::vector<char> other(work.rows.size(), 0);
-  parallelFor(work.rows.size(), 64, [&](std::size_t i) {
-    const std::size_t e = work.rows[i].index();
-    const Rgb before = elements.radiometry[e].indirect;
-    const LeafRow& row = *parts.rows.find(work.rows[i]);
-    if (i + 1 < work.rows.size()) prefetch(std::span(parts.rows.find(work.rows[i + 1])->indirect.transfers));
-    if (anew) learn(row);
-    parts.rows.gatherIndirect(row, elements, seen_);
-    misses_[e] = 0;
-    other[i] = differ(before, elements.radiometry[e].indirect);
+  parallelFor(work.rows.size(), 256, [&](std::size_t i) {
+    Rgb& indirect = elements.radiometry[work.rows[i].index()].indirect;
+    indirect += surplus.share(elements, work.rows[i], pools_);
+    other[i] = differ(before[i], indirect);
   });
   for (std::size_t i = 0; i < other.size(); ++i)
     if (other[i]) work.leaves.push_back(work.rows[i]);
@@ -263,6 +283,7 @@ LightSettling::Work LightSettling::readersOf(const News& news, const Parts& part
   if (static_cast<double>(work.rows.size()) > kMost * static_cast<double>(parts.rows.rows().size())) {
     work.rows.clear();
     for (const LeafRow& row : parts.rows.rows()) work.rows.push_back(row.leaf);
+    std::sort(work.rows.begin(), work.rows.end());
     missed = 0;
   }
   for (const ElementId e : parts.particles.surfaces())

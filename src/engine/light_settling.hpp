@@ -46,7 +46,7 @@ class LightSettling {
 
   /// What to gather, and leaves that may reflect otherwise beside those.
   struct Work {
-    std::vector<ElementId> rows, surfaces, leaves;
+    std::vector<ElementId> rows, surfaces, leaves;  // rows: ascending
   };
   struct News {
     SceneRegions::Set regions = 0;
@@ -74,6 +74,7 @@ class LightSettling {
   std::vector<SceneRegions::Set> particlesFrom_;  // of surfaces
   std::vector<char> read_;                        // rows or particles may have it for a sender
   std::vector<Rgb> seen_;                         // radiosity that is gathered
+  RowSurplus::Pools pools_;                       // of rows that gather too much, as their neighbours have heard
   std::vector<char> listed_;                      // in unheard_
   std::vector<ElementId> unheard_;                // patches whose radiosity may be another than seen
   std::vector<char> matters_;                     // for readersOf(), as is

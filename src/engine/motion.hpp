@@ -53,6 +53,7 @@ struct Backlog {
   std::chrono::steady_clock::time_point linksFollowed = std::chrono::steady_clock::now();
   std::vector<ElementId> reflecting;  // that were black
   std::vector<ElementId> painted;     // input-level patches whose reflectance is another
+  std::vector<ElementId> rescaled;    // leaves that gather otherwise by that
   bool dimmed = false;                // some light sends otherwise
   bool afresh = false;                // only solving the scene anew helps
   ParticleUpdate landed;              // paths traced anew since textures were last looked at, and what they were then

@@ -42,13 +42,14 @@ double leafRoundSeconds(const Elements& elements, const Links& links, const Scen
   if (leaves.empty()) return 0;
   const DirectSampler direct(scene, elements, links, tracer);
   const IndirectSampler indirect(scene, elements, links, tracer);
+  const GatherRays gatherRays(settings, leaves.size(), meanOf(leaves, elements));
   const std::size_t n = std::min(kSampled, leaves.size());
   const auto start = std::chrono::steady_clock::now();
   parallelFor(n, 4, [&](std::size_t i) {
     const ElementId leaf = leaves[i * leaves.size() / n];
     direct.at(leaf, settings.shadowRays);
     std::uint64_t traced = 0;
-    indirect.atLeaf(leaf, gatherRaysOfLeaf(settings, leaves.size()), traced);
+    indirect.atLeaf(leaf, gatherRays.of(leaf, elements), traced);
   });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return kSplitting * seconds * static_cast<double>(leaves.size()) / static_cast<double>(n);

@@ -43,6 +43,8 @@ StepReport Engine::State::update(Progress* progress) {
   placeParticles(followed, motion.light, step);
   motion.light.lights = std::exchange(backlog.dimmed, false);
   motion.light.painted = std::exchange(backlog.painted, {});
+  const std::vector<ElementId> rescaled = std::exchange(backlog.rescaled, {});
+  motion.light.rows.insert(motion.light.rows.end(), rescaled.begin(), rescaled.end());
   const Clock gathering;
   settleAfter(motion.light, progress);
   step.times.gather += gathering.seconds();
@@ -206,6 +208,7 @@ std::vector<ElementId> Engine::State::relight(const SceneUpdate& edits) {
     setReflectance(s.elements, s.scene, e);
     if (wasBlack && !(isBlack(l.rho) && isBlack(l.tau))) reflecting.push_back(e);
   }
+  s.transfers.followReflectance(s.elements, backlog.painted, backlog.rescaled);
   return reflecting;
 }
 

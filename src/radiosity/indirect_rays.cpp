@@ -37,19 +37,6 @@ bool IndirectSampler::isClosePatch(ElementId leaf, ElementId sender) const {
   return elements_.isPatch(sender) && areClose(elements_, leaf, sender);  // also when it has been split since
 }
 
-/// Whether the sender is so close to some of a curved leaf that its nodes, which stand for half its extent, do not tell
-/// the kernel.
-bool IndirectSampler::isCloseToNodes(ElementId leaf, ElementId sender) const {
-  if (!isClosePatch(leaf, sender)) return false;
-  const ElementGeometry& s = elements_.shape(sender);
-  const ElementNodes& n = elements_.nodes[leaf.index()];
-  const float reach = 2.0f * s.radius + elements_.shape(leaf).radius;
-  return std::any_of(n.position, n.position + 4, [&](const Vec3f& p) {
-    const Vec3f d = p - s.center;
-    return glm::dot(d, d) < reach * reach;
-  });
-}
-
 SenderSample IndirectSampler::along(const ClosePair& pair, ElementId sender) const {
   SenderSample s;
   s.leaf = sender, s.weight = pair.weight / elements_.shape(sender).area;
@@ -57,12 +44,17 @@ SenderSample IndirectSampler::along(const ClosePair& pair, ElementId sender) con
   return s;
 }
 
-/// From a curved leaf to a flat sender close by: nodes do not tell their kernel.
+/// To a flat sender from a leaf whose kernel for all of it does not tell that of what sees the sender: a curved one, or
+/// one that is covered in part, since what is not covered is closer to what it sees than the whole is.
 SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, int index) const {
   const Place place{*this, leaf, nullptr};
-  const auto pair = sampleClosePair(elements_, scene_, place, sender, rayKey(leaf, sender), index);
-  if (!pair) return {};
-  SenderSample s = along(*pair, sender);
+  const std::uint64_t key = rayKey(leaf, sender);
+  SenderSample s;
+  if (isClosePatch(leaf, sender)) {
+    if (const auto pair = sampleClosePair(elements_, scene_, place, sender, key, index)) s = along(*pair, sender);
+  } else {
+    s = shootMeasured(sender, key, index, place);
+  }
   s.measures = true;
   return s;
 }
@@ -84,7 +76,7 @@ SenderSample IndirectSampler::shootBack(ElementId leaf, ElementId sender, int in
 SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index) const {
   if (!(elements_.shape(sender).area > 0)) return {};  // removed
   const bool curvedLeaf = !elements_.at(leaf).flat, curvedSender = !exact(sender);
-  if (curvedLeaf && !curvedSender && isCloseToNodes(leaf, sender)) return shootMeasuring(leaf, sender, index);
+  if (!curvedSender && measures(leaf)) return shootMeasuring(leaf, sender, index);
   if (!curvedLeaf && curvedSender && isClosePatch(leaf, sender)) return shootBack(leaf, sender, index);
   return shoot(leaf, sender, index, nullptr);
 }

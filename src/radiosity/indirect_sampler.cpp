@@ -87,9 +87,10 @@ IndirectSampler::Term IndirectSampler::term(ElementId leaf, LinkId link, Element
                                             const KernelOf& kernelOf) const {
   Term t{link, sender, 0.0f, open, 0.0f};
   const float B = strength(leaf, sender);
-  if (!(B > 0) || (!exact(sender) && averted(leaf, sender))) return t;
+  const bool measured = !exact(sender) || (open < 1.0f && measures(leaf));  // by rays: K only shares them out
+  if (!(B > 0) || (measured && averted(leaf, sender))) return t;
   t.K = static_cast<float>(kernelOf(sender, open >= 1.0f));
-  if (!exact(sender)) t.K = atLeast(elements_, leaf, elements_.shape(leaf).center, sender, t.K);
+  if (measured) t.K = atLeast(elements_, leaf, elements_.shape(leaf).center, sender, t.K);
   float K = t.K;  // of pairs of points, by chance: then what nodes say counts, too
   if (exact(sender) && open < 1.0f && isClosePatch(leaf, sender)) K = std::max(K, kernelOverNodes(leaf, sender));
   t.weight = K * B * std::sqrt(open) * (exact(sender) ? 1.0f : kUneven);

@@ -86,7 +86,6 @@ class IndirectSampler {
   SenderSample shootBack(ElementId leaf, ElementId sender, int index) const;
   SenderSample shootMeasuring(ElementId leaf, ElementId sender, int index) const;
   bool isClosePatch(ElementId leaf, ElementId sender) const;
-  bool isCloseToNodes(ElementId leaf, ElementId sender) const;
   SenderSample along(const ClosePair&, ElementId sender) const;
   struct Found {
     Rgb T{0.0f};  // black where the term brings nothing
@@ -122,8 +121,11 @@ class IndirectSampler {
   float kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const;
   float kernelOverNodes(ElementId at, ElementId of) const;
   float kernelOverPairs(ElementId leaf, ElementId sender, int sets) const;
+  float kernelOverPoints(ElementId leaf, ElementId sender) const;
   bool exact(ElementId sender) const;
   bool averted(ElementId leaf, ElementId sender) const;
+  /// Whether rays of the leaf measure kernels, since parts of it see senders that others do not.
+  bool measures(ElementId leaf) const { return !elements_.at(leaf).flat || elements_.shape(leaf).exposed < 1.0f; }
   /// Whether a term needs no ray.
   bool known(const Term& t) const { return t.open >= 1.0f && exact(t.sender); }
   float faintest(ElementId receiver) const;

@@ -41,7 +41,7 @@ struct LeafTransferSettings {
   double scale = 0.15;   // of the mean free path: side of the area that variation is weighed against, as in the oracle
   double finest = 1.0;   // least area of a leaf that is still split: finest * error * that area
   int shadowRays = 64;   // of a leaf
-  int gatherRays = 128;  // of a leaf
+  int gatherRays = 128;  // of a leaf, more of those that hold much area or light (gather_rays.hpp)
   int inAll = 1 << 19;   // gatherRays of all leaves together: where leaves are few, each has more, up to four times
                          // as many, so that the light of a small scene is as sure as that of a large one
 };

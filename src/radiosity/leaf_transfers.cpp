@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/parallel.hpp"
+#include "hierarchy/below.hpp"
 #include "radiosity/direct_rows.hpp"
 #include "radiosity/indirect_sampler.hpp"
 #include "radiosity/push_pull.hpp"
@@ -15,7 +16,6 @@ namespace deltalux {
 namespace {
 
 constexpr std::size_t kBlock = 64;
-constexpr float kMostReturned = 0.98f;  // of what a closed cavity of this leaf's kind would send to it
 
 void require(bool holds, const char* what) {
   if (!holds) throw std::logic_error(what);
@@ -45,30 +45,7 @@ Rgb gatheredFromLights(const LeafRow& row, const Elements& elements) {
   return sum / elements.shape(row.leaf).exposed;
 }
 
-/// Form factors sum to no more than one; by chance a row may exceed it. Where that would send back more than comes,
-/// light between such leaves would grow without end: the row is scaled down.
-Rgb gatheredFromLeaves(const LeafRow& row, const Elements& elements, const std::vector<Rgb>& B) {
-  Rgb sum(0.0f), factors(0.0f);
-  for (const LeafTransfer& t : row.indirect.transfers) {
-    sum += t.T * B[t.leaf.index()];
-    factors += t.T;
-  }
-  const ElementLight& light = elements.radiometry[row.leaf.index()];
-  const float limit = std::max(1.0f, kMostReturned / std::max(maxChannel(light.rho + light.tau), 1e-3f));
-  const float most = maxChannel(factors), exposed = elements.shape(row.leaf).exposed;
-  return sum / std::max(exposed, most / limit);
-}
-
 }  // namespace
-
-int gatherRaysOfLeaf(const LeafTransferSettings& settings, std::size_t leaves) {
-  constexpr int kMostDoubled = 4;  // by powers of two: near twins of a scene take the same
-  int rays = settings.gatherRays;
-  for (int i = 0;
-       i < kMostDoubled && static_cast<std::size_t>(rays) * leaves < static_cast<std::size_t>(settings.inAll); ++i)
-    rays *= 2;
-  return rays;
-}
 
 LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, const Scene& scene,
                                         const RayTracer& tracer, const LeafTransferSettings& settings) {
@@ -88,17 +65,22 @@ LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, 
 
   const IndirectSampler sampler(scene, elements, links, tracer);
   std::vector<std::uint64_t> rays((rows_.size() + kBlock - 1) / kBlock, 0);
-  const int ofLeaf = gatherRaysOfLeaf(settings, rows_.size());
-  parallelFor(rows_.size(), kBlock,
-              [&](std::size_t i) { rows_[i].indirect = sampler.atLeaf(rows_[i].leaf, ofLeaf, rays[i / kBlock]); });
+  std::vector<ElementId> leaves;
+  for (const LeafRow& row : rows_) leaves.push_back(row.leaf);
+  mean_ = meanOf(leaves, elements);
+  const GatherRays gatherRays(settings, rows_.size(), mean_);
+  parallelFor(rows_.size(), kBlock, [&](std::size_t i) {
+    const ElementId leaf = rows_[i].leaf;
+    rows_[i].indirect = sampler.atLeaf(leaf, gatherRays.of(leaf, elements), rays[i / kBlock]);
+  });
   for (const std::uint64_t n : rays) report.rays += n;
   listRows(elements);
   return report;
 }
 
 std::size_t LeafTransfers::memoryBytes() const {
-  std::size_t bytes =
-      rows_.capacity() * sizeof(LeafRow) + rowOf_.capacity() * sizeof rowOf_[0] + reaches_.memoryBytes();
+  std::size_t bytes = rows_.capacity() * sizeof(LeafRow) + rowOf_.capacity() * sizeof rowOf_[0] +
+                      reaches_.memoryBytes() + surplus_.memoryBytes();
   for (const LeafRow& r : rows_)
     for (const TransferRow* row : {&r.direct, &r.indirect})
       bytes += row->terms.capacity() * sizeof(RowTerm) + row->transfers.capacity() * sizeof(LeafTransfer) +
@@ -111,7 +93,9 @@ void LeafTransfers::gatherDirect(const LeafRow& row, Elements& elements) const {
 }
 
 void LeafTransfers::gatherIndirect(const LeafRow& row, Elements& elements, const std::vector<Rgb>& B) const {
-  elements.radiometry[row.leaf.index()].indirect = gatheredFromLeaves(row, elements, B);
+  Rgb sum(0.0f);
+  for (const LeafTransfer& t : row.indirect.transfers) sum += t.T * B[t.leaf.index()];
+  elements.radiometry[row.leaf.index()].indirect = surplus_.scale(row.leaf) * sum;
 }
 
 void LeafTransfers::gatherDirect(Elements& elements) const {
@@ -123,10 +107,33 @@ void LeafTransfers::gatherIndirect(Elements& elements) const {
   std::vector<Rgb> B(elements.size());
   for (std::size_t i = 0; i < B.size(); ++i) B[i] = elements.radiometry[i].B;
   parallelFor(rows_.size(), kBlock, [&](std::size_t i) { gatherIndirect(rows_[i], elements, B); });
+  const RowSurplus::Pools pools = surplus_.pools(elements);
+  parallelFor(rows_.size(), kBlock, [&](std::size_t i) {
+    elements.radiometry[rows_[i].leaf.index()].indirect += surplus_.share(elements, rows_[i].leaf, pools);
+  });
+}
+
+/// The sum of a row's form factors.
+void LeafTransfers::measure(const LeafRow& row) {
+  Rgb factors(0.0f);
+  for (const LeafTransfer& t : row.indirect.transfers) factors += t.T;
+  surplus_.set(row.leaf, maxChannel(factors));
+}
+
+void LeafTransfers::followReflectance(const Elements& elements, std::span<const ElementId> painted,
+                                      std::vector<ElementId>& leaves) {
+  const std::size_t known = leaves.size();
+  for (const ElementId e : painted)
+    forEachLeafBelow(elements, e, [&](ElementId leaf) {
+      if (find(leaf)) leaves.push_back(leaf);
+    });
+  const std::vector<ElementId> others(leaves.begin() + static_cast<std::ptrdiff_t>(known), leaves.end());
+  surplus_.follow(elements, others, leaves);
 }
 
 void LeafTransfers::validate(const Elements& elements, const Links& links) const {
   std::vector<char> has(elements.size(), 0);
+  if (!rowOf_.empty()) surplus_.validate(elements);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const ElementId leaf = rows_[i].leaf;
     require(leaf.index() < elements.size() && elements.isReceivingLeaf(leaf), "transfers: of leaves");

@@ -12,15 +12,14 @@
 
 #include "hierarchy/link.hpp"
 #include "radiosity/direct_rows.hpp"
+#include "radiosity/gather_rays.hpp"
 #include "radiosity/leaf_row.hpp"
 #include "radiosity/line_space.hpp"
+#include "radiosity/row_surplus.hpp"
 #include "radiosity/surface_reaches.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
-
-/// Rays that gather a leaf's indirect light when there are so many leaves.
-int gatherRaysOfLeaf(const LeafTransferSettings&, std::size_t leaves);
 
 struct LeafTransferReport {
   std::uint64_t rays = 0, split = 0;
@@ -75,9 +74,12 @@ class LeafTransfers {
   void gatherDirect(Elements&) const;
   /// Fills `indirect` of the leaves from the present B of leaves.
   void gatherIndirect(Elements&) const;
-  /// Fills those of the leaf of one row; B by element.
+  /// Fills those of the leaf of one row; B by element. Indirect: without its share of what others have too much of.
   void gatherDirect(const LeafRow&, Elements&) const;
   void gatherIndirect(const LeafRow&, Elements&, const std::vector<Rgb>& B) const;
+  const RowSurplus& surplus() const { return surplus_; }
+  /// Takes in that surfaces below these reflect otherwise. Adds the leaves that are to be gathered anew by that.
+  void followReflectance(const Elements&, std::span<const ElementId> painted, std::vector<ElementId>& leaves);
 
   /// Checks that rows are those of receiving leaves, each once, from leaves and emitters that exist, by transfers that
   /// are finite and not negative. Throws std::logic_error with the first violation.
@@ -93,12 +95,16 @@ class LeafTransfers {
   void updateIndirect(const Elements&, const Change&, std::span<const ElementId> leaves, LeafUpdateReport&,
                       std::vector<ElementId>& reaching);
   void dropNoLeaves(const Elements&);
+  void measure(const LeafRow&);
   void setRow(ElementId leaf, std::size_t row);
 
   std::vector<LeafRow> rows_;  // one a leaf
+  MeanLeaf mean_;              // when they were built
   // These follow from the rows.
   std::vector<std::uint32_t> rowOf_;  // by element: index of its row, or none
   SurfaceReaches reaches_;
+  RowSurplus surplus_;
+  std::vector<ElementId> dropped_;  // leaves whose rows were, since the last update
 };
 
 }  // namespace deltalux

@@ -55,6 +55,8 @@ void LeafTransfers::dropNoLeaves(const Elements& elements) {
   const auto isStale = [&](std::size_t e) { return rowOf_[e] != kNone && !elements.isReceivingLeaf(ElementId(e)); };
   for (const std::size_t e : parallelWhere(rowOf_.size(), kManyElements, isStale)) {
     const std::uint32_t row = std::exchange(rowOf_[e], kNone);
+    surplus_.set(ElementId(e), 0);
+    dropped_.emplace_back(e);
     if (row + 1 < rows_.size()) {
       rows_[row] = std::move(rows_.back());
       setRow(rows_[row].leaf, row);
@@ -70,6 +72,13 @@ void LeafTransfers::listRows(const Elements& elements) {
     setRow(rows_[i].leaf, i);
     reaches_.add(elements, rows_[i].leaf, rows_[i].direct, rows_[i].indirect);
   }
+  surplus_ = {};
+  surplus_.resize(elements);
+  parallelFor(rows_.size(), kBlock, [&](std::size_t i) { measure(rows_[i]); });
+  std::vector<ElementId> leaves;
+  for (const LeafRow& row : rows_) leaves.push_back(row.leaf);
+  std::vector<ElementId> concerned;
+  surplus_.follow(elements, leaves, concerned);
 }
 
 void LeafTransfers::setRow(ElementId leaf, std::size_t row) {
@@ -137,6 +146,9 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
   const ArrivingLinks arriving(elements, links, changedLinks);
   const Change change{links, scene, tracer, settings, marks, arriving, space};
   const std::size_t known = elements.size();
+  const auto inPart = [&](ElementId e) { return elements.shape(e).exposed < 1.0f; };
+  std::vector<char> wasInPart;
+  for (const ElementId leaf : leaves.byLights) wasInPart.push_back(inPart(leaf));
   updateDirect(elements, change, leaves.byLights, report);
   for (const ElementId leaf : report.leaves) gatherDirect(rows_[rowOf_[leaf.index()]], elements);
   pull(elements, report.leaves);
@@ -144,13 +156,22 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
   std::vector<ElementId> indirect = leaves.byLeaves, reaching = report.leaves;
   for (const ElementId leaf : report.leaves)
     if (leaf.index() >= known) indirect.push_back(leaf);  // of a leaf that was split
+  // Leaves that are covered in part draw other rays than others.
+  for (std::size_t i = 0; i < wasInPart.size(); ++i)
+    if (const ElementId leaf = leaves.byLights[i]; find(leaf) && inPart(leaf) != bool(wasInPart[i]))
+      rows_[rowOf_[leaf.index()]].indirect = {}, indirect.push_back(leaf);
   std::erase_if(indirect, [&](ElementId e) { return !elements.isReceivingLeaf(e); });
+  std::sort(indirect.begin(), indirect.end());
+  indirect.erase(std::unique(indirect.begin(), indirect.end()), indirect.end());
   updateIndirect(elements, change, indirect, report, reaching);
-  std::sort(report.leaves.begin(), report.leaves.end());
-  report.leaves.erase(std::unique(report.leaves.begin(), report.leaves.end()), report.leaves.end());
   for (const ElementId leaf : reaching)
     if (const LeafRow* row = find(leaf)) reaches_.add(elements, leaf, row->direct, row->indirect);
   dropNoLeaves(elements);
+  std::vector<ElementId> others = std::exchange(dropped_, {});
+  others.insert(others.end(), report.leaves.begin(), report.leaves.end());
+  surplus_.follow(elements, others, report.leaves);
+  std::sort(report.leaves.begin(), report.leaves.end());
+  report.leaves.erase(std::unique(report.leaves.begin(), report.leaves.end()), report.leaves.end());
   return report;
 }
 
@@ -202,14 +223,17 @@ void LeafTransfers::updateIndirect(const Elements& elements, const Change& chang
   std::vector<std::uint64_t> rays(leaves.size(), 0);
   std::vector<char> other(leaves.size(), 0), elsewhere(leaves.size(), 0);
   const IndirectSampler sampler(change.scene, elements, change.links, change.tracer);
-  const int ofLeaf = gatherRaysOfLeaf(change.settings, rows_.size());
+  const GatherRays gatherRays(change.settings, rows_.size(), mean_);
+  surplus_.resize(elements);
   parallelFor(leaves.size(), kBlock, [&](std::size_t i) {
     const ElementId leaf = leaves[i];
     if (i + 1 < leaves.size()) {
       const TransferRow& next = rows_[rowOf_[leaves[i + 1].index()]].indirect;
       prefetch(std::span(next.rays)), prefetch(std::span(next.terms));
     }
-    TransferRow& row = rows_[rowOf_[leaf.index()]].indirect;
+    const int ofLeaf = gatherRays.of(leaf, elements);
+    LeafRow& whole = rows_[rowOf_[leaf.index()]];
+    TransferRow& row = whole.indirect;
     if (row.terms.empty()) {
       row = sampler.atLeaf(leaf, ofLeaf, rays[i]);
       other[i] = elsewhere[i] = 1;
@@ -219,6 +243,7 @@ void LeafTransfers::updateIndirect(const Elements& elements, const Change& chang
                                 ofLeaf, row, rays[i]);
       elsewhere[i] = row.reach != before;
     }
+    measure(whole);
   });
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     report.rays += rays[i];

@@ -36,7 +36,8 @@ TEST(Directional, OneLobeStaysNearTheClampedCosine) {
 }
 
 TEST(Directional, ABoxOfLobesSendsItsMeanProjectedArea) {
-  // Six unit faces of radiosity pi. Order 2 cannot tell a cube from a ball: a quarter of the surface everywhere [Cauchy].
+  // Six unit faces of radiosity pi. Order 2 cannot tell a cube from a ball: a quarter of the surface everywhere
+  // [Cauchy].
   DirectionalRgb f;
   for (int axis = 0; axis < 3; ++axis)
     for (const float sign : {-1.0f, 1.0f}) {

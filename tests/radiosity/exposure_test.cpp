@@ -66,10 +66,11 @@ TEST(Exposure, WhatPeepsOutIsAsBrightAsItsSurroundings) {
     if (t.kind != ElementKind::Patch || t.childCount > 0 || !t.front || t.emitter || g.exposed >= 0.85f) continue;
     if (s.elements.domain[i].primitive != floorOf(s.scene) || g.exposed < 0.15f) continue;
     // Points of the leaf beside the block's foot.
+    constexpr int kAcross = 32;
     std::vector<ProbePoint> points;
-    for (int k = 0; k < 64; ++k) {
-      const Vec3 p(g.lower.x + (k % 8 + 0.5) / 8 * (g.upper.x - g.lower.x),
-                   g.lower.y + (k / 8 + 0.5) / 8 * (g.upper.y - g.lower.y), 0);
+    for (int k = 0; k < kAcross * kAcross; ++k) {
+      const Vec3 p(g.lower.x + (k % kAcross + 0.5) / kAcross * (g.upper.x - g.lower.x),
+                   g.lower.y + (k / kAcross + 0.5) / kAcross * (g.upper.y - g.lower.y), 0);
       if (!(p.x > 1.53 && p.x < 2.23 && p.y > 1.04 && p.y < 1.84)) points.push_back({p, {0, 0, 1}});
     }
     double mean = 0;

@@ -90,7 +90,8 @@ TEST(HiddenElements, AreNoneBehindGlassOrWhatLiesInTheRegion) {
     const Elements elements = buildElements(scene, surfaceSides(scene));
     const Box beside{Vec3(-0.5), Vec3(0.5)}, across{Vec3(-0.5), Vec3(1.5, 0.5, 0.5)};
     EXPECT_EQ(hiddenElements(elements, scene, beside).empty(), glass);
-    for (const HiddenElement& h : hiddenElements(elements, scene, across)) EXPECT_NE(elements.domain[h.occluder.index()].primitive, PrimitiveId(0u));
+    for (const HiddenElement& h : hiddenElements(elements, scene, across))
+      EXPECT_NE(elements.domain[h.occluder.index()].primitive, PrimitiveId(0u));
   }
 }
 

@@ -48,8 +48,8 @@ void members(auto& archive, Is<LeafRow> auto& r) {
 }
 struct StoredTransfers {
   static void transfer(auto& archive, auto& t) {
-    auto& [rows, rowOf, reaches] = t;  // the others follow from the first
-    transferAll(archive, rows);
+    auto& [rows, mean, rowOf, reaches, surplus, dropped] = t;  // the others follow from the rows
+    transferAll(archive, rows, mean.area, mean.light);
   }
 };
 void members(auto& archive, Is<LeafTransfers> auto& t) { StoredTransfers::transfer(archive, t); }

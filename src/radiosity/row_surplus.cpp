@@ -1,0 +1,151 @@
+#include "radiosity/row_surplus.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "base/paged_array.hpp"
+#include "base/room.hpp"
+#include "hierarchy/below.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr float kMostReturned = 0.98f;  // of what a closed cavity of a leaf's kind would send to it
+constexpr float kSameGroup = 1e-3f;     // relative difference of what a group takes that is none
+
+bool alike(float a, float b) { return std::abs(a - b) <= kSameGroup * std::max(a, b); }
+
+}  // namespace
+
+void RowSurplus::resize(const Elements& elements) { resizeWithRoom(nodes_, elements.size()); }
+
+void RowSurplus::takeLeaf(const Elements& elements, std::size_t e) {
+  Node& node = nodes_[e];
+  const ElementGeometry& g = elements.geometry[e];
+  const ElementLight& light = elements.radiometry[e];
+  const float limit = std::max(1.0f, kMostReturned / std::max(maxChannel(light.rho + light.tau), 1e-3f));
+  node.scale = 1 / std::max(g.exposed, node.factors / limit);
+  node.surplus = g.area * std::max(0.0f, node.factors - limit * g.exposed);
+  node.room = node.factors > 0 ? g.area * std::max(0.0f, g.exposed - node.factors) : 0.0f;
+}
+
+/// Whether its group, if it is one, is another than before.
+bool RowSurplus::takeParts(const Elements& elements, std::size_t e) {
+  Node& node = nodes_[e];
+  float surplus = 0, room = 0;
+  for (std::size_t i = 0; i < elements.topology[e].childCount; ++i) {
+    const Node& part = nodes_[elements.child(ElementId(e), i).index()];
+    surplus += part.surplus, room += part.room;
+  }
+  const Node before = node;
+  const bool holds = surplus > 0 && room >= surplus;
+  node.taken = holds ? surplus / room : 0.0f;
+  node.perRoom = holds ? 1 / room : 0.0f;
+  node.surplus = holds ? 0.0f : surplus;
+  node.room = holds ? room - surplus : room;
+  if (holds && node.slot == kNone) {
+    node.slot = static_cast<std::uint32_t>(groups_.size());
+    if (!free_.empty()) node.slot = free_.back(), free_.pop_back();
+    if (node.slot == groups_.size()) groups_.emplace_back();
+    groups_[node.slot] = ElementId(e);
+  } else if (!holds && node.slot != kNone) {
+    groups_[node.slot] = {};
+    free_.push_back(std::exchange(node.slot, kNone));
+  }
+  return !alike(node.taken, before.taken) || !alike(node.perRoom, before.perRoom);
+}
+
+void RowSurplus::follow(const Elements& elements, std::span<const ElementId> leaves,
+                        std::vector<ElementId>& concerned) {
+  PagedArray<char> marked(elements.size());
+  for (ElementId e : leaves)
+    for (; e.valid() && !marked[e.index()]; e = elements.at(e).parent) marked.at(e.index()) = 1;
+  std::vector<ElementId> upwards, full, groups;
+  marked.forEach([&](std::size_t e, char) { upwards.emplace_back(e); });
+  std::reverse(upwards.begin(), upwards.end());
+  for (const ElementId e : upwards) {
+    if (elements.isReceivingLeaf(e)) {
+      takeLeaf(elements, e.index());
+      if (nodes_[e.index()].surplus > 0) full.push_back(e);
+    } else if (takeParts(elements, e.index())) {
+      groups.push_back(e);
+    }
+  }
+  std::erase_if(full_, [&](ElementId e) { return marked[e.index()] || !elements.isReceivingLeaf(e); });
+  const auto known = static_cast<std::ptrdiff_t>(full_.size());
+  full_.insert(full_.end(), full.rbegin(), full.rend());
+  std::inplace_merge(full_.begin(), full_.begin() + known, full_.end());
+  for (const ElementId group : groups) addWithRoom(elements, group, concerned);
+}
+
+void RowSurplus::addWithRoom(const Elements& elements, ElementId group, std::vector<ElementId>& leaves) const {
+  forEachLeafBelow(elements, group, [&](ElementId leaf) {
+    if (nodes_[leaf.index()].room > 0) leaves.push_back(leaf);
+  });
+}
+
+RowSurplus::Pools RowSurplus::pools(const Elements& elements) const {
+  std::vector<RgbSum> light(groups_.size(), RgbSum(0.0));
+  for (const ElementId leaf : full_) {
+    ElementId above = elements.at(leaf).parent;
+    while (above.valid() && nodes_[above.index()].slot == kNone) above = elements.at(above).parent;
+    if (!above.valid()) continue;  // no room anywhere
+    const ElementGeometry& g = elements.shape(leaf);
+    const double beyond = double(g.area) * (1.0 / double(scale(leaf)) - double(g.exposed));
+    light[nodes_[above.index()].slot] += beyond * RgbSum(elements.radiometry[leaf.index()].indirect);
+  }
+  Pools pools(groups_.size(), Rgb(0.0f));
+  for (std::size_t i = 0; i < pools.size(); ++i)
+    if (groups_[i].valid()) pools[i] = Rgb(double(nodes_[groups_[i].index()].perRoom) * light[i]);
+  return pools;
+}
+
+Rgb RowSurplus::share(const Elements& elements, ElementId leaf, const Pools& pools) const {
+  Rgb sum(0.0f);
+  const Node& own = nodes_[leaf.index()];
+  if (!(own.room > 0)) return sum;
+  float left = 1;  // of the leaf's room
+  for (ElementId e = elements.at(leaf).parent; e.valid() && left > 0; e = elements.at(e).parent) {
+    const Node& node = nodes_[e.index()];
+    if (node.slot == kNone) continue;
+    sum += left * pools[node.slot];
+    left *= 1 - node.taken;
+  }
+  return own.room / elements.shape(leaf).litArea() * sum;
+}
+
+void RowSurplus::listen(const Elements& elements, const Pools& now, float same, Pools& heard,
+                        std::vector<ElementId>& leaves) const {
+  heard.resize(now.size(), Rgb(0.0f));
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (maxChannel(glm::abs(now[i] - heard[i])) <= same * maxChannel(now[i])) continue;
+    heard[i] = now[i];
+    if (groups_[i].valid()) addWithRoom(elements, groups_[i], leaves);
+  }
+}
+
+std::size_t RowSurplus::memoryBytes() const {
+  return nodes_.capacity() * sizeof(Node) + (groups_.capacity() + full_.capacity()) * sizeof(ElementId) +
+         free_.capacity() * sizeof(std::uint32_t);
+}
+
+void RowSurplus::validate(const Elements& elements) const {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::logic_error(what);
+  };
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (node.slot != kNone)
+      require(node.slot < groups_.size() && groups_[node.slot] == ElementId(i), "row surplus: groups and their slots");
+    require((node.taken > 0) == (node.slot != kNone) && node.taken <= 1, "row surplus: a group takes what there is");
+    if (!elements.isReceivingLeaf(ElementId(i))) continue;
+    require(std::isfinite(node.scale) && node.scale > 0, "row surplus: scale");
+    require((node.surplus > 0) == std::binary_search(full_.begin(), full_.end(), ElementId(i)),
+            "row surplus: leaves that have some are listed");
+  }
+}
+
+}  // namespace deltalux

@@ -1,0 +1,63 @@
+#pragma once
+// Form factors of a row sum to no more than one; by chance a row may exceed it. Where that would send back more than
+// comes, light between such leaves would grow without end: so the row is scaled down, and what it gathered beyond, its
+// surplus, goes to leaves around it that miss as much by the same chance: those below the lowest element that has room
+// for it, each in proportion to what its factors lack. No light is lost, and all get what is theirs in the mean.
+//
+//   factors   F = sum of T over a row [Galerkin form factors: 1 in a closed cavity, over the whole leaf]
+//   limit     what F may be for each unit of exposed area: 1, or 0.98 / rho where that is more
+//   surplus   A (F - limit exposed), room A (exposed - F), where positive; summed upwards until there is room
+//
+// Cost: 28 bytes an element; a pass over leaves with a surplus before light is gathered.
+#include <span>
+#include <vector>
+
+#include "hierarchy/element.hpp"
+
+namespace deltalux {
+
+class RowSurplus {
+ public:
+  /// Light that waits for the leaves below each group, by slot: irradiance of the room that there is.
+  using Pools = std::vector<Rgb>;
+
+  /// Makes room for all elements.
+  void resize(const Elements&);
+  /// Takes note of the factors (largest channel) of a leaf's row; of a leaf without one: 0. By several threads at once
+  /// for different leaves.
+  void set(ElementId leaf, float factors) { nodes_[leaf.index()].factors = factors; }
+  /// Shares out anew what is above these leaves, whose rows, exposure or reflectance are others. Adds to `concerned`
+  /// the leaves that get another share of the same light.
+  void follow(const Elements&, std::span<const ElementId> leaves, std::vector<ElementId>& concerned);
+  /// By which what a row sums up is irradiance of the exposed part, the surplus taken off.
+  float scale(ElementId leaf) const { return nodes_[leaf.index()].scale; }
+  /// What there is to share out when leaves have this indirect light (that of others does not matter).
+  Pools pools(const Elements&) const;
+  /// What a leaf gets of it.
+  Rgb share(const Elements&, ElementId leaf, const Pools&) const;
+  /// The leaves with room below groups whose pools differ by more than the part `same`; those take the value of `now`.
+  void listen(const Elements&, const Pools& now, float same, Pools& heard, std::vector<ElementId>& leaves) const;
+  std::size_t memoryBytes() const;
+  /// Checks that sums hold, and that nobody gets more than there is room for. Throws std::logic_error.
+  void validate(const Elements&) const;
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  struct Node {
+    float factors = 0, scale = 1;  // leaves
+    float surplus = 0, room = 0;   // that go on upwards
+    float taken = 0, perRoom = 0;  // of a group: share of the room below that it takes, and 1 / that room
+    std::uint32_t slot = kNone;    // of a group
+  };
+  void takeLeaf(const Elements&, std::size_t e);
+  bool takeParts(const Elements&, std::size_t e);
+  void addWithRoom(const Elements&, ElementId group, std::vector<ElementId>& leaves) const;
+
+  std::vector<Node> nodes_;          // by element
+  std::vector<ElementId> groups_;    // by slot
+  std::vector<std::uint32_t> free_;  // slots
+  std::vector<ElementId> full_;      // leaves with a surplus, ascending
+};
+
+}  // namespace deltalux
