@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/sort_unique.hpp"
 #include "engine/state.hpp"
 #include "radiosity/push_pull.hpp"
 
@@ -134,8 +135,7 @@ void Engine::State::select(const std::string& object) {
   std::vector<PrimitiveId> primitives;
   for (const ObjectId id : found)
     for (const PrimitiveId p : primitivesOf(s.scene, id)) primitives.push_back(p);
-  std::sort(primitives.begin(), primitives.end());
-  primitives.erase(std::unique(primitives.begin(), primitives.end()), primitives.end());
+  sortUnique(primitives);
   groups.separate(tracer(), s.scene, primitives);
   if (pending.empty() && !backlog.frames) prepareToFollow();
   if (!finished) return;

@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "base/prefetch.hpp"
 #include "base/room.hpp"
+#include "base/sort_unique.hpp"
 #include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
 #include "radiosity/push_pull.hpp"
@@ -18,8 +19,8 @@ namespace deltalux {
 namespace {
 
 constexpr float kSame = 1e-5f;      // relative difference of light that is none
-constexpr double kTold = 1e-4;      // of what a region sends: changes that are told at once
 constexpr float kSamePool = 1e-3f;  // the same of what rows gather too much of
+constexpr double kTold = 1e-4;      // of what a region sends: changes that are told at once
 constexpr float kMatters = 4e-3f;   // of the irradiance of a leaf: that it does not miss
 constexpr double kDark = 1e-3;      // of the mean radiosity: irradiance that is nothing to speak of
 constexpr double kLeft = 0.5;       // of what may be missed: what is left when it was more
@@ -145,8 +146,7 @@ LightSettling::Work LightSettling::firstWork(const Parts& parts, Elements& eleme
       work.rows.push_back(e);
     else
       from_[e.index()] = 0, misses_[e.index()] = 0;
-  std::sort(work.rows.begin(), work.rows.end());
-  work.rows.erase(std::unique(work.rows.begin(), work.rows.end()), work.rows.end());
+  sortUnique(work.rows);
 
   const std::vector<ElementId>& surfaces = parts.particles.surfaces();
   const std::vector<ElementId>& placed = changes.allParticles ? surfaces : changes.surfaces;
@@ -194,8 +194,7 @@ void LightSettling::gather(const Parts& parts, Elements& elements, Work& work, b
   gatherFrom(0);
   std::vector<ElementId> sharing;
   surplus.listen(elements, surplus.pools(elements), kSamePool, pools_, sharing);
-  std::sort(sharing.begin(), sharing.end());
-  sharing.erase(std::unique(sharing.begin(), sharing.end()), sharing.end());
+  sortUnique(sharing);
   const std::size_t own = work.rows.size();
   std::erase_if(sharing, [&](ElementId e) { return std::binary_search(work.rows.begin(), work.rows.end(), e); });
   work.rows.insert(work.rows.end(), sharing.begin(), sharing.end());
@@ -213,8 +212,7 @@ void LightSettling::gather(const Parts& parts, Elements& elements, Work& work, b
     parts.particles.apply(work.surfaces, elements, {seen_, parts.scene}, kSame, marks);
     addMarked(marks, work.leaves);
   }
-  std::sort(work.leaves.begin(), work.leaves.end());
-  work.leaves.erase(std::unique(work.leaves.begin(), work.leaves.end()), work.leaves.end());
+  sortUnique(work.leaves);
   addOtherSides(elements, work.leaves);
 }
 
@@ -281,8 +279,7 @@ LightSettling::Work LightSettling::readersOf(const News& news, const Parts& part
   Work work;
   addMarked(matters, work.rows);
   if (static_cast<double>(work.rows.size()) > kMost * static_cast<double>(parts.rows.rows().size())) {
-    work.rows.clear();
-    for (const LeafRow& row : parts.rows.rows()) work.rows.push_back(row.leaf);
+    work.rows = parts.rows.leaves();
     std::sort(work.rows.begin(), work.rows.end());
     missed = 0;
   }

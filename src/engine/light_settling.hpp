@@ -46,7 +46,7 @@ class LightSettling {
 
   /// What to gather, and leaves that may reflect otherwise beside those.
   struct Work {
-    std::vector<ElementId> rows, surfaces, leaves;  // rows: ascending
+    std::vector<ElementId> rows, surfaces, leaves;  // rows: ascending, before others that share join
   };
   struct News {
     SceneRegions::Set regions = 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.hpp"
+
 namespace deltalux {
 
 void MovingGroups::separate(RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> primitives) {
@@ -33,8 +35,7 @@ void MovingGroups::rebuild(RayTracer& tracer, const Scene& scene, std::span<cons
       loose.push_back(p);
     else
       groups.push_back(groupOf(p));
-  std::sort(groups.begin(), groups.end());
-  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  sortUnique(groups);
   for (const GroupId g : groups) tracer.rebuild(g);
   if (!loose.empty()) setApart(tracer, scene, loose);
 }

@@ -200,6 +200,7 @@ std::vector<ElementId> Engine::State::relight(const SceneUpdate& edits) {
     if (std::find(edits.materials.begin(), edits.materials.end(), s.scene.primitives[i].material) !=
         edits.materials.end())
       repainted.emplace_back(i);
+  const std::size_t known = backlog.painted.size();
   for (const ElementId e : elementsOf(s.elements, repainted)) {
     if (s.elements.at(e).emitter) continue;
     backlog.painted.push_back(e);
@@ -208,7 +209,7 @@ std::vector<ElementId> Engine::State::relight(const SceneUpdate& edits) {
     setReflectance(s.elements, s.scene, e);
     if (wasBlack && !(isBlack(l.rho) && isBlack(l.tau))) reflecting.push_back(e);
   }
-  s.transfers.followReflectance(s.elements, backlog.painted, backlog.rescaled);
+  s.transfers.followReflectance(s.elements, std::span(backlog.painted).subspan(known), backlog.rescaled);
   return reflecting;
 }
 

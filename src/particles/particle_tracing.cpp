@@ -6,6 +6,7 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "base/sort_unique.hpp"
 #include "particles/moved_shapes.hpp"
 #include "particles/plan_particles.hpp"
 #include "particles/trace.hpp"
@@ -77,8 +78,7 @@ class Motions {
   static std::vector<const Shape*> shapesOf(const Scene& scene, std::span<const SceneChange::Moved> moved) {
     std::vector<PrimitiveId> ids;
     for (const SceneChange::Moved& m : moved) ids.push_back(m.primitive);
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    sortUnique(ids);
     std::vector<const Shape*> shapes;
     for (const PrimitiveId id : ids) shapes.push_back(&scene[id].shape);
     return shapes;

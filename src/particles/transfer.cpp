@@ -6,6 +6,7 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "base/room.hpp"
+#include "base/sort_unique.hpp"
 #include "hierarchy/patch.hpp"
 #include "hierarchy/side_locator.hpp"
 #include "particles/surface_normal.hpp"
@@ -43,11 +44,6 @@ bool startsInTheDark(const Particles& p, std::size_t path, const SideLocator& lo
   if (front == back) return !front;
   const std::span<const Vec3f> v = p.verticesOf(path);
   return (glm::dot(normalAt(shape, Vec3(v[1]), 0), Vec3(v[1] - v[0])) < 0) != front;
-}
-
-void sortUnique(std::vector<ElementId>& all) {
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "base/sort_unique.hpp"
 #include "radiosity/side_estimator.hpp"
 
 namespace deltalux {
@@ -108,8 +109,7 @@ class Search {
   std::vector<SurfaceSide> uncovered() {
     std::vector<std::size_t> found;
     while (!candidates_.empty()) {
-      std::sort(candidates_.begin(), candidates_.end());
-      candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
+      sortUnique(candidates_);
       for (const std::size_t i : candidates_) state_[i] = State::Looked;
       estimate(candidates_);
       found.insert(found.end(), candidates_.begin(), candidates_.end());

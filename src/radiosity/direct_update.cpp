@@ -2,6 +2,7 @@
 // weight as the row has; of the others only those whose rays meet what moved.
 #include <algorithm>
 
+#include "base/sort_unique.hpp"
 #include "radiosity/direct_sampler.hpp"
 #include "radiosity/links_below.hpp"
 #include "radiosity/row_terms.hpp"
@@ -110,8 +111,7 @@ bool DirectSampler::sampleChanged(ElementId leaf, int rays, std::span<const Link
   std::vector<LinkId> active;
   std::vector<LinkId> tops;
   for (const LinkId id : changed) tops.push_back(toWholeLight(links_, elements_, id));
-  std::sort(tops.begin(), tops.end());
-  tops.erase(std::unique(tops.begin(), tops.end()), tops.end());
+  sortUnique(tops);
   for (const LinkId top : tops) activeBelow(links_, elements_, top, leaf, active);
   const std::vector<Term> fresh = terms(leaf, senders_.over(active, leaf));
   float weight = 0;

@@ -32,10 +32,11 @@ bool crosses(const ElementGeometry& g, const ElementGeometry& plane) {
 
 }  // namespace
 
-/// What is in plain view has no noise that would hide an error of K: then at all nodes, and close by at many points.
-/// What a large leaf gets of a small patch close to it lies between its nodes: then at the nodes of that, the other way
-/// round, or, where the leaf is narrow, at many points. What faces a part of it may face none of its nodes: at many
-/// points, too. What is curved and close has its light go between other places than nodes: then between many points.
+/// What is in plain view has no noise that would hide an error of K: then at all nodes, or, for a curved leaf close by,
+/// at many points. What a large leaf gets of a small patch close to it lies between its nodes: then at the nodes of
+/// that, the other way round, or, where the leaf is narrow, at many points. What faces a part of it may face none of
+/// its nodes: at many points, too. What is curved and close has its light go between other places than nodes: then
+/// between many points.
 float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const {
   const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(sender);
   const bool flat = elements_.at(leaf).flat;
@@ -67,7 +68,7 @@ float IndirectSampler::kernelOverNodes(ElementId at, ElementId of) const {
 }
 
 /// At points of the smaller of the two, each of which knows the part of the other that it faces. By chance, right in
-/// the mean, as that over pairs is.
+/// the mean.
 float IndirectSampler::kernelOverPoints(ElementId leaf, ElementId sender) const {
   const float A = elements_.shape(leaf).area, ofSender = elements_.shape(sender).area;
   const bool turned = elements_.at(leaf).flat && ofSender < A;
@@ -82,6 +83,7 @@ float IndirectSampler::kernelOverPoints(ElementId leaf, ElementId sender) const 
   return static_cast<float>(sum / kPoints) * (turned ? ofSender / A : 1.0f);
 }
 
+/// By chance, right in the mean.
 float IndirectSampler::kernelOverPairs(ElementId leaf, ElementId sender, int sets) const {
   const std::uint64_t key = combineKeys(combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]), 11);
   double sum = 0;

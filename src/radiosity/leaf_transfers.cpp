@@ -65,9 +65,7 @@ LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, 
 
   const IndirectSampler sampler(scene, elements, links, tracer);
   std::vector<std::uint64_t> rays((rows_.size() + kBlock - 1) / kBlock, 0);
-  std::vector<ElementId> leaves;
-  for (const LeafRow& row : rows_) leaves.push_back(row.leaf);
-  mean_ = meanOf(leaves, elements);
+  mean_ = meanOf(leaves(), elements);
   const GatherRays gatherRays(settings, rows_.size(), mean_);
   parallelFor(rows_.size(), kBlock, [&](std::size_t i) {
     const ElementId leaf = rows_[i].leaf;
@@ -76,6 +74,12 @@ LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, 
   for (const std::uint64_t n : rays) report.rays += n;
   listRows(elements);
   return report;
+}
+
+std::vector<ElementId> LeafTransfers::leaves() const {
+  std::vector<ElementId> leaves;
+  for (const LeafRow& row : rows_) leaves.push_back(row.leaf);
+  return leaves;
 }
 
 std::size_t LeafTransfers::memoryBytes() const {

@@ -62,6 +62,8 @@ class LeafTransfers {
 
   bool empty() const { return rows_.empty(); }
   std::span<const LeafRow> rows() const { return rows_; }
+  /// Those that have rows, in their order.
+  std::vector<ElementId> leaves() const;
   /// The row of a leaf; null when it has none.
   const LeafRow* find(ElementId leaf) const {
     return leaf.index() < rowOf_.size() && rowOf_[leaf.index()] != kNone ? &rows_[rowOf_[leaf.index()]] : nullptr;

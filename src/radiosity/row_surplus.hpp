@@ -4,7 +4,7 @@
 // surplus, goes to leaves around it that miss as much by the same chance: those below the lowest element that has room
 // for it, each in proportion to what its factors lack. No light is lost, and all get what is theirs in the mean.
 //
-//   factors   F = sum of T over a row [Galerkin form factors: 1 in a closed cavity, over the whole leaf]
+//   factors   F = sum of T over a row, that is of the whole leaf: in a closed cavity the exposed share of it
 //   limit     what F may be for each unit of exposed area: 1, or 0.98 / rho where that is more
 //   surplus   A (F - limit exposed), room A (exposed - F), where positive; summed upwards until there is room
 //

@@ -5,6 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "base/prefetch.hpp"
+#include "base/sort_unique.hpp"
 #include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
 #include "radiosity/arriving_links.hpp"
@@ -75,10 +76,8 @@ void LeafTransfers::listRows(const Elements& elements) {
   surplus_ = {};
   surplus_.resize(elements);
   parallelFor(rows_.size(), kBlock, [&](std::size_t i) { measure(rows_[i]); });
-  std::vector<ElementId> leaves;
-  for (const LeafRow& row : rows_) leaves.push_back(row.leaf);
   std::vector<ElementId> concerned;
-  surplus_.follow(elements, leaves, concerned);
+  surplus_.follow(elements, leaves(), concerned);
 }
 
 void LeafTransfers::setRow(ElementId leaf, std::size_t row) {
@@ -161,8 +160,7 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
     if (const ElementId leaf = leaves.byLights[i]; find(leaf) && inPart(leaf) != bool(wasInPart[i]))
       rows_[rowOf_[leaf.index()]].indirect = {}, indirect.push_back(leaf);
   std::erase_if(indirect, [&](ElementId e) { return !elements.isReceivingLeaf(e); });
-  std::sort(indirect.begin(), indirect.end());
-  indirect.erase(std::unique(indirect.begin(), indirect.end()), indirect.end());
+  sortUnique(indirect);
   updateIndirect(elements, change, indirect, report, reaching);
   for (const ElementId leaf : reaching)
     if (const LeafRow* row = find(leaf)) reaches_.add(elements, leaf, row->direct, row->indirect);
@@ -170,8 +168,7 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
   std::vector<ElementId> others = std::exchange(dropped_, {});
   others.insert(others.end(), report.leaves.begin(), report.leaves.end());
   surplus_.follow(elements, others, report.leaves);
-  std::sort(report.leaves.begin(), report.leaves.end());
-  report.leaves.erase(std::unique(report.leaves.begin(), report.leaves.end()), report.leaves.end());
+  sortUnique(report.leaves);
   return report;
 }
 

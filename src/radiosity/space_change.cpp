@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/sort_unique.hpp"
 #include "hierarchy/below.hpp"
 
 namespace deltalux {
@@ -78,8 +79,7 @@ void SpaceChange::addMoved(std::span<const ElementId> inputs, const Elements& el
 void SpaceChange::addInputs(std::span<const ElementId> inputs) {
   inputs_.insert(inputs_.end(), inputs.begin(), inputs.end());
   hidden_.reset();
-  std::sort(inputs_.begin(), inputs_.end());
-  inputs_.erase(std::unique(inputs_.begin(), inputs_.end()), inputs_.end());
+  sortUnique(inputs_);
 }
 
 void SpaceChange::addMoved(PrimitiveId primitive, const Scene& scene) { addObject(ObjectSet::top(scene, primitive)); }

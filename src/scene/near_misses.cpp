@@ -3,6 +3,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/sort_unique.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -28,8 +30,7 @@ std::vector<std::string> nearMisses(std::string_view name, const std::vector<std
                                     std::size_t count) {
   std::vector<std::pair<std::size_t, std::string_view>> ranked;
   for (const std::string& candidate : existing) ranked.emplace_back(editDistance(name, candidate), candidate);
-  std::sort(ranked.begin(), ranked.end());
-  ranked.erase(std::unique(ranked.begin(), ranked.end()), ranked.end());
+  sortUnique(ranked);
   std::vector<std::string> nearest;
   for (std::size_t i = 0; i < std::min(count, ranked.size()); ++i) nearest.emplace_back(ranked[i].second);
   return nearest;

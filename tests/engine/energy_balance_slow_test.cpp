@@ -4,13 +4,14 @@
 #include <deltalux/engine.hpp>
 #include <deltalux/io.hpp>
 
+#include "support/residue.hpp"
+
 namespace deltalux {
 namespace {
 
 double residueOf(const char* name) {
   Scene scene = loadScene({std::string(DELTALUX_SOURCE_DIR "/scenes/") + name}).scene;
-  const EnergyLedger l = Engine(std::move(scene), {}).solve().energy;
-  return (*l.emittedW - *l.absorbedW - *l.escapedW - *l.unsettledW) / *l.emittedW;
+  return test::residue(Engine(std::move(scene), {}).solve().energy);
 }
 
 /// What is left is noise of rows, and of particles that feed each other what is damped (spread_levels.hpp).

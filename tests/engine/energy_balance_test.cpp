@@ -10,19 +10,18 @@
 
 #include "hierarchy/side_locator.hpp"
 #include "solution/solution.hpp"
+#include "support/residue.hpp"
 #include "support/rooms.hpp"
 
 namespace deltalux {
 namespace {
 
+using test::residue;
+
 EnergyLedger balanceOf(Scene scene, double error = 0.05) {
   SolveSettings settings;
   settings.error = error;
   return Engine(std::move(scene), settings).solve().energy;
-}
-
-double residue(const EnergyLedger& l) {
-  return (*l.emittedW - *l.absorbedW - *l.escapedW - *l.unsettledW) / *l.emittedW;
 }
 
 Scene bundled(const char* name) { return loadScene({std::string(DELTALUX_SOURCE_DIR "/scenes/") + name}).scene; }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "base/check.hpp"
+#include "base/sort_unique.hpp"
 #include "scene/edit/plan.hpp"
 
 namespace deltalux {
@@ -89,8 +90,7 @@ void noteAreaLights(const Scene& scene, AppliedEdit& applied) {
     if (const auto* area = std::get_if<AreaLight>(&scene.lights[i].emitter); area && touched[area->primitive.index()])
       applied.change.lights.emplace_back(i);
   std::vector<LightId>& lights = applied.change.lights;
-  std::sort(lights.begin(), lights.end());
-  lights.erase(std::unique(lights.begin(), lights.end()), lights.end());
+  sortUnique(lights);
 }
 
 AppliedEdit carryOut(Scene& scene, Plan plan) {
