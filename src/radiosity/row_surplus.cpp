@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kMostReturned = 0.98f;  // of what a closed cavity of a leaf's kind would send to it
 constexpr float kSameGroup = 1e-3f;     // relative difference of what a group takes that is none
+constexpr int kHighest = 9;             // levels of a group above the furthest of its leaves
 
 bool alike(float a, float b) { return std::abs(a - b) <= kSameGroup * std::max(a, b); }
 
@@ -30,18 +31,22 @@ void RowSurplus::takeLeaf(const Elements& elements, std::size_t e) {
   node.scale = 1 / std::max(g.exposed, node.factors / limit);
   node.surplus = g.area * std::max(0.0f, node.factors - limit * g.exposed);
   node.room = node.factors > 0 ? g.area * std::max(0.0f, g.exposed - node.factors) : 0.0f;
+  node.height = 0;
 }
 
 /// Whether its group, if it is one, is another than before.
 bool RowSurplus::takeParts(const Elements& elements, std::size_t e) {
   Node& node = nodes_[e];
   float surplus = 0, room = 0;
+  int height = 0;
   for (std::size_t i = 0; i < elements.topology[e].childCount; ++i) {
     const Node& part = nodes_[elements.child(ElementId(e), i).index()];
     surplus += part.surplus, room += part.room;
+    height = std::max(height, part.height + 1);
   }
   const Node before = node;
-  const bool holds = surplus > 0 && room >= surplus;
+  const bool holds = surplus > 0 && room >= surplus && height <= kHighest;
+  node.height = static_cast<std::uint8_t>(height);
   node.taken = holds ? surplus / room : 0.0f;
   node.perRoom = holds ? 1 / room : 0.0f;
   node.surplus = holds ? 0.0f : surplus;
@@ -139,7 +144,8 @@ void RowSurplus::validate(const Elements& elements) const {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
     if (node.slot != kNone)
-      require(node.slot < groups_.size() && groups_[node.slot] == ElementId(i), "row surplus: groups and their slots");
+      require(node.slot < groups_.size() && groups_[node.slot] == ElementId(i) && node.height <= kHighest,
+              "row surplus: groups and their slots");
     require((node.taken > 0) == (node.slot != kNone) && node.taken <= 1, "row surplus: a group takes what there is");
     if (!elements.isReceivingLeaf(ElementId(i))) continue;
     require(std::isfinite(node.scale) && node.scale > 0, "row surplus: scale");

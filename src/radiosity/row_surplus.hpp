@@ -2,13 +2,15 @@
 // Form factors of a row sum to no more than one; by chance a row may exceed it. Where that would send back more than
 // comes, light between such leaves would grow without end: so the row is scaled down, and what it gathered beyond, its
 // surplus, goes to leaves around it that miss as much by the same chance: those below the lowest element that has room
-// for it, each in proportion to what its factors lack. No light is lost, and all get what is theirs in the mean.
+// for it, each in proportion to what its factors lack. So no light is lost, but for the little that finds no room in a
+// small part of the scene: handed on to all of it, a surplus that comes or goes with an edit would change light
+// everywhere.
 //
 //   factors   F = sum of T over a row, that is of the whole leaf: in a closed cavity the exposed share of it
 //   limit     what F may be for each unit of exposed area: 1, or 0.98 / rho where that is more
 //   surplus   A (F - limit exposed), room A (exposed - F), where positive; summed upwards until there is room
 //
-// Cost: 28 bytes an element; a pass over leaves with a surplus before light is gathered.
+// Cost: 32 bytes an element; a pass over leaves with a surplus before light is gathered.
 #include <span>
 #include <vector>
 
@@ -49,6 +51,7 @@ class RowSurplus {
     float surplus = 0, room = 0;   // that go on upwards
     float taken = 0, perRoom = 0;  // of a group: share of the room below that it takes, and 1 / that room
     std::uint32_t slot = kNone;    // of a group
+    std::uint8_t height = 0;       // levels below it
   };
   void takeLeaf(const Elements&, std::size_t e);
   bool takeParts(const Elements&, std::size_t e);
