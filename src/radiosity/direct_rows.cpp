@@ -9,7 +9,7 @@ namespace deltalux {
 
 namespace {
 
-constexpr std::size_t kBlock = 64;
+constexpr std::size_t kBlock = 8;  // a row takes a tenth of a millisecond or more, and updates make few
 
 /// Whether a variation of direct light over the leaf is more than its surroundings can stand.
 bool exceeds(double variation, double mean, const Elements& elements, ElementId leaf,
