@@ -37,67 +37,83 @@ EyePaths::EyePaths(const Solution& s, const Reconstruction& reconstruction, EyeS
 }
 
 Rgb EyePaths::radiance(const EyeRay& eye, Sights& sights) const {
-  Rgb L(0.0f), beta(1.0f);
-  Ray ray = eye.ray;
-  bool emitters = eye.emitters;
-  std::optional<Lobe> lobe;
-  for (int depth = 0; depth <= settings_.maxDepth;) {
-    const Hit hit = tracer_.closestHit(ray);
-    if (!hit) return emitters ? L + beta * background(Vec3(ray.direction), lobe ? &*lobe : nullptr) : L;
+  return follow({eye.ray, Rgb(1.0f), eye.emitters}, eye, sights);
+}
+
+Rgb EyePaths::follow(Way w, const EyeRay& eye, Sights& sights) const {
+  Rgb L(0.0f);
+  while (w.depth <= settings_.maxDepth) {
+    const Hit hit = tracer_.closestHit(w.ray);
+    const Lobe* lobe = w.lobe ? &*w.lobe : nullptr;
+    if (!hit) return w.emitters ? L + w.beta * background(Vec3(w.ray.direction), lobe) : L;
     const Vec3 n = hit.front ? Vec3(hit.normal) : -Vec3(hit.normal);
-    const Vertex v{hit, Vec3(hit.position), Vec3(ray.direction), n};
-    if (emitters) L += beta * emitted(v, lobe ? &*lobe : nullptr);
+    const Vertex v{hit, Vec3(hit.position), Vec3(w.ray.direction), n};
+    if (w.emitters) L += w.beta * emitted(v, lobe);
     const Bsdf& scattering = bsdf(hit.primitive, hit.front);
     if (scattering.pane && !panesReflect_) {
-      beta *= transmittance(*scattering.pane, -glm::dot(v.direction, n));
-      ray.origin = offsetOrigin(Vec3f(v.position), hit.normal, ray.direction);
-      if (maxChannel(beta) < kFaint) return L;
+      w.beta *= transmittance(*scattering.pane, -glm::dot(v.direction, n));
+      w.ray.origin = offsetOrigin(Vec3f(v.position), hit.normal, w.ray.direction);
+      if (maxChannel(w.beta) < kFaint) return L;
       continue;
     }
     bool lightsMet = false;
-    L += beta * scattered(v, eye, depth, sights, lightsMet);
+    L += w.beta * scattered(v, eye, w.depth, sights, lightsMet);
     if (!specular_[scene_[hit.primitive].material.index()]) return L;
 
     if (const auto* body = std::get_if<Dielectric>(&scene_.materialOf(hit.primitive).surface); body && !hit.front)
-      beta *= glm::pow(body->transmission, Rgb(hit.t));
-    const auto s = onward(v, scattering, eye, depth);
-    if (!s) return L;
-    beta *= s->weight / static_cast<float>(s->etaSquared);
-    if (maxChannel(beta) < kFaint) return L;
-    const bool glossy = !isDirac(s->event);
-    const SpecularLobe& shape = s->direction.z > 0 ? scattering.reflection : scattering.transmission;
-    lobe = glossy && lightsMet ? std::optional(Lobe{v.position, shape.roughness}) : std::nullopt;
-    emitters = emitters || s->event != ScatterEvent::StraightTransmission;
-    ray.direction = Vec3f(glm::normalize(Frame(n).toWorld(s->direction)));
-    ray.origin = offsetOrigin(Vec3f(v.position), hit.normal, ray.direction);
-    ++depth;
+      w.beta *= glm::pow(body->transmission, Rgb(hit.t));
+    if (!goOn(w, v, scattering, eye, lightsMet, [&](Way other) { L += follow(other, eye, sights); })) return L;
   }
   return L;
 }
 
-std::optional<BsdfSample> EyePaths::onward(const Vertex& v, const Bsdf& scattering, const EyeRay& eye,
-                                           int depth) const {
-  const UnitPair a = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * depth));
-  const UnitPair b = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * depth + 1));
-  return sample(specularPart(scattering), Frame(v.normal).toLocal(-v.direction), {a.x, b.x, b.y});
+bool EyePaths::go(Way& w, const Vertex& v, const Bsdf& scattering, const BsdfSample& s, bool lightsMet) const {
+  w.beta *= s.weight / static_cast<float>(s.etaSquared);
+  const SpecularLobe& shape = s.direction.z > 0 ? scattering.reflection : scattering.transmission;
+  const bool glossy = !isDirac(s.event);
+  w.lobe = glossy && lightsMet ? std::optional(Lobe{v.position, shape.roughness}) : std::nullopt;
+  w.emitters = w.emitters || s.event != ScatterEvent::StraightTransmission;
+  w.ray.direction = Vec3f(glm::normalize(Frame(v.normal).toWorld(s.direction)));
+  w.ray.origin = offsetOrigin(Vec3f(v.position), v.hit.normal, w.ray.direction);
+  ++w.depth;
+  return maxChannel(w.beta) >= kFaint;
 }
 
-void EyePaths::survey(const EyeRay& eye, Sights& sights) const {
-  Ray ray = eye.ray;
-  for (int depth = 0; depth <= settings_.maxDepth; ++depth) {
-    const Hit hit = tracer_.closestHit(ray);
+template <class Visit>
+bool EyePaths::goOn(Way& w, const Vertex& v, const Bsdf& scattering, const EyeRay& eye, bool lightsMet,
+                    const Visit& visit) const {
+  const Vec3 wo = Frame(v.normal).toLocal(-v.direction);
+  if (!w.parted)
+    if (const auto both = bothWays(scattering, wo)) {
+      w.parted = true;
+      Way other = w;
+      if (go(other, v, scattering, (*both)[0], lightsMet)) visit(other);
+      return go(w, v, scattering, (*both)[1], lightsMet);
+    }
+  const UnitPair a = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * w.depth));
+  const UnitPair b = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * w.depth + 1));
+  const auto s = sample(specularPart(scattering), wo, {a.x, b.x, b.y});
+  return s && go(w, v, scattering, *s, lightsMet);
+}
+
+void EyePaths::survey(const EyeRay& eye, Sights& sights) const { survey({eye.ray}, eye, sights); }
+
+void EyePaths::survey(Way w, const EyeRay& eye, Sights& sights) const {
+  while (w.depth <= settings_.maxDepth) {
+    const Hit hit = tracer_.closestHit(w.ray);
     if (!hit) return;
-    const Vertex v{hit, Vec3(hit.position), Vec3(ray.direction), hit.front ? Vec3(hit.normal) : -Vec3(hit.normal)};
+    const Vertex v{hit, Vec3(hit.position), Vec3(w.ray.direction), hit.front ? Vec3(hit.normal) : -Vec3(hit.normal)};
     const Bsdf& scattering = bsdf(hit.primitive, hit.front);
     if (scattering.hasFinitePart())
       if (const ElementId side = reconstruction_.locator.side(hit.primitive, hit.triangle, hit.front); side.valid())
         sights.note(reconstruction_.locator.locate(side, v.position).leaf, {v.position, v.normal});
     if (!specular_[scene_[hit.primitive].material.index()]) return;
-    const bool straight = scattering.pane && !panesReflect_;
-    const auto s = straight ? std::nullopt : onward(v, scattering, eye, depth);
-    if (!straight && !s) return;
-    if (s) ray.direction = Vec3f(glm::normalize(Frame(v.normal).toWorld(s->direction)));
-    ray.origin = offsetOrigin(Vec3f(v.position), hit.normal, ray.direction);
+    if (scattering.pane && !panesReflect_) {
+      w.ray.origin = offsetOrigin(Vec3f(v.position), hit.normal, w.ray.direction);
+      ++w.depth;
+    } else if (!goOn(w, v, scattering, eye, false, [&](Way other) { survey(other, eye, sights); })) {
+      return;
+    }
   }
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 // Radiance along a ray from the eye: the light that leaves the diffuse part of what it meets is read from the
 // reconstruction, and mirrors, panes, lobes and glass bodies are followed by ray casting [GD01 6]. Each surface with a
-// non-diffuse part continues with one sampled direction.
+// non-diffuse part continues with one sampled direction; the first pane or smooth body that a path meets with what it
+// reflects and what it lets pass: by chance, a lamp mirrored in a window at night would be specks.
 //
 // Lights in a rough lobe: those that look smaller than the lobe is wide are met by the shadow rays of the surface,
 // larger ones by the lobe's own rays; never by both.
@@ -42,11 +43,26 @@ class EyePaths {
     float roughness = 0;
   };
 
+  /// A path as far as it has come.
+  struct Way {
+    Ray ray;
+    Rgb beta{1.0f};  // of its radiance, what reaches the eye
+    bool emitters = true;
+    std::optional<Lobe> lobe{};  // of the surface before
+    int depth = 0;               // non-diffuse events
+    bool parted = false;         // once, into what a surface reflects and what it lets pass
+  };
+  Rgb follow(Way, const EyeRay&, Sights&) const;
+  void survey(Way, const EyeRay&, Sights&) const;
+  /// False where next to nothing is left.
+  bool go(Way&, const Vertex&, const Bsdf&, const BsdfSample&, bool lightsMet) const;
+  /// The way on; where there are two, the other one comes first: visit(Way).
+  template <class Visit>
+  bool goOn(Way&, const Vertex&, const Bsdf&, const EyeRay&, bool lightsMet, const Visit&) const;
   Rgb background(const Vec3& towards, const Lobe* lobe) const;
   Rgb emitted(const Vertex&, const Lobe* lobe) const;
   Rgb scattered(const Vertex&, const EyeRay&, int depth, Sights&, bool& lightsMet) const;
   Rgb irradiance(const Vertex&, bool front, const Bsdf* lobes, const EyeRay&, int depth, Sights&, Rgb& glossy) const;
-  std::optional<BsdfSample> onward(const Vertex&, const Bsdf&, const EyeRay&, int depth) const;
   bool metByShadowRays(LightId, const Lobe&) const;
   const Bsdf& bsdf(PrimitiveId p, bool front) const { return bsdfs_[2 * scene_[p].material.index() + (front ? 1 : 0)]; }
 

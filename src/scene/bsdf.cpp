@@ -1,7 +1,5 @@
 #include "scene/bsdf.hpp"
 
-#include <array>
-
 #include "base/unit_circle.hpp"
 #include "scene/bsdf_ggx.hpp"
 #include "scene/bsdf_ward.hpp"
@@ -177,6 +175,17 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const Vec3& wo, const Vec3& u
   if (chosen < 0) return std::nullopt;
   const auto event = static_cast<ScatterEvent>(chosen);
   return isDirac(event) ? std::optional(diracSample(bsdf, c, wo, event)) : finiteSample(bsdf, c, wo, event, {u.y, u.z});
+}
+
+std::optional<std::array<BsdfSample, 2>> bothWays(const Bsdf& bsdf, const Vec3& wo) {
+  if (wo.z <= 0.0 || bsdf.hasFinitePart()) return std::nullopt;
+  Choice c = choose(bsdf, wo.z);
+  const auto chance = [&](ScatterEvent e) -> double& { return c.chance[static_cast<std::size_t>(e)]; };
+  const auto onward =
+      chance(ScatterEvent::Refraction) > 0 ? ScatterEvent::Refraction : ScatterEvent::StraightTransmission;
+  if (!(chance(ScatterEvent::MirrorReflection) > 0 && chance(onward) > 0)) return std::nullopt;
+  chance(ScatterEvent::MirrorReflection) = chance(onward) = 1;
+  return std::array{diracSample(bsdf, c, wo, ScatterEvent::MirrorReflection), diracSample(bsdf, c, wo, onward)};
 }
 
 }  // namespace deltalux

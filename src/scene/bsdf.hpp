@@ -8,6 +8,7 @@
 //
 // Perfect parts (mirror, straight passage, refraction) are Dirac: they are met by sample() alone, with pdf 0, and take
 // no part in evaluate() and pdf(), which speak of the rest.
+#include <array>
 #include <deltalux/material.hpp>
 #include <optional>
 
@@ -57,6 +58,9 @@ Rgb evaluate(const Bsdf&, const Vec3& wo, const Vec3& wi);
 double pdf(const Bsdf&, const Vec3& wo, const Vec3& wi);
 /// A direction from three numbers in [0,1): u.x chooses the part, (u.y, u.z) the direction. nullopt: absorbed.
 std::optional<BsdfSample> sample(const Bsdf&, const Vec3& wo, const Vec3& u);
+/// Where light goes two ways and no other (a pane, a smooth body): reflection and passage, each weighted by its
+/// reflectance instead of chosen by it. Elsewhere nullopt.
+std::optional<std::array<BsdfSample, 2>> bothWays(const Bsdf&, const Vec3& wo);
 
 /// Reflectance of the perfect-mirror part at `cosIncidence` > 0: mirrors, panes, polished lobes, dielectrics.
 Rgb mirrorReflectance(const Bsdf&, double cosIncidence);

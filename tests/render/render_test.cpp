@@ -113,5 +113,20 @@ TEST_F(SolvedRoom, RendersTheSameForAnyNumberOfThreads) {
   EXPECT_NE(one, draw(1));
 }
 
+/// What a pane reflects and what it lets pass are not left to chance: one ray a pixel shows both.
+TEST_F(SolvedRoom, AWindowShowsWhatItReflectsAndWhatIsBehindIt) {
+  View view;
+  view.position = {0.2, 0.85, 1.0}, view.direction = glm::normalize(Vec3(0.85, 0.85, 2) - view.position);
+  view.up = {0, 1, 0}, view.horizontal = view.vertical = 10;
+  RenderSettings settings;
+  settings.width = settings.height = 12, settings.meshDirect = true;
+  settings.samplesPerPixel = 1;
+  const Image one = render(engine_->solution(), view, settings);
+  settings.samplesPerPixel = 64;
+  const Image many = render(engine_->solution(), view, settings);
+  for (std::size_t i = 0; i < one.pixels.size(); ++i)
+    EXPECT_NEAR(gray(one.pixels[i]), gray(many.pixels[i]), 0.02 * gray(many.pixels[i])) << i;
+}
+
 }  // namespace
 }  // namespace deltalux

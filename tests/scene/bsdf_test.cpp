@@ -164,6 +164,29 @@ TEST(Bsdf, PanePassesStraightAndReflects) {
   EXPECT_GT(test::tTest(reflected, reflectance(glass, wo.z).g), kSignificance);
 }
 
+TEST(Bsdf, BothWaysAreWhatSamplesAreInTheMean) {
+  const Vec3 wo = directionAt(50);
+  for (const Surface& surface :
+       {Surface(ThinGlass{Rgb(0.9f, 0.6f, 0.3f), 1.52f}), Surface(Dielectric{Rgb(1.0f), 1.5f})}) {
+    const Bsdf bsdf = makeBsdf({"g", surface, {}}, true);
+    const auto both = bothWays(bsdf, wo);
+    ASSERT_TRUE(both);
+    for (const BsdfSample& way : *both)
+      for (const double u : {0.0, 0.999999}) {
+        const auto s = sample(bsdf, wo, {u, 0, 0});
+        if (s->event != way.event) continue;
+        EXPECT_EQ(s->direction, way.direction);
+        EXPECT_EQ(s->etaSquared, way.etaSquared);
+      }
+    EXPECT_EQ((*both)[0].event, ScatterEvent::MirrorReflection);
+    EXPECT_NEAR((*both)[0].weight.g, mirrorReflectance(bsdf, wo.z).g, 1e-6);
+  }
+  const Bsdf glass = makeBsdf({"g", Dielectric{Rgb(1.0f), 1.5f}, {}}, false);
+  EXPECT_FALSE(bothWays(glass, directionAt(60)));  // reflected in total
+  EXPECT_FALSE(bothWays(makeBsdf({"m", Mirror{Rgb(0.9f)}, {}}, true), wo));
+  EXPECT_FALSE(bothWays(makeBsdf({"d", Opaque{Rgb(0.5f), {}, {}}, {}}, true), wo));
+}
+
 TEST(Bsdf, DielectricRefractsBySnellAndConservesFlux) {
   const Material glass{"g", Dielectric{Rgb(1.0f), 1.5f}, {}};
   for (bool front : {true, false}) {
