@@ -7,8 +7,6 @@
 #include "engine/state.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
-#include "particles/mesh_for_particles.hpp"
-#include "particles/side_index.hpp"
 #include "radiosity/direct_senders.hpp"
 #include "radiosity/push_pull.hpp"
 
@@ -92,83 +90,12 @@ bool Engine::State::outshines(const SceneUpdate& edits) const {
   });
 }
 
-ParticleUpdate Engine::State::followWithParticles(std::size_t count, StepReport& step) {
-  Solution& s = *solution;
-  const Clock time;
-  ParticleUpdate followed =
-      tracing->allWait() ? tracing->retraceAll(s.particles) : tracing->retrace(s.particles, count);
-  DELTALUX_VALIDATED(validate(s.particles, s.scene));
-  constexpr std::size_t kTelling = 2048;  // fewer paths cost what starting costs
-  if (followed.paths.size() >= kTelling) backlog.path.learn(time.seconds(), static_cast<double>(followed.paths.size()));
-  backlog.add(followed);
-  if (!backlog.frames) countParticles();
-  step.particlesRetraced = followed.all ? s.particles.arrived() : followed.particles;
-  step.particlesTotal = s.particles.arrived();
-  step.times.particles += time.seconds();
-  return followed;
-}
-
-bool Engine::State::subdivideWhereParticlesLanded(StepReport& step) {
-  Solution& s = *solution;
-  const Clock time;
-  if (!tracing) return false;
-  if (backlog.landed.paths.empty() && !backlog.landed.all) return false;
-  std::vector<bool> shown(2 * s.scene.primitives.size(), false);
-  for (const SurfaceCaustics& c : s.caustics.surfaces) shown[sideIndex(c.primitive, c.front)] = true;
-  const std::size_t split = subdivideForParticles(s.elements, s.scene, s.particles, shown,
-                                                  sidesThatKeepTheirMesh(s.scene, s.particles, backlog.landed));
-  step.times.particles += time.seconds();
-  return split > 0;
-}
-
-void Engine::State::placeParticles(const ParticleUpdate& followed, LightChanges& light, StepReport& step) {
-  const Solution& s = *solution;
-  const Clock time;
-  if (followed.all) transfer.reset();
-  light.allParticles = !transfer;
-  if (transfer)
-    light.surfaces = transfer->follow(s.particles, followed, s.elements, s.scene);
-  else
-    transfer.emplace(s.particles, s.elements, s.scene);
-  step.times.particles += time.seconds();
-}
-
 Growth Engine::State::grow(const SceneUpdate& edits, const ParticleUpdate& followed, StepReport& step) {
   const Clock time;
   const Growth growth = growInLight(*solution, edits, followed);
   DELTALUX_VALIDATED(validate(solution->elements));
   step.times.hierarchy = time.seconds();
   return growth;
-}
-
-bool Engine::State::gapsAreMany(double most) const {
-  const Particles& p = solution->particles;
-  std::size_t used = 0;
-  for (const PathRange& r : p.range) used += r.vertices;
-  return static_cast<double>(p.vertices.size()) > most * static_cast<double>(used);
-}
-
-void Engine::State::closeGaps() {
-  solution->particles.compact();
-  transfer.reset(), upkeep.reset();
-}
-
-void Engine::State::followWithTextures(StepReport& step) {
-  Solution& s = *solution;
-  const Clock time;
-  const ParticleUpdate followed = std::exchange(backlog.landed, {});
-  if (!tracing && s.caustics.surfaces.empty()) return;
-  if (!backlog.textures.empty()) s.caustics.surfaces = std::exchange(backlog.textures, {});
-  if (!upkeep || followed.all) {
-    upkeep.reset();
-    makeTextures();
-    step.texturesRebuilt = s.caustics.count();
-  } else {
-    step.texturesRebuilt = upkeep->follow(followed, *transfer, s.caustics).rebuilt;
-    DELTALUX_VALIDATED(validate(s.caustics));
-    countTextures();
-  }
-  step.times.textures = time.seconds();
 }
 
 Restore Engine::State::apply(const Edit& edit) {

@@ -70,6 +70,8 @@ struct PatchDomain {
 /// Plane of a flat input-level surface; the normal is the primitive's front.
 struct PlaneFrame {
   Vec3 origin{0}, edgeU{1, 0, 0}, edgeV{0, 1, 0}, normal{0, 0, 1};
+
+  Vec3 at(const Vec2& uv) const { return origin + uv.x * edgeU + uv.y * edgeV; }
 };
 
 /// Radiometry of one element. One writer per field: B and tolerance by push-pull, *Gathered by gather, direct and

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "base/random.hpp"
-#include "base/unit_circle.hpp"
 #include "hierarchy/outline.hpp"
 
 namespace deltalux {
@@ -15,8 +14,6 @@ constexpr int kMaxDepth = 14;         // four bits below the 2 * 14 that address
 constexpr double kLongAndThin = 1.6;  // aspect above which a patch is halved rather than quartered
 
 double areaScale(const PlaneFrame& f) { return glm::length(glm::cross(f.edgeU, f.edgeV)); }
-
-Vec3 onPlane(const PlaneFrame& f, const Vec2& uv) { return f.origin + uv.x * f.edgeU + uv.y * f.edgeV; }
 
 /// World lengths of the patch's rectangle along u and v.
 Vec2 worldSize(const Elements& elements, const Scene& scene, ElementId e) {
@@ -52,12 +49,12 @@ void shapeFlat(Elements& elements, ElementId e) {
   g.area = static_cast<float>(area);
   g.normal = normal;
   g.normalCone = 1.0f;
-  const Vec3 center = onPlane(f, outlineCentroid(outline));
+  const Vec3 center = f.at(outlineCentroid(outline));
   g.center = Vec3f(center);
   Box box;
   double radius = 0;
   for (const Vec2& q : outline) {
-    const Vec3 p = onPlane(f, q);
+    const Vec3 p = f.at(q);
     box.extend(p);
     radius = std::max(radius, glm::length(p - center));
   }
@@ -81,7 +78,7 @@ void shapeFlat(Elements& elements, ElementId e) {
         }
       }
     }
-    n.position[q] = part > 0 ? Vec3f(onPlane(f, c)) : g.center;
+    n.position[q] = part > 0 ? Vec3f(f.at(c)) : g.center;
     n.normal[q] = normal;
     n.weight[q] = area > 0 ? static_cast<float>(part / area) : 0.25f;
   }
@@ -162,72 +159,11 @@ void shapeCurved(Elements& elements, const Scene& scene, ElementId e) {
 
 }  // namespace
 
-PatchPoint pointOn(const Elements& elements, const Scene& scene, ElementId patch, double u, double v) {
-  const PatchDomain& d = elements.domain[patch.index()];
-  const bool front = elements.at(patch).front;
-  if (elements.at(patch).flat) {
-    const PlaneFrame& f = elements.frames[d.frame];
-    return {Vec3f(onPlane(f, {u, v})), Vec3f(front ? f.normal : -f.normal)};
-  }
-  const SurfacePoint p = pointAt(scene[d.primitive].shape, {u, v});
-  return {Vec3f(p.position), Vec3f(front ? p.normal : -p.normal)};
-}
-
-namespace {
-/// The parameter below which lies the share `b` of a cone's area between v0 and v1: its radius grows linearly.
-double byArea(const Cone& cone, double v0, double v1, double b) {
-  const auto radius = [&](double v) { return cone.radius0 + v * (cone.radius1 - cone.radius0); };
-  const double r0 = radius(v0), r1 = radius(v1);
-  if (std::abs(r1 - r0) < 1e-9 * std::max(r0, r1)) return v0 + b * (v1 - v0);
-  const double r = std::sqrt(r0 * r0 + b * (r1 * r1 - r0 * r0));
-  return v0 + (v1 - v0) * std::clamp((r - r0) / (r1 - r0), 0.0, 1.0);
-}
-}  // namespace
-
-PatchPoint samplePatch(const Elements& elements, const Scene& scene, ElementId patch, double a, double b) {
-  const PatchDomain& d = elements.domain[patch.index()];
-  const double du = d.u1 - d.u0, dv = d.v1 - d.v0;
-  if (!elements.at(patch).flat) {
-    const auto* cone = std::get_if<Cone>(&scene[d.primitive].shape);
-    return pointOn(elements, scene, patch, d.u0 + a * du, cone ? byArea(*cone, d.v0, d.v1, b) : d.v0 + b * dv);
-  }
-  const auto outline = elements.outline(patch);
-  const bool full = outlineFills(outline, du * dv);
-  Vec2 uv{d.u0 + a * du, d.v0 + b * dv};
-  if (!full && !outlineContains(outline, uv)) {
-    // Rejection keeps samples uniform; the sequence depends on (a,b) alone.
-    Rng rng(combineKeys(static_cast<std::uint64_t>(a * 0x1p53), static_cast<std::uint64_t>(b * 0x1p53)));
-    for (int attempt = 0; attempt < 64; ++attempt) {
-      uv = {d.u0 + rng.uniform() * du, d.v0 + rng.uniform() * dv};
-      if (outlineContains(outline, uv)) break;
-      if (attempt == 63) uv = glm::mix(outlineCentroid(outline), outline[0], 0.5);
-    }
-  }
-  return pointOn(elements, scene, patch, uv.x, uv.y);
-}
-
 void shapePatch(Elements& elements, const Scene& scene, ElementId patch) {
   if (elements.at(patch).flat)
     shapeFlat(elements, patch);
   else
     shapeCurved(elements, scene, patch);
-}
-
-Vec3f directionOf(const Elements& elements, const Scene& scene, ElementId e, double a, double b) {
-  const auto& emitter = scene[elements.light[e.index()]].emitter;
-  Vec3 axis;
-  double halfAngle;
-  if (const auto* sun = std::get_if<SunLight>(&emitter)) {
-    axis = sun->direction, halfAngle = sun->angularRadius;
-  } else {
-    const auto& dome = std::get<DomeLight>(emitter);
-    axis = dome.axis, halfAngle = dome.halfAngle;
-  }
-  const PatchDomain& d = elements.domain[e.index()];
-  // 1 - cos, so that the sun's small cap keeps its precision.
-  const double cap = 2 * std::pow(std::sin(0.5 * halfAngle), 2) * (d.v0 + b * (d.v1 - d.v0));
-  const double sine = std::sqrt(std::max(0.0, cap * (2 - cap)));
-  return Vec3f(Frame(axis).toWorld(Vec3(sine * onUnitCircle(d.u0 + a * (d.u1 - d.u0)), 1 - cap)));
 }
 
 void shapeDistant(Elements& elements, const Scene& scene, ElementId e) {

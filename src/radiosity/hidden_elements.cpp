@@ -75,7 +75,7 @@ class Umbras {
     last_ = d.primitive, lastTriangle_ = d.triangle;
     const PlaneFrame& f = elements_.frames[d.frame];
     std::vector<Vec3> outline;
-    for (const Vec2& q : elements_.outline(e)) outline.push_back(f.origin + q.x * f.edgeU + q.y * f.edgeV);
+    for (const Vec2& q : elements_.outline(e)) outline.push_back(f.at(q));
     if (outline.size() <= kMostEdges && isConvex(outline, f.normal)) return add(e, outline, f.normal);
     const auto* polygon = std::get_if<Polygon>(&scene_[d.primitive].shape);
     if (!polygon) return;

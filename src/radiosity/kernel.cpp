@@ -65,7 +65,7 @@ std::size_t worldOutline(const Elements& elements, ElementId e, std::array<Vec3f
   const PlaneFrame& f = elements.frames[elements.domain[e.index()].frame];
   const auto outline = elements.outline(e);
   const std::size_t count = std::min<std::size_t>(outline.size(), out.size());
-  for (std::size_t i = 0; i < count; ++i) out[i] = Vec3f(f.origin + outline[i].x * f.edgeU + outline[i].y * f.edgeV);
+  for (std::size_t i = 0; i < count; ++i) out[i] = Vec3f(f.at(outline[i]));
   return count;
 }
 

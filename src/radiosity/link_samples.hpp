@@ -17,7 +17,7 @@ class ElementPoints {
   PatchPoint at(double a, double b) const {
     if (!frame_) return samplePoint(elements_, scene_, element_, a, b);
     const double u = domain_->u0 + a * du_, v = domain_->v0 + b * dv_;
-    return {Vec3f(frame_->origin + u * frame_->edgeU + v * frame_->edgeV), normal_};
+    return {Vec3f(frame_->at({u, v})), normal_};
   }
 
  private:

@@ -61,7 +61,7 @@ std::size_t cornersOf(const Elements& elements, ElementId e, std::array<Vec3, kM
   if (elements.isPatch(e) && elements.at(e).flat && elements.outline(e).size() <= out.size()) {
     const PlaneFrame& f = elements.frames[elements.domain[e.index()].frame];
     std::size_t n = 0;
-    for (const Vec2& q : elements.outline(e)) out[n++] = f.origin + q.x * f.edgeU + q.y * f.edgeV;
+    for (const Vec2& q : elements.outline(e)) out[n++] = f.at(q);
     return n;
   }
   const ElementGeometry& g = elements.shape(e);

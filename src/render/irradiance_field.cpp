@@ -213,7 +213,7 @@ void IrradianceField::fit(std::vector<Linear>& result, Rgb LeafIrradiance::*quan
     const PlaneFrame& f = elements_.frames[elements_.domain[site.leaf.index()].frame];
     Rgb reach(0.0f);
     for (const Vec2& q : elements_.outline(site.leaf)) {
-      const Vec3f d = Vec3f(f.origin + q.x * f.edgeU + q.y * f.edgeV) - site.center;
+      const Vec3f d = Vec3f(f.at(q)) - site.center;
       reach = glm::max(reach, glm::abs(d.x * linear.slope[0] + d.y * linear.slope[1] + d.z * linear.slope[2]));
     }
     for (int c = 0; c < 3; ++c) {

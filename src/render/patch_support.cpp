@@ -40,7 +40,7 @@ PatchSupport::PatchSupport(const Elements& elements, const Scene& scene, Element
     const PlaneFrame& f = elements.frames[d.frame];
     const Vec3 n = glm::cross(f.edgeU, f.edgeV);
     const double squared = std::max(glm::dot(n, n), 1e-300);
-    origin_ = Vec3f(f.origin + center.x * f.edgeU + center.y * f.edgeV);
+    origin_ = Vec3f(f.at(center));
     dualU_ = Vec3f(glm::cross(f.edgeV, n) / (squared * half.x));
     dualV_ = Vec3f(glm::cross(n, f.edgeU) / (squared * half.y));
     return;
@@ -60,7 +60,7 @@ bool PatchSupport::reaches(const Elements& elements, const Scene& scene, Element
     const PlaneFrame& f = elements.frames[elements.domain[leaf.index()].frame];
     for (const Vec2& q : elements.outline(leaf)) {
       SupportPoint p;
-      p.position = Vec3f(f.origin + q.x * f.edgeU + q.y * f.edgeV);
+      p.position = Vec3f(f.at(q));
       const glm::vec2 t = coordinates(p);
       lower = glm::min(lower, t), upper = glm::max(upper, t);
     }
