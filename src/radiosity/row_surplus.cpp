@@ -46,7 +46,7 @@ bool RowSurplus::takeParts(const Elements& elements, std::size_t e) {
   }
   const Node before = node;
   const bool holds = surplus > 0 && room >= surplus && height <= kHighest;
-  node.height = static_cast<std::uint8_t>(height);
+  node.height = static_cast<std::uint8_t>(std::min(height, kHighest + 1));  // higher ones are all alike
   node.taken = holds ? surplus / room : 0.0f;
   node.perRoom = holds ? 1 / room : 0.0f;
   node.surplus = holds ? 0.0f : surplus;
