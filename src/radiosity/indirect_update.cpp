@@ -78,24 +78,28 @@ bool IndirectSampler::turn(ElementId leaf, const LinkChanges& links, std::span<c
                                   [&](const RowTerm& t) { return t.count > 0 && space.moved(t.sender); });
   const ElementId occluder = space.occluder(leaf);
   if (bright || !occluder.valid()) return !bright;
-  // Rays to what moved, and those that it was found to block, end where it is hidden now: when that goes, they are
-  // drawn again.
   const PatchDomain& domain = elements_.domain[occluder.index()];
   const PlaneFrame& wall = elements_.frames[domain.frame];
   const ElementGeometry& g = elements_.shape(leaf);
   const Vec3 from(0.5f * (g.lower + g.upper));
-  const double height = glm::dot(from - wall.origin, wall.normal);
-  const auto endAtWall = [&](RayCode& ray, const Vec3& d) {
-    const double t = -height / glm::dot(d, wall.normal);
-    if (t > 0 && std::isfinite(t)) ray = rayCode(Vec3f(t * d), true);
+  // Rays to what moved, and those that it was found to block, end where it is hidden now: when that goes, they are
+  // drawn again.
+  const auto endAtWall = [&](std::uint32_t i) {
+    const RowTerm& t = row.terms[i];
+    const Ray ray = shoot(leaf, t.sender, t.index).ray;
+    if (!space.moved(t.sender) && !space.meets(ray)) return;
+    const Vec3 origin(ray.origin), d = double(ray.tFar) * Vec3(ray.direction);
+    const double at = glm::dot(wall.origin - origin, wall.normal) / glm::dot(d, wall.normal);
+    if (at > 0 && at < 1) row.rays[i] = rayCode(Vec3f(at * (origin + d - from)), true);
   };
   std::vector<std::uint32_t> met;
   space.meetsRays(g, row.rays, met);
-  for (const std::uint32_t i : met)
-    if (blocked(row.rays[i]) && end(row.rays[i]) > 0) endAtWall(row.rays[i], Vec3(direction(towards(row.rays[i]))));
-  for (std::size_t i = 0; i < row.terms.size(); ++i)
-    if (const ElementId sender = row.terms[i].sender; space.moved(sender))
-      endAtWall(row.rays[i], Vec3(elements_.shape(sender).center) - from);
+  std::erase_if(met, [&](std::uint32_t i) { return !blocked(row.rays[i]) || !(end(row.rays[i]) > 0); });
+  for (std::uint32_t i = 0; i < row.terms.size(); ++i)
+    if (space.moved(row.terms[i].sender)) met.push_back(i);
+  if (std::any_of(met.begin(), met.end(), [&](std::uint32_t i) { return !elements_.isLeaf(row.terms[i].sender); }))
+    return false;  // another ray, since its sender has been split
+  for (const std::uint32_t i : met) endAtWall(i);
   row.reach.objects.add(scene_, domain.primitive);
   return true;
 }
