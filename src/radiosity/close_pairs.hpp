@@ -31,16 +31,16 @@ ClosePair closePair(const Elements&, const Scene&, const PatchPoint& from, Eleme
 /// Its weight is that of all candidates: in the mean the kernel.
 template <class PointAt>
 std::optional<ClosePair> sampleClosePair(const Elements& elements, const Scene& scene, const PointAt& pointAt,
-                                         ElementId patch, std::uint64_t key, int index) {
+                                         ElementId patch, SampleKey key, int index) {
   std::array<ClosePair, kClosePairs> pairs;
   double total = 0;
   for (int i = 0; i < kClosePairs; ++i) {
-    const auto u = stratified4(combineKeys(key, static_cast<std::uint64_t>(i)), index);
+    const auto u = stratified4(key.with(static_cast<std::uint64_t>(i)), index);
     ClosePair& p = pairs[static_cast<std::size_t>(i)];
     p = closePair(elements, scene, pointAt(u[2], u[3]), patch, i, u[0], u[1]);
     total += p.weight;
   }
-  const double u = stratified4(combineKeys(key, kClosePairs), index)[0];
+  const double u = stratified4(key.with(kClosePairs), index)[0];
   ClosePair* picked = pickByWeight(std::span<ClosePair>(pairs), total, u);
   if (!picked) return std::nullopt;
   picked->weight = total;

@@ -29,8 +29,9 @@ struct IndirectSampler::Place {
 };
 
 /// All rays between the two draw by it.
-std::uint64_t IndirectSampler::rayKey(ElementId leaf, ElementId sender) const {
-  return combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]);
+SampleKey IndirectSampler::rayKey(ElementId leaf, ElementId sender) const {
+  const LeafGroup group = groupOf(elements_, leaf);
+  return {combineKeys(group.key, elements_.key[sender.index()]), group.place};
 }
 
 bool IndirectSampler::isClosePatch(ElementId leaf, ElementId sender) const {
@@ -48,7 +49,7 @@ SenderSample IndirectSampler::along(const ClosePair& pair, ElementId sender) con
 /// one that is covered in part, since what is not covered is closer to what it sees than the whole is.
 SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, int index) const {
   const Place place{*this, leaf, nullptr};
-  const std::uint64_t key = rayKey(leaf, sender);
+  const SampleKey key = rayKey(leaf, sender);
   SenderSample s;
   if (isClosePatch(leaf, sender)) {
     if (const auto pair = sampleClosePair(elements_, scene_, place, sender, key, index)) s = along(*pair, sender);
@@ -61,7 +62,7 @@ SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, i
 
 /// From a point of a curved sender close by to the leaf.
 SenderSample IndirectSampler::shootBack(ElementId leaf, ElementId sender, int index) const {
-  const std::uint64_t key = rayKey(leaf, sender);
+  const SampleKey key = rayKey(leaf, sender);
   const auto u = stratified4(key, index);
   const PatchPoint y = samplePatch(elements_, scene_, sender, u[0], u[1]);
   const auto pair = sampleClosePair(
@@ -82,7 +83,7 @@ SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index)
 }
 
 SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index, const PatchPoint* at) const {
-  const std::uint64_t key = rayKey(leaf, sender);
+  const SampleKey key = rayKey(leaf, sender);
   const Place place{*this, leaf, at};
   if (isClosePatch(leaf, sender)) {
     if (const auto pair = sampleClosePair(elements_, scene_, place, sender, key, index)) return along(*pair, sender);
@@ -90,7 +91,7 @@ SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index,
   }
   if (!exact(sender)) return shootMeasured(sender, key, index, place);
   for (int tries = 0; tries < kFacingTries; ++tries) {
-    const auto u = stratified4(combineKeys(key, tries), index);
+    const auto u = stratified4(key.with(tries), index);
     const SenderSample s = sampleLeafOf(elements_, scene_, place(u[2], u[3]), sender, u[0], u[1]);
     if (s.weight > 0) return s;
   }
@@ -98,16 +99,16 @@ SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index,
 }
 
 /// Of a few pairs of points one in proportion to its kernel; their mean is its weight [TCE05].
-SenderSample IndirectSampler::shootMeasured(ElementId sender, std::uint64_t key, int index, const Place& place) const {
+SenderSample IndirectSampler::shootMeasured(ElementId sender, SampleKey key, int index, const Place& place) const {
   std::array<SenderSample, kTries> samples;
   double total = 0;
   for (int i = 0; i < kTries; ++i) {
-    const auto u = stratified4(combineKeys(key, static_cast<std::uint64_t>(i)), index);
+    const auto u = stratified4(key.with(static_cast<std::uint64_t>(i)), index);
     SenderSample& s = samples[static_cast<std::size_t>(i)];
     s = sampleLeafOf(elements_, scene_, place(u[2], u[3]), sender, u[0], u[1]);
     total += s.weight;
   }
-  const double u = stratified4(combineKeys(key, kTries), index)[0];
+  const double u = stratified4(key.with(kTries), index)[0];
   SenderSample* picked = pickByWeight(std::span<SenderSample>(samples), total, u);
   if (!picked) return {};
   picked->weight = total / kTries;

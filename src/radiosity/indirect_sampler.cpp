@@ -152,7 +152,7 @@ float IndirectSampler::guess(ElementId leaf, const PatchPoint& x, ElementId part
 
 template <class KernelOf, class Visit>
 void IndirectSampler::dealBelow(ElementId leaf, const PatchPoint& x, const Term& t, double expected, int rays,
-                                const KernelOf& kernelOf, const Visit& visit) const {
+                                const Roundings& roundings, const KernelOf& kernelOf, const Visit& visit) const {
   if (elements_.isLeaf(t.sender)) {
     if (t.K > 0)
       for (int i = 0; i < rays; ++i) visit(Dealt{t, static_cast<float>(1.0 / expected), i});
@@ -166,12 +166,12 @@ void IndirectSampler::dealBelow(ElementId leaf, const PatchPoint& x, const Term&
   for (std::size_t i = 0; i < guesses.size() && rays > 0; ++i) {
     if (!(guesses[i] > 0)) continue;
     const ElementId child = elements_.child(t.sender, i);
-    const int own = shareOf(rays, guesses[i], rest, rayKey(leaf, child));
+    const int own = shareOf(rays, guesses[i], rest, roundings.of(elements_.key[child.index()]));
     rays -= own, rest -= guesses[i];
     if (own == 0) continue;
     Term part{t.link, child, 0.0f, t.open, 0.0f};
     if (elements_.isLeaf(child)) part = term(leaf, t.link, child, t.open, kernelOf);
-    dealBelow(leaf, x, part, expected * guesses[i] / total, own, kernelOf, visit);
+    dealBelow(leaf, x, part, expected * guesses[i] / total, own, roundings, kernelOf, visit);
   }
 }
 
@@ -186,8 +186,9 @@ void IndirectSampler::deal(ElementId leaf, const PatchPoint& center, const std::
       shares.push_back({grid_.code(elements_.shape(terms[i].sender).center), elements_.key[terms[i].sender.index()],
                         static_cast<std::uint32_t>(i), terms[i].weight});
   }
-  dealOut(shares, rays, elements_.key[leaf.index()], [&](std::uint32_t i, int own) {
-    dealBelow(leaf, center, terms[i], terms[i].weight / step, own, kernelOf, visit);
+  const Roundings roundings(elements_, leaf);
+  dealOut(shares, rays, roundings, [&](std::uint32_t i, int own) {
+    dealBelow(leaf, center, terms[i], terms[i].weight / step, own, roundings, kernelOf, visit);
   });
 }
 

@@ -75,13 +75,13 @@ class IndirectSampler {
             const Visit&) const;
   /// Deals the rays of a term out over the leaves below its sender, in proportion to what each may bring to `x`.
   template <class KernelOf, class Visit>
-  void dealBelow(ElementId leaf, const PatchPoint& x, const Term&, double expected, int rays, const KernelOf&,
-                 const Visit&) const;
+  void dealBelow(ElementId leaf, const PatchPoint& x, const Term&, double expected, int rays, const Roundings&,
+                 const KernelOf&, const Visit&) const;
   struct Place;
-  std::uint64_t rayKey(ElementId leaf, ElementId sender) const;
+  SampleKey rayKey(ElementId leaf, ElementId sender) const;
   /// The ray of a dealt term, from a point or anywhere on the leaf (null); no leaf where no points face each other.
   SenderSample shoot(ElementId leaf, ElementId sender, int index, const PatchPoint* at) const;
-  SenderSample shootMeasured(ElementId sender, std::uint64_t key, int index, const Place&) const;
+  SenderSample shootMeasured(ElementId sender, SampleKey key, int index, const Place&) const;
   SenderSample shoot(ElementId leaf, ElementId sender, int index) const;
   SenderSample shootBack(ElementId leaf, ElementId sender, int index) const;
   SenderSample shootMeasuring(ElementId leaf, ElementId sender, int index) const;

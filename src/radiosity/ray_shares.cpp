@@ -23,10 +23,24 @@ std::uint64_t spread(std::uint64_t x) {
 
 }  // namespace
 
-int shareOf(int rays, double part, double whole, std::uint64_t key) {
+int shareOf(int rays, double part, double whole, double u) {
   if (!(part > 0)) return 0;
   if (!(part < whole)) return rays;
-  return std::min(rays, static_cast<int>(rays * (part / whole) + toUnit(mix64(key))));
+  return std::min(rays, static_cast<int>(rays * (part / whole) + u));
+}
+
+Roundings::Roundings(const Elements& elements, ElementId leaf)
+    : group_(groupOf(elements, leaf)), own_(elements.key[leaf.index()]) {}
+
+double Roundings::of(std::uint64_t thing) const {
+  std::uint64_t scramble = combineKeys(group_.key, thing);
+  double u = 0, width = 1;
+  for (int level = 0; level < LeafGroup::kLevels; ++level) {
+    const unsigned digit = group_.place >> (2 * level) & 3u;
+    width *= 0.25, u += width * (digit ^ static_cast<unsigned>(scramble >> 62));
+    scramble = combineKeys(scramble, digit);
+  }
+  return u + width * toUnit(mix64(combineKeys(own_, thing)));
 }
 
 PlaceCodes::PlaceCodes(const Elements& elements) {

@@ -10,11 +10,24 @@
 
 #include "base/random.hpp"
 #include "hierarchy/element.hpp"
+#include "radiosity/leaf_group.hpp"
 
 namespace deltalux {
 
-/// Of `rays`, those of a part of the weight `part` among `whole`; expected: rays * part / whole.
-int shareOf(int rays, double part, double whole, std::uint64_t key);
+/// Of `rays`, those of a part of the weight `part` among `whole`; expected: rays * part / whole. `u`: random in [0,1).
+int shareOf(int rays, double part, double whole, double u);
+
+/// The random numbers by which a leaf rounds, one for each thing that it deals out; those of its group are stratified
+/// together. Radical inverses to base 4 of the path to the leaf, scrambled for each thing [Owen97].
+class Roundings {
+ public:
+  Roundings(const Elements&, ElementId leaf);
+  double of(std::uint64_t thing) const;
+
+ private:
+  LeafGroup group_;
+  std::uint64_t own_;
+};
 
 /// Places as Morton codes on a grid that depends on the order of magnitude of the scene alone.
 class PlaceCodes {
@@ -41,7 +54,7 @@ std::uint64_t keyOfHalf(const RayShare* begin, const RayShare* half);
 void sortByPlace(std::vector<RayShare>&);
 
 template <class Visit>
-void dealHalves(const RayShare* begin, const RayShare* end, const double* sums, int rays, std::uint64_t key,
+void dealHalves(const RayShare* begin, const RayShare* end, const double* sums, int rays, const Roundings& roundings,
                 const Visit& visit) {
   if (rays == 0) return;
   if (begin + 1 == end) {
@@ -50,21 +63,21 @@ void dealHalves(const RayShare* begin, const RayShare* end, const double* sums, 
   }
   const RayShare* half = halfOf(begin, end);
   const double part = sums[half - begin] - sums[0], whole = sums[end - begin] - sums[0];
-  const int own = shareOf(rays, part, whole, combineKeys(key, keyOfHalf(begin, half)));
-  dealHalves(begin, half, sums, own, key, visit);
-  dealHalves(half, end, sums + (half - begin), rays - own, key, visit);
+  const int own = shareOf(rays, part, whole, roundings.of(keyOfHalf(begin, half)));
+  dealHalves(begin, half, sums, own, roundings, visit);
+  dealHalves(half, end, sums + (half - begin), rays - own, roundings, visit);
 }
 
 }  // namespace detail
 
-/// Calls visit(index, rays) for each part that gets any, in the order of places. `key`: of the receiver.
+/// Calls visit(index, rays) for each part that gets any, in the order of places.
 template <class Visit>
-void dealOut(std::vector<RayShare>& parts, int rays, std::uint64_t key, const Visit& visit) {
+void dealOut(std::vector<RayShare>& parts, int rays, const Roundings& roundings, const Visit& visit) {
   if (parts.empty()) return;
   detail::sortByPlace(parts);
   std::vector<double> sums(parts.size() + 1, 0.0);
   for (std::size_t i = 0; i < parts.size(); ++i) sums[i + 1] = sums[i] + parts[i].weight;
-  detail::dealHalves(parts.data(), parts.data() + parts.size(), sums.data(), rays, key, visit);
+  detail::dealHalves(parts.data(), parts.data() + parts.size(), sums.data(), rays, roundings, visit);
 }
 
 }  // namespace deltalux

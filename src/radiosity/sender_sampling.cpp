@@ -30,8 +30,12 @@ ElementId childByArea(const Elements& elements, ElementId e, double& a) {
   return picked;
 }
 
-Stratified4::Stratified4(std::uint64_t key) {
-  for (std::size_t k = 0; k < 4; ++k) start_[k] = toUnit(mix64(key + k));
+/// Steps from place to place were found by search: of 4, 16 or 64 places with 1 to 8 samples each, the wrap-around
+/// discrepancy in the first two and the last two dimensions is 4 to 48 % of that of random samples.
+Stratified4::Stratified4(SampleKey key) {
+  static constexpr std::array<double, 4> step = {0.7660411468064672, 0.5632812675130437, 0.4094917216853550,
+                                                 0.6883133494912637};
+  for (std::size_t k = 0; k < 4; ++k) start_[k] = fraction(toUnit(mix64(key.key + k)) + key.place * step[k]);
 }
 
 std::array<double, 4> Stratified4::operator[](int i) const {

@@ -3,22 +3,33 @@
 #include <array>
 #include <span>
 
+#include "base/random.hpp"
 #include "hierarchy/patch.hpp"
 #include "tracing/ray.hpp"
 
 namespace deltalux {
 
+/// One sequence of samples. Those of a group are stratified together, too, each at its place (leaf_group.hpp).
+struct SampleKey {
+  std::uint64_t key;
+  unsigned place = 0;
+
+  SampleKey with(std::uint64_t more) const { return {combineKeys(key, more), place}; }
+};
+
 /// A four-dimensional sequence shifted by the key: stratified for any prefix (additive recurrence with the powers of
-/// the generalised golden ratio [Roberts 2018]).
+/// the generalised golden ratio [Roberts 2018]), and over the first places of a group.
 class Stratified4 {
  public:
-  explicit Stratified4(std::uint64_t key);
+  explicit Stratified4(SampleKey);
+  explicit Stratified4(std::uint64_t key) : Stratified4(SampleKey{key}) {}
   /// Sample i, from 0.
   std::array<double, 4> operator[](int i) const;
 
  private:
   std::array<double, 4> start_;
 };
+inline std::array<double, 4> stratified4(SampleKey key, int i) { return Stratified4(key)[i]; }
 inline std::array<double, 4> stratified4(std::uint64_t key, int i) { return Stratified4(key)[i]; }
 
 /// The item whose weight holds `u`, in [0,1), of the weights' sum `total`; null where none is above 0.
