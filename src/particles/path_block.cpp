@@ -30,7 +30,7 @@ void append(const PathBlock& block, std::size_t begin, std::span<const std::uint
     p.range[path] = {v, i, static_cast<std::uint16_t>(block.vertexCount[k]),
                      static_cast<std::uint16_t>(block.landingCount[k])};
     p.fate[path] = block.fate[k];
-    p.account[path] = closed(block.accounts[k], path);
+    p.account[path] = block.fate[k] & kArrived ? closed(block.accounts[k], path) : PathAccount{};
     v += block.vertexCount[k], i += block.landingCount[k];
   }
   for (const PathBlock::Vertex& from : block.vertices) {

@@ -29,6 +29,10 @@ Rgb overPolarisations(const ThinGlass& glass, double cosIncidence, const Slab& s
   const Interface face = paneInterface(cosIncidence, glass.ior);
   Rgb result;
   for (int i = 0; i < 3; ++i) {
+    if (i > 0 && glass.transmissivity[i] == glass.transmissivity[i - 1]) {
+      result[i] = result[i - 1];
+      continue;
+    }
     // The path inside is longer by 1 / cos than at normal incidence.
     const double a = std::pow(std::clamp<double>(glass.transmissivity[i], 0.0, 1.0), 1.0 / face.cosInside);
     result[i] = static_cast<float>(0.5 * (slab(face.s, a) + slab(face.p, a)));

@@ -73,7 +73,7 @@ constexpr std::array<CieParameters, 15> kCieSkies{{{4, -0.7, 0, -1, 0},
 double radiance(const RadianceSky& sky, const Vec3& towards, const Vec3& up) {
   const double cosZenith = std::clamp(glm::dot(towards, up), -1.0, 1.0);
   const double above = skyPart(sky, cosZenith, glm::dot(towards, sky.sunDirection), glm::dot(up, sky.sunDirection));
-  const double weight = std::pow(cosZenith + 1.01, 10);
+  const double x = cosZenith + 1.01, x2 = x * x, x4 = x2 * x2, weight = x4 * x4 * x2;
   return std::max(0.0, (weight * above + sky.ground / weight) / (weight + 1 / weight));
 }
 
