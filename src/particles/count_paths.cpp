@@ -20,7 +20,7 @@ void countPaths(const DsLinks& links, double target, Particles& p) {
   std::uint64_t total = 0;
   for (const DsLink& l : links.all) {
     const double expected = l.flux / p.quantum;
-    ParticleLink link{l.ends, l.key, static_cast<std::uint32_t>(total), 0, 0};
+    ParticleLink link{l.ends, l.key, static_cast<std::uint32_t>(total), 0, 0, l.albedo};
     if (expected >= 1) {
       link.paths = static_cast<std::uint32_t>(std::min(std::ceil(expected), 0x1p31));
       link.scale = static_cast<float>(1.0 / link.paths);

@@ -66,6 +66,7 @@ Verdict judged(const LinkEnds& ends, std::uint64_t key, double threshold, const 
                Lookout::Workspace& workspace) {
   Verdict v;
   v.link.ends = ends, v.link.key = key;
+  v.link.albedo = static_cast<float>(lookout.albedo(ends));
   const bool near = judge.near(ends), divisible = judge.divisible(ends);
   const double most = lookout.most(ends);
   Looks looks;
@@ -127,9 +128,10 @@ DsLinks refineDsLinks(const Scene& scene, const RayTracer& tracer, const Particl
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint64_t key = judge.key(level[i], settings.seed);
         // Averted: nothing passes, as long as neither end moves.
-        verdicts[i] = emission.averted(level[i])
-                          ? Verdict{{level[i], key, static_cast<float>(kLeast * threshold), 0}, false}
-                          : judged(level[i], key, threshold, judge, lookout, workspace);
+        verdicts[i] = emission.averted(level[i]) ? Verdict{{level[i], key, static_cast<float>(kLeast * threshold), 0,
+                                                            static_cast<float>(lookout.albedo(level[i]))},
+                                                           false}
+                                                 : judged(level[i], key, threshold, judge, lookout, workspace);
       }
       rays[begin / kBlock] = workspace.traced;
     });

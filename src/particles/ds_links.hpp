@@ -19,6 +19,7 @@ struct DsLink {
   std::uint64_t key = 0;  // of both ends: names the particles
   float flux = 0;         // estimate of what passes on other than diffusely, gray [W]; never 0
   float passing = 0;      // estimate of the share of samples that arrive
+  float albedo = 1;       // greatest of the receiver
 };
 
 struct DsLinks {

@@ -54,6 +54,8 @@ class Lookout {
   };
   /// Looks until there are `count` of them; `key` names the link.
   void look(const LinkEnds&, std::uint64_t key, int count, Looks&, Workspace&) const;
+  /// Greatest of the receiver.
+  double albedo(const LinkEnds& ends) const { return albedo_[ends.receiver]; }
   /// More flux than this cannot pass, whatever stands where.
   double most(const LinkEnds&) const;
 

@@ -24,7 +24,8 @@ struct ParticleLink {
   LinkEnds ends;
   std::uint64_t key = 0;
   std::uint32_t firstPath = 0, paths = 0;
-  float scale = 0;  // one over the number of samples, or over the chance that there is the one
+  float scale = 0;   // one over the number of samples, or over the chance that there is the one
+  float albedo = 1;  // greatest of its receiver: no more of light is passed on
 };
 
 /// What became of particle flux, gray [W], with the nominal exitance of senders: what goes in comes out, in the mean.

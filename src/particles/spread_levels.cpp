@@ -7,7 +7,7 @@
 namespace deltalux {
 
 namespace {
-constexpr double kMostGain = 1;  // E of a patch if all surfaces had B = 1: no more is possible, but for noise
+constexpr double kMost = 1;  // share of the light all around that falls on a patch: no more is possible, but for noise
 constexpr std::size_t kBlock = 64;
 }  // namespace
 
@@ -58,9 +58,9 @@ void SpreadLevels::choose(const Elements& elements, const std::vector<LandingSum
     const double A = std::max<double>(elements.shape(e).area, 1e-30);
     const double J = (2 * cut.sums.squares - cut.sums.weight * cut.sums.weight) / A;  // [Rudemo82 (2.8)]
     cut.whole = !split || cut.tooMuch || J <= cut.parts;
-    cut.tooMuch = cut.sums.gain > kMostGain * A;
+    cut.tooMuch = cut.sums.share > kMost * A;
     // Counts where not even the whole surface is enough to spread it on.
-    damping_[e.index()] = cut.tooMuch ? static_cast<float>(kMostGain * A / cut.sums.gain) : 1.0f;
+    damping_[e.index()] = cut.tooMuch ? static_cast<float>(kMost * A / cut.sums.share) : 1.0f;
     if (i == 0) continue;
     Cut& up = cuts[tree.places[i].parent];
     up.sums += cut.sums, up.parts += cut.whole ? J : cut.parts, up.tooMuch |= cut.tooMuch;

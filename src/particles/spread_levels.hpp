@@ -6,8 +6,9 @@
 //
 // over the cut is least, w being the particles' fluxes and A a patch's area: the cross-validated squared error of a
 // histogram [Rudemo82]. No threshold, and much light on few particles is not mistaken for detail. A patch that would
-// receive more than surfaces of radiosity 1 all around could give it is too small for its particles, too: light sent
-// round between such patches would grow without end. Energy is kept, except where a whole surface is that small.
+// receive more than surfaces of radiosity 1 all around could give it, over surfaces that reflect what these do, is too
+// small for its particles, too: light sent round between such patches would grow without end. Energy is kept, except
+// where a whole surface is that small.
 // Cost: 20 nanoseconds a patch of the surface.
 #include <span>
 #include <vector>
@@ -19,10 +20,12 @@ namespace deltalux {
 /// Of the impacts on an element itself.
 struct LandingSums {
   double weight = 0, squares = 0;  // by nominal senders
-  double gain = 0;                 // flux per radiosity of surfaces, brightest channels
+  double share = 0;                // of the light of surfaces all around: flux per radiosity over the links' albedo
   std::uint32_t count = 0;         // of impacts
 
-  void operator+=(const LandingSums& o) { weight += o.weight, squares += o.squares, gain += o.gain, count += o.count; }
+  void operator+=(const LandingSums& o) {
+    weight += o.weight, squares += o.squares, share += o.share, count += o.count;
+  }
 };
 
 /// A patch and all below it, in an order in which everything below a patch stands right behind it.

@@ -16,6 +16,7 @@ namespace deltalux {
 namespace {
 
 constexpr std::size_t kBlock = 1024;
+constexpr float kLeastAlbedo = 1e-4f;
 
 /// By element: whether particles are placed there when they start or land on it.
 std::vector<char> placesOf(const Elements& elements) {
@@ -69,9 +70,11 @@ void ParticleTransfer::locate(const Particles& p, std::size_t path, const SideLo
 template <class Visit>
 void ParticleTransfer::visit(const Particles& p, std::size_t path, std::uint32_t sender, std::uint32_t cell,
                              const PathRange& range, const Visit& visit) const {
-  const float scale = p.links[p.link[path]].scale;
+  const ParticleLink& link = p.links[p.link[path]];
+  const float scale = link.scale, whole = scale / std::max(link.albedo, kLeastAlbedo);
   for (std::uint32_t i = range.impact; i < range.impact + range.impacts; ++i)
-    visit(Landing{elementOf_[i], sender, scale * p.throughput[i], scale * p.nominal[cell] * gray(p.throughput[i])});
+    visit(Landing{elementOf_[i], sender, scale * p.throughput[i], scale * p.nominal[cell] * gray(p.throughput[i]),
+                  whole * maxChannel(p.throughput[i])});
 }
 
 ParticleTransfer::ParticleTransfer(const Particles& p, const Elements& elements, const Scene& scene)
@@ -187,7 +190,7 @@ void ParticleTransfer::add(const Landing& l) {
   if (l.sender == kNone) return;
   LandingSums& s = sums_[l.element];
   s.weight += l.weight, s.squares += double(l.weight) * l.weight, ++s.count;
-  if (l.sender >= lights_) s.gain += maxChannel(l.flux);
+  if (l.sender >= lights_) s.share += l.share;
   std::vector<Entry>& all = entries_[l.element];
   auto at = std::lower_bound(all.begin(), all.end(), l.sender,
                              [](const Entry& e, std::uint32_t sender) { return e.sender < sender; });
@@ -199,7 +202,7 @@ void ParticleTransfer::remove(const Landing& l) {
   if (l.sender == kNone) return;
   LandingSums& s = sums_[l.element];
   s.weight -= l.weight, s.squares -= double(l.weight) * l.weight, --s.count;
-  if (l.sender >= lights_) s.gain -= maxChannel(l.flux);
+  if (l.sender >= lights_) s.share -= l.share;
   std::vector<Entry>& all = entries_[l.element];
   const auto at = std::lower_bound(all.begin(), all.end(), l.sender,
                                    [](const Entry& e, std::uint32_t sender) { return e.sender < sender; });

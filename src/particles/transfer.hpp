@@ -67,6 +67,7 @@ class ParticleTransfer {
     std::uint32_t element, sender;
     Rgb flux;
     float weight;
+    float share;  // of the light of surfaces all around: flux per radiosity, had nothing been lost on the way
   };
 
   std::uint32_t locateSender(const Particles&, std::size_t path, const SideLocator&, const Scene&) const;

@@ -94,6 +94,34 @@ TEST(EnergyBalance, NothingLeaksIntoAClosedGap) {
   EXPECT_EQ(shells, 2);
 }
 
+/// Small glossy things close together, few particles: by chance a thing may be found to get more from another than all
+/// that it could get. Sent back and forth such light would grow without end; no surface is brighter than what lights
+/// bring to the brightest place, reflected for ever by the best reflector.
+TEST(EnergyBalance, GlossyThingsDoNotFeedEachOther) {
+  constexpr float kRed = 0.85f, kGloss = 0.1f;
+  Scene scene;
+  test::addBox(scene, test::addMaterial(scene, "wall", test::lambert(0.5f)), {0, 0, 0}, {2, 2, 2}, true);
+  const MaterialId book = test::addMaterial(scene, "book", Opaque{Rgb(kRed, 0.1f, 0.1f), {}, {Rgb(kGloss), 0.1f}});
+  for (int i = 0; i < 24; ++i) {
+    const double x = 0.5 + 0.03 * i;
+    test::addBox(scene, book, {x, 0.8, 0.4}, {x + 0.025, 1.0, 0.65 + 0.01 * (i % 5)}, false);
+  }
+  test::addLight(scene, PointLight{{0.8, 0.4, 1.6}, Rgb(10.0f)});
+  SolveSettings settings;
+  settings.error = 0.1, settings.particles = 20000, settings.causticTextures = false;
+  Engine engine(std::move(scene), settings);
+  const EnergyLedger ledger = engine.solve().energy;
+  const Elements& elements = engine.solution().get().elements;
+  float lit = 0, most = 0;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (!elements.isReceivingLeaf(ElementId(i))) continue;
+    const ElementLight& l = elements.radiometry[i];
+    lit = std::max(lit, l.direct.r), most = std::max(most, (l.direct + l.indirect + l.particle).r);
+  }
+  EXPECT_LT(most, lit / (1 - kRed - kGloss));
+  EXPECT_NEAR(residue(ledger), 0, 0.02);
+}
+
 /// What a pane reflects is particles' light, 1.5 % of all here; what it passes arrives behind it.
 TEST(EnergyBalance, Panes) {
   Scene scene;
