@@ -137,6 +137,7 @@ void checkPaths(const Particles& p, const Scene& scene) {
     const ParticleLink& link = p.links[l];
     require(link.firstPath == next, l, "a link's paths stand behind those of the one before");
     require(link.paths > 0 && link.scale > 0 && std::isfinite(link.scale), l, "a link has paths and a scale");
+    require(link.albedo > 0 && std::isfinite(link.albedo), l, "a link leads to what passes light on");
     next += link.paths;
   }
   require(next == n, n, "every path has its link");
