@@ -17,6 +17,7 @@ constexpr int kFirstLooks = 512;  // at each root, for the sum of all flux
 constexpr double kNear = 0.4;     // radii of both ends over their distance, above which they are near
 constexpr double kMuch = 8.0;     // shares of flux from which unevenness counts
 constexpr double kLeast = 1e-3;   // shares of flux that any link is taken to carry
+constexpr double kLeastAlbedo = 1e-4;
 
 /// What the looks at a link are for: whether it is to be refined, and which end.
 class Judge {
@@ -66,7 +67,6 @@ Verdict judged(const LinkEnds& ends, std::uint64_t key, double threshold, const 
                Lookout::Workspace& workspace) {
   Verdict v;
   v.link.ends = ends, v.link.key = key;
-  v.link.albedo = static_cast<float>(lookout.albedo(ends));
   const bool near = judge.near(ends), divisible = judge.divisible(ends);
   const double most = lookout.most(ends);
   Looks looks;
@@ -128,10 +128,10 @@ DsLinks refineDsLinks(const Scene& scene, const RayTracer& tracer, const Particl
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint64_t key = judge.key(level[i], settings.seed);
         // Averted: nothing passes, as long as neither end moves.
-        verdicts[i] = emission.averted(level[i]) ? Verdict{{level[i], key, static_cast<float>(kLeast * threshold), 0,
-                                                            static_cast<float>(lookout.albedo(level[i]))},
-                                                           false}
-                                                 : judged(level[i], key, threshold, judge, lookout, workspace);
+        verdicts[i] = emission.averted(level[i])
+                          ? Verdict{{level[i], key, static_cast<float>(kLeast * threshold), 0}, false}
+                          : judged(level[i], key, threshold, judge, lookout, workspace);
+        verdicts[i].link.albedo = static_cast<float>(std::max(lookout.albedo(level[i]), kLeastAlbedo));
       }
       rays[begin / kBlock] = workspace.traced;
     });

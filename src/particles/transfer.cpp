@@ -16,7 +16,6 @@ namespace deltalux {
 namespace {
 
 constexpr std::size_t kBlock = 1024;
-constexpr float kLeastAlbedo = 1e-4f;
 
 /// By element: whether particles are placed there when they start or land on it.
 std::vector<char> placesOf(const Elements& elements) {
@@ -71,7 +70,7 @@ template <class Visit>
 void ParticleTransfer::visit(const Particles& p, std::size_t path, std::uint32_t sender, std::uint32_t cell,
                              const PathRange& range, const Visit& visit) const {
   const ParticleLink& link = p.links[p.link[path]];
-  const float scale = link.scale, whole = scale / std::max(link.albedo, kLeastAlbedo);
+  const float scale = link.scale, whole = scale / link.albedo;
   for (std::uint32_t i = range.impact; i < range.impact + range.impacts; ++i)
     visit(Landing{elementOf_[i], sender, scale * p.throughput[i], scale * p.nominal[cell] * gray(p.throughput[i]),
                   whole * maxChannel(p.throughput[i])});

@@ -84,14 +84,6 @@ bool IndirectSampler::turn(ElementId leaf, const LinkChanges& links, std::span<c
   const Vec3 from(0.5f * (g.lower + g.upper));
   // Rays to what moved, and those that it was found to block, end where it is hidden now: when that goes, they are
   // drawn again.
-  const auto endAtWall = [&](std::uint32_t i) {
-    const RowTerm& t = row.terms[i];
-    const Ray ray = shoot(leaf, t.sender, t.index).ray;
-    if (!space.moved(t.sender) && !space.meets(ray)) return;
-    const Vec3 origin(ray.origin), d = double(ray.tFar) * Vec3(ray.direction);
-    const double at = glm::dot(wall.origin - origin, wall.normal) / glm::dot(d, wall.normal);
-    if (at > 0 && at < 1) row.rays[i] = rayCode(Vec3f(at * (origin + d - from)), true);
-  };
   std::vector<std::uint32_t> met;
   space.meetsRays(g, row.rays, met);
   std::erase_if(met, [&](std::uint32_t i) { return !blocked(row.rays[i]) || !(end(row.rays[i]) > 0); });
@@ -99,7 +91,14 @@ bool IndirectSampler::turn(ElementId leaf, const LinkChanges& links, std::span<c
     if (space.moved(row.terms[i].sender)) met.push_back(i);
   if (std::any_of(met.begin(), met.end(), [&](std::uint32_t i) { return !elements_.isLeaf(row.terms[i].sender); }))
     return false;  // another ray, since its sender has been split
-  for (const std::uint32_t i : met) endAtWall(i);
+  for (const std::uint32_t i : met) {
+    const RowTerm& t = row.terms[i];
+    const Ray ray = shoot(leaf, t.sender, t.index).ray;
+    if (!space.moved(t.sender) && !space.meets(ray)) continue;
+    const Vec3 origin(ray.origin), d = double(ray.tFar) * Vec3(ray.direction);
+    const double at = glm::dot(wall.origin - origin, wall.normal) / glm::dot(d, wall.normal);
+    if (at > 0 && at < 1) row.rays[i] = rayCode(Vec3f(at * (origin + d - from)), true);
+  }
   row.reach.objects.add(scene_, domain.primitive);
   return true;
 }

@@ -11,8 +11,10 @@ namespace deltalux {
 
 /// One sequence of samples. Those of a group are stratified together, too, each at its place (leaf_group.hpp).
 struct SampleKey {
+  SampleKey(std::uint64_t alone, unsigned at = 0) : key(alone), place(at) {}
+
   std::uint64_t key;
-  unsigned place = 0;
+  unsigned place;
 
   SampleKey with(std::uint64_t more) const { return {combineKeys(key, more), place}; }
 };
@@ -22,7 +24,6 @@ struct SampleKey {
 class Stratified4 {
  public:
   explicit Stratified4(SampleKey);
-  explicit Stratified4(std::uint64_t key) : Stratified4(SampleKey{key}) {}
   /// Sample i, from 0.
   std::array<double, 4> operator[](int i) const;
 
@@ -30,7 +31,6 @@ class Stratified4 {
   std::array<double, 4> start_;
 };
 inline std::array<double, 4> stratified4(SampleKey key, int i) { return Stratified4(key)[i]; }
-inline std::array<double, 4> stratified4(std::uint64_t key, int i) { return Stratified4(key)[i]; }
 
 /// The item whose weight holds `u`, in [0,1), of the weights' sum `total`; null where none is above 0.
 template <class Item>
