@@ -83,16 +83,19 @@ float IndirectSampler::kernelOverPoints(ElementId leaf, ElementId sender) const 
   return static_cast<float>(sum / kPoints) * (turned ? ofSender / A : 1.0f);
 }
 
-/// By chance, right in the mean.
+/// From points of the smaller of the two. By chance, right in the mean.
 float IndirectSampler::kernelOverPairs(ElementId leaf, ElementId sender, int sets) const {
+  const float A = elements_.shape(leaf).area, ofSender = elements_.shape(sender).area;
+  const bool turned = ofSender < A;
+  const ElementId from = turned ? sender : leaf, to = turned ? leaf : sender;
   const std::uint64_t key = combineKeys(combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]), 11);
   double sum = 0;
   for (int k = 0; k < sets * kClosePairs; ++k) {
     const auto u = stratified4(key, k);
-    const PatchPoint x = samplePatch(elements_, scene_, leaf, u[2], u[3]);
-    sum += closePair(elements_, scene_, x, sender, k % kClosePairs, u[0], u[1]).weight;
+    const PatchPoint x = samplePatch(elements_, scene_, from, u[2], u[3]);
+    sum += closePair(elements_, scene_, x, to, k % kClosePairs, u[0], u[1]).weight;
   }
-  return static_cast<float>(sum / sets);
+  return static_cast<float>(sum / sets) * (turned ? ofSender / A : 1.0f);
 }
 
 }  // namespace deltalux

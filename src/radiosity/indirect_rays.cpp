@@ -60,7 +60,8 @@ SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, i
   return s;
 }
 
-/// From a point of a curved sender close by to the leaf.
+/// From a point of a sender close by to the leaf: where the sender is curved, or so small that few points of the leaf see
+/// much of it.
 SenderSample IndirectSampler::shootBack(ElementId leaf, ElementId sender, int index) const {
   const SampleKey key = rayKey(leaf, sender);
   const auto u = stratified4(key, index);
@@ -71,14 +72,16 @@ SenderSample IndirectSampler::shootBack(ElementId leaf, ElementId sender, int in
   SenderSample s;
   s.leaf = sender, s.weight = pair->weight / elements_.shape(leaf).area;
   s.ray = segment(pair->to.position, pair->to.normal, y.position, y.normal);
+  s.measures = measures(leaf);
   return s;
 }
 
 SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index) const {
   if (!(elements_.shape(sender).area > 0)) return {};  // removed
-  const bool curvedLeaf = !elements_.at(leaf).flat, curvedSender = !exact(sender);
-  if (!curvedSender && measures(leaf)) return shootMeasuring(leaf, sender, index);
-  if (!curvedLeaf && curvedSender && isClosePatch(leaf, sender)) return shootBack(leaf, sender, index);
+  const bool curved = !exact(sender);
+  const bool back = (curved && elements_.at(leaf).flat) || elements_.shape(sender).area < elements_.shape(leaf).area;
+  if (back && isClosePatch(leaf, sender)) return shootBack(leaf, sender, index);
+  if (!curved && measures(leaf)) return shootMeasuring(leaf, sender, index);
   return shoot(leaf, sender, index, nullptr);
 }
 
