@@ -21,6 +21,7 @@ constexpr float kNoneFaces = 0.25f;   // of that where no node does face it
 constexpr float kUneven = 2.0f;       // rays of clusters and curved senders, whose points differ most, against others
 constexpr float kPartsShare = 2.0f;   // rays of a sender above which it is taken apart
 constexpr float kWholeShare = 0.25f;  // the same for senders that need no ray: their radiosity counts as even
+constexpr float kCloseShare = 0.15f;  // of the most that a close sender could bring, in closeWeight()
 constexpr float kLookedAt = 8;        // times its rays' worth: chance that what changed is looked at
 
 /// The mean of d^2 over a leaf that its parts would see a sender by: a long one that the sender is close to is seen
@@ -113,6 +114,16 @@ std::vector<IndirectSampler::Term> IndirectSampler::allTerms(ElementId leaf, con
   return all;
 }
 
+/// What a term of clusters or curved patches close by counts as when it is asked whether to take it apart: where most
+/// of it comes from few places, its kernel, of nodes, may miss those.
+float IndirectSampler::closeWeight(ElementId leaf, const Term& t) const {
+  if (exact(t.sender) || !areClose(elements_, leaf, t.sender)) return 0.0f;
+  const float A = elements_.shape(t.sender).area;
+  const float B = strength(leaf, t.sender) * (elements_.isCluster(t.sender) ? 4 * float(kPi) / A : 1.0f);
+  const float K = kCloseShare * std::min(1.0f, A / elements_.shape(leaf).area);
+  return K * B * std::sqrt(t.open) * kUneven;
+}
+
 template <class KernelOf>
 std::vector<IndirectSampler::Term> IndirectSampler::apart(ElementId leaf, std::vector<Term> whole, float ray,
                                                           const KernelOf& kernelOf) const {
@@ -120,7 +131,8 @@ std::vector<IndirectSampler::Term> IndirectSampler::apart(ElementId leaf, std::v
   while (!whole.empty()) {
     const Term t = whole.back();
     whole.pop_back();
-    if (t.weight <= (known(t) ? kWholeShare : kPartsShare) * ray || elements_.isLeaf(t.sender)) {
+    const float weight = std::max(t.weight, closeWeight(leaf, t));
+    if (weight <= (known(t) ? kWholeShare : kPartsShare) * ray || elements_.isLeaf(t.sender)) {
       parts.push_back(t);
       continue;
     }

@@ -65,6 +65,7 @@ class IndirectSampler {
   void add(ElementId leaf, LinkId, const KernelOf&, std::vector<Term>& out) const;
   template <class KernelOf>
   std::vector<Term> allTerms(ElementId leaf, const KernelOf&) const;
+  float closeWeight(ElementId leaf, const Term&) const;
   /// Takes terms apart until none weighs more than some rays' worth.
   template <class KernelOf>
   std::vector<Term> apart(ElementId leaf, std::vector<Term> whole, float ray, const KernelOf&) const;
