@@ -13,11 +13,11 @@ namespace {
 constexpr int kLooks = 8;
 constexpr int kNearLooks = 24;
 constexpr double kMostLooks = 2048;
-constexpr int kFirstLooks = 512;  // at each root, for the sum of all flux
-constexpr double kNear = 0.4;     // radii of both ends over their distance, above which they are near
-constexpr double kMuch = 8.0;     // shares of flux from which unevenness counts
-constexpr double kLeast = 1e-3;   // shares of flux that any link is taken to carry
-constexpr double kLeastAlbedo = 1e-4;
+constexpr int kFirstLooks = 512;       // at each root, for the sum of all flux
+constexpr double kNear = 0.4;          // radii of both ends over their distance, above which they are near
+constexpr double kMuch = 8.0;          // shares of flux from which unevenness counts
+constexpr double kLeast = 1e-3;        // shares of flux that any link is taken to carry
+constexpr double kLeastAlbedo = 1e-4;  // that links to panes as clear as air are taken to lead to
 
 /// What the looks at a link are for: whether it is to be refined, and which end.
 class Judge {

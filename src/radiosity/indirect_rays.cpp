@@ -60,8 +60,8 @@ SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, i
   return s;
 }
 
-/// From a point of a sender close by to the leaf: where the sender is curved, or so small that few points of the leaf see
-/// much of it.
+/// From a point of a sender close by to the leaf: where the sender is curved, or the smaller of the two, so that few
+/// points of the leaf see much of it.
 SenderSample IndirectSampler::shootBack(ElementId leaf, ElementId sender, int index) const {
   const SampleKey key = rayKey(leaf, sender);
   const auto u = stratified4(key, index);

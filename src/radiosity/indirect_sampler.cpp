@@ -118,10 +118,9 @@ std::vector<IndirectSampler::Term> IndirectSampler::allTerms(ElementId leaf, con
 /// of it comes from few places, its kernel, of nodes, may miss those.
 float IndirectSampler::closeWeight(ElementId leaf, const Term& t) const {
   if (exact(t.sender) || !areClose(elements_, leaf, t.sender)) return 0.0f;
-  const float A = elements_.shape(t.sender).area;
-  const float B = strength(leaf, t.sender) * (elements_.isCluster(t.sender) ? 4 * float(kPi) / A : 1.0f);
-  const float K = kCloseShare * std::min(1.0f, A / elements_.shape(leaf).area);
-  return K * B * std::sqrt(t.open) * kUneven;
+  const float A = elements_.shape(t.sender).area, most = elements_.isCluster(t.sender) ? 4 * float(kPi) : A;
+  const float K = kCloseShare * most / std::max(A, elements_.shape(leaf).area);
+  return t.weight / t.K * K;
 }
 
 template <class KernelOf>
@@ -131,8 +130,8 @@ std::vector<IndirectSampler::Term> IndirectSampler::apart(ElementId leaf, std::v
   while (!whole.empty()) {
     const Term t = whole.back();
     whole.pop_back();
-    const float weight = std::max(t.weight, closeWeight(leaf, t));
-    if (weight <= (known(t) ? kWholeShare : kPartsShare) * ray || elements_.isLeaf(t.sender)) {
+    const float enough = (known(t) ? kWholeShare : kPartsShare) * ray;
+    if (elements_.isLeaf(t.sender) || (t.weight <= enough && closeWeight(leaf, t) <= enough)) {
       parts.push_back(t);
       continue;
     }

@@ -4,7 +4,7 @@
 #include <deltalux/io.hpp>
 #include <deltalux/reference.hpp>
 
-#include "particles/transfer.hpp"
+#include "particles/impact.hpp"
 #include "render/caustic_light.hpp"
 #include "render/irradiance_field.hpp"
 #include "support/solved.hpp"
@@ -106,25 +106,19 @@ class MeshLight {
 /// A square of a surface's parameters, in pixels.
 class Pixels {
  public:
-  static constexpr int kAcross = 40, kPoints = 3;  // a side, and of points in a pixel
-
   Pixels(const Scene& scene, PrimitiveId primitive, double lower, double width)
-      : primitive_(primitive), lower_(lower), width_(width), shape_(&scene[primitive].shape) {
-    const SurfacePoint corner = pointAt(*shape_, Vec2(lower)), u = pointAt(*shape_, Vec2(lower + width, lower)),
-                       v = pointAt(*shape_, Vec2(lower, lower + width));
-    corner_ = Vec3(corner.position), u_ = Vec3(u.position) - corner_, v_ = Vec3(v.position) - corner_;
-  }
+      : primitive_(primitive), lower_(lower), width_(width), shape_(scene[primitive].shape) {}
 
-  /// The mean of light(position) over the points of each pixel.
+  /// The mean of light(position) over points of each pixel.
   template <class Light>
   std::vector<double> of(const Light& light) const {
     std::vector<double> means;
-    for (int i = 0; i < kAcross * kAcross; ++i) {
+    for (int i = 0; i < kSide * kSide; ++i) {
       double sum = 0;
       for (int k = 0; k < kPoints * kPoints; ++k) {
         const Vec2 part = (Vec2(k % kPoints, k / kPoints) + 0.5) / double(kPoints);
-        sum += light(Vec3(
-            pointAt(*shape_, lower_ + width_ * (Vec2(i % kAcross, i / kAcross) + part) / double(kAcross)).position));
+        const Vec2 uv = lower_ + width_ * (Vec2(i % kSide, i / kSide) + part) / double(kSide);
+        sum += light(Vec3(pointAt(shape_, uv).position));
       }
       means.push_back(sum / (kPoints * kPoints));
     }
@@ -133,30 +127,23 @@ class Pixels {
 
   /// The flux of particles that land on the front of each, over its area.
   std::vector<double> ofParticles(const Solution& s) const {
-    std::vector<double> E(std::size_t(kAcross) * kAcross, 0.0);
-    const double area = glm::length(glm::cross(u_, v_)) / static_cast<double>(E.size());
-    const ParticleTransfer transfer(s.particles, s.elements, s.scene);
-    const Particles& p = s.particles;
-    for (std::size_t path = 0; path < p.paths(); ++path) {
-      const double power = gray(transfer.power(path, s.elements, s.scene)) * p.links[p.link[path]].scale;
-      const auto vertices = p.verticesOf(path);
-      for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
-        if (p.primitive[i] != primitive_ || (p.triangleAndSide[i] & 1)) continue;
-        const Vec3 d = Vec3(vertices[vertices.size() - (p.endImpact(path) - i)]) - corner_;
-        const Vec2 at = double(kAcross) * Vec2(glm::dot(d, u_) / glm::dot(u_, u_), glm::dot(d, v_) / glm::dot(v_, v_));
-        if (at.x < 0 || at.y < 0 || at.x >= kAcross || at.y >= kAcross) continue;
-        E[static_cast<std::size_t>(at.y) * kAcross + static_cast<std::size_t>(at.x)] +=
-            power * gray(p.throughput[i]) / area;
-      }
+    std::vector<double> E(kSide * kSide, 0.0);
+    const double pixel = area(shape_) * width_ * width_ / static_cast<double>(E.size());
+    for (const Impact& impact : impacts(s.particles, s.elements, s.scene)) {
+      if (impact.primitive != primitive_ || !impact.front) continue;
+      const Vec2 at = double(kSide) / width_ * (Vec2(impact.uv) - lower_);
+      if (at.x < 0 || at.y < 0 || at.x >= kSide || at.y >= kSide) continue;
+      E[static_cast<std::size_t>(at.y) * kSide + static_cast<std::size_t>(at.x)] += gray(impact.flux) / pixel;
     }
     return E;
   }
 
  private:
+  static constexpr int kSide = 40, kPoints = 3;  // in pixels; in points of a pixel
+
   PrimitiveId primitive_;
   double lower_, width_;
-  const Shape* shape_;
-  Vec3 corner_, u_, v_;
+  const Shape& shape_;
 };
 
 double squares(const std::vector<double>& a, const std::vector<double>& b) {
