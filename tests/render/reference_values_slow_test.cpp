@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <deltalux/io.hpp>
 #include <deltalux/reference.hpp>
+#include <ostream>
 
 #include "support/reference_values.hpp"
 #include "support/shared.hpp"
@@ -23,6 +24,8 @@ struct Comparison {
   const char* values;
   bool diffuseOnly;
   std::uint64_t samples;
+
+  friend void PrintTo(const Comparison& c, std::ostream* out) { *out << c.name; }
 };
 
 double median(std::vector<double> values) {
