@@ -5,153 +5,77 @@
 
 #include "base/cosine_direction.hpp"
 #include "base/parallel.hpp"
-#include "base/random.hpp"
+#include "base/sobol.hpp"
 
 namespace deltalux {
 
 namespace {
 
-constexpr int kPaths = 4, kVertices = 3, kPicked = 2;
-constexpr double kFloor = 0.02;   // of the scene's mean: what no ray found may still be there
-constexpr double kHidden = 1e-3;  // of all that lights send, spread over all surfaces: light that only glass lets out
+constexpr std::uint32_t kPoints = 8;     // of each cell
+constexpr std::size_t kMostLights = 64;  // that are sampled at a point
+constexpr int kBounces = 4;
 constexpr int kPanes = 8;
+constexpr double kAround = 0.5;  // of the mean around a cell: what its points missed may still be there
+constexpr double kFloor = 0.02;  // the same of the whole scene's mean
 
-struct Vertex {
-  Vec3 position, normal;
-};
-
-/// Lights by what they might bring to a point, unshadowed: a few of them are looked at.
-class LightChoice {
+/// Irradiance from lights: of one sample of each, unshadowed, one is drawn by what it would bring, and a shadow ray
+/// sent after it. [TCE05]
+class Direct {
  public:
-  LightChoice(const Scene& scene, const LightSampler& lights) : scene_(scene), lights_(lights) {
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) prepare(LightId(i));
-  }
+  Direct(const Scene& scene, const LightSampler& lights) : scene_(scene), lights_(lights) {}
 
-  /// About the flux that all lights send into a scene of that size.
-  double flux(double diagonal) const {
-    double sum = 0;
-    for (const Known& k : known_) sum += k.power * (std::isinf(k.radius) ? diagonal * diagonal : 4 * kPi);
-    return sum;
-  }
-
-  /// Irradiance at `v` from lights drawn by `rng`.
-  double direct(const Vertex& v, const RayTracer& tracer, Rng& rng, std::vector<double>& weights,
-                std::uint64_t& rays) const {
-    if (known_.empty()) return 0;
+  double irradiance(const SurfacePoint& p, const RayTracer& tracer, Rng& rng, std::uint64_t& rays) {
+    const std::size_t all = scene_.lights.size(), some = std::min(all, kMostLights);
+    if (all == 0) return 0;
+    const double first = rng.uniform();
+    samples_.clear();
     double total = 0;
-    weights.clear();
-    for (const Known& k : known_) weights.push_back(total += weight(k, v));
-    double sum = 0;
-    for (int pick = 0; pick < kPicked; ++pick) {
-      const double target = rng.uniform() * total;
-      const auto i = std::min<std::size_t>(
-          static_cast<std::size_t>(std::upper_bound(weights.begin(), weights.end(), target) - weights.begin()),
-          known_.size() - 1);
-      const double chance = (weights[i] - (i > 0 ? weights[i - 1] : 0.0)) / total;
+    for (std::size_t i = 0; i < some; ++i) {
+      // Where there are more, they are spread evenly over all.
+      const auto light = static_cast<std::size_t>((static_cast<double>(i) + first) / static_cast<double>(some) *
+                                                  static_cast<double>(all));
       const double u0 = rng.uniform(), u1 = rng.uniform();
-      sum += arriving(known_[i], v, {u0, u1}, tracer, rays) / (chance * kPicked);
+      const auto s = lights_.sample(LightId(some < all ? light : i), p.position, {u0, u1});
+      if (!s) continue;
+      const double cosine = glm::dot(s->direction, p.normal);
+      if (!(cosine > 0)) continue;
+      const double unshadowed = cosine * gray(s->radiance) / (s->pdf > 0 ? s->pdf : 1.0);
+      if (unshadowed > 0) samples_.push_back({total += unshadowed, *s});
     }
-    return sum;
+    const double target = rng.uniform() * total;
+    if (samples_.empty()) return 0;
+    const auto drawn = std::upper_bound(samples_.begin(), std::prev(samples_.end()), target,
+                                        [](double x, const Sample& s) { return x < s.summed; });
+    ++rays;
+    return total * static_cast<double>(all) / static_cast<double>(some) *
+           gray(tracer.transmittance(towards(p, drawn->light)));
   }
 
  private:
-  struct Known {
-    LightId id;
-    double power = 0;  // gray intensity, or irradiance across the beam of what is at infinity
-    Vec3 center{0};
-    double radius = 0;  // infinite for suns and skies
+  struct Sample {
+    double summed;
+    LightSample light;
   };
 
-  void prepare(LightId id) {
-    Known k{id, 0, Vec3(0), 0};
-    const Light& light = scene_[id];
-    if (const auto* area = std::get_if<AreaLight>(&light.emitter)) {
-      const auto& emission = scene_.materialOf(area->primitive).emission;
-      const Box box = bounds(scene_[area->primitive].shape);
-      if (!emission || box.empty()) return;
-      k.center = box.center(), k.radius = 0.5 * box.diagonal();
-      k.power = gray(emission->radiance) * lights_.area(id);
-    } else if (const auto* sun = std::get_if<SunLight>(&light.emitter)) {
-      k.power = gray(sun->radiance) * solidAngle(*sun), k.radius = kInfinity;
-    } else if (const auto* dome = std::get_if<DomeLight>(&light.emitter)) {
-      k.power = kPi * gray(skyRadiance(*dome, dome->axis)), k.radius = kInfinity;
-    } else {
-      k.center = lights_.position(id);
-      std::visit(
-          [&](const auto& e) {
-            if constexpr (requires { e.intensity; }) k.power = gray(e.intensity);
-            if constexpr (requires {
-                            e.scale;
-                            e.position;
-                          })
-              k.power = gray(radiantIntensity(e, Vec3(0, 0, -1)));
-          },
-          light.emitter);
-      k.power = std::max(k.power, 1e-6);
-    }
-    known_.push_back(k);
-  }
-
-  static double weight(const Known& k, const Vertex& v) {
-    if (std::isinf(k.radius)) return k.power;
-    const Vec3 d = k.center - v.position;
-    return k.power / std::max(glm::dot(d, d), k.radius * k.radius + 1e-12);
-  }
-
-  /// Unscaled by edits: what the light's own values make.
-  double arriving(const Known& k, const Vertex& v, const Vec2& u, const RayTracer& tracer, std::uint64_t& rays) const {
-    const auto& emitter = scene_[k.id].emitter;
-    const Vec3f x(v.position), n(v.normal);
+  static Ray towards(const SurfacePoint& p, const LightSample& s) {
+    const Vec3f x(p.position), n(p.normal);
+    if (!std::isinf(s.distance)) return segment(x, n, Vec3f(p.position + s.distance * s.direction), Vec3f(s.normal));
     Ray ray;
-    Vec3 w;
-    double unshadowed = 0;
-    if (const auto* area = std::get_if<AreaLight>(&emitter)) {
-      const SurfacePoint y = lights_.samplePoint(k.id, u);
-      const Vec3 d = y.position - v.position;
-      const double distance = glm::length(d);
-      if (!(distance > 0)) return 0;
-      w = d / distance;
-      const double there = -glm::dot(w, y.normal);
-      const Rgb L = emittedRadiance(*scene_.materialOf(area->primitive).emission, -w, distance, there > 0);
-      const double kernel = lights_.area(k.id) * std::abs(there) / (distance * distance);
-      unshadowed = gray(L) * std::min(kernel, kPi);
-      ray = segment(x, n, Vec3f(y.position), Vec3f(y.normal));
-    } else if (std::isinf(k.radius)) {
-      const auto s = lights_.sample(k.id, v.position, u);
-      if (!s || !(s->pdf > 0)) return 0;
-      w = s->direction;
-      const auto* dome = std::get_if<DomeLight>(&emitter);
-      unshadowed = gray(dome ? skyRadiance(*dome, w) : std::get<SunLight>(emitter).radiance) / s->pdf;
-      ray.direction = Vec3f(w);
-      ray.origin = offsetOrigin(x, n, ray.direction);
-    } else {
-      const Vec3 d = k.center - v.position;
-      const double squared = glm::dot(d, d);
-      if (!(squared > 0)) return 0;
-      w = d / std::sqrt(squared);
-      std::visit(
-          [&](const auto& e) {
-            if constexpr (requires { radiantIntensity(e, w); }) unshadowed = gray(radiantIntensity(e, -w)) / squared;
-          },
-          emitter);
-      ray = segment(x, n, Vec3f(k.center), Vec3f(-w));
-    }
-    const double cosine = glm::dot(w, v.normal);
-    if (!(cosine > 0) || !(unshadowed > 0)) return 0;
-    ++rays;
-    return cosine * unshadowed * gray(tracer.transmittance(ray));
+    ray.direction = Vec3f(s.direction);
+    ray.origin = offsetOrigin(x, n, ray.direction);
+    return ray;
   }
 
   const Scene& scene_;
   const LightSampler& lights_;
-  std::vector<Known> known_;
+  std::vector<Sample> samples_;
 };
 
 /// First surface that is not a pane.
-Hit look(const Scene& scene, const RayTracer& tracer, const Vertex& v, const Vec3& w, std::uint64_t& rays) {
+Hit look(const Scene& scene, const RayTracer& tracer, const SurfacePoint& p, const Vec3& w, std::uint64_t& rays) {
   Ray ray;
   ray.direction = Vec3f(w);
-  ray.origin = offsetOrigin(Vec3f(v.position), Vec3f(v.normal), ray.direction);
+  ray.origin = offsetOrigin(Vec3f(p.position), Vec3f(p.normal), ray.direction);
   for (int pane = 0; pane < kPanes; ++pane) {
     const Hit hit = tracer.closestHit(ray);
     ++rays;
@@ -159,6 +83,48 @@ Hit look(const Scene& scene, const RayTracer& tracer, const Vertex& v, const Vec
     ray.origin = offsetOrigin(hit.position, hit.normal, ray.direction);
   }
   return {};
+}
+
+/// What rays at a cell find.
+struct Found {
+  double direct = 0;                        // irradiance by lights
+  std::array<std::uint32_t, kPoints> seen;  // cells; kNone where there is none
+};
+
+/// What few points of a cell missed may still be there: raises cells to a share of the mean around them, and of the
+/// mean around that.
+void raise(const Senders& senders, std::vector<double>& exitance) {
+  const std::uint32_t first = senders.surfaceCells();
+  struct Sum {
+    double flux = 0, area = 0;
+    double mean() const { return area > 0 ? flux / area : 0; }
+  };
+  std::vector<Sum> sums(senders.nodes().size());
+  std::vector<double> least(senders.nodes().size(), 0.0);
+  const std::uint32_t root = senders.surfaceRoots().front();
+  for (std::size_t n = sums.size(); n-- > root;) {
+    const RadixNode& node = senders.nodes()[n];
+    if (node.isLeaf()) {
+      const double area = senders.cells()[node.begin].measure;
+      sums[n] = {area * exitance[node.begin - first], area};
+      continue;
+    }
+    const Sum &a = sums[node.child[0]], &b = sums[node.child[1]];
+    sums[n] = {a.flux + b.flux, a.area + b.area};
+  }
+  // In steps: a small edit, which moves the mean a little, must not change every cell.
+  const double floor = sums[root].flux > 0 ? coarse(kFloor * sums[root].mean()) : 1.0;
+  least[root] = floor;
+  for (std::size_t n = root; n < sums.size(); ++n) {
+    const RadixNode& node = senders.nodes()[n];
+    if (node.isLeaf()) {
+      double& x = exitance[node.begin - first];
+      x = std::max({x, least[n], floor});
+      continue;
+    }
+    const double here = std::max(least[n], sums[n].mean());
+    for (const std::uint32_t child : node.child) least[child] = kAround * here;
+  }
 }
 
 }  // namespace
@@ -175,60 +141,57 @@ std::vector<float> skyStrengths(const Scene& scene, const Senders& senders) {
 }
 
 CoarseExitance coarseExitance(const Scene& scene, const RayTracer& tracer, const LightSampler& lights,
-                              const Senders& senders) {
+                              const Senders& senders, std::span<const double> caustics) {
   CoarseExitance result;
   result.perCell = skyStrengths(scene, senders);
   const std::uint32_t first = senders.surfaceCells();
   const std::size_t count = senders.cells().size() - first;
   if (count == 0) return result;
-  const LightChoice choice(scene, lights);
   std::vector<std::uint64_t> keys(senders.cells().size());
   for (const RadixNode& n : senders.nodes())
     if (n.isLeaf()) keys[n.begin] = n.key;
 
-  std::vector<std::uint64_t> rays((count + 63) / 64, 0);
-  parallelBlocks(count, 64, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> weights;
+  constexpr std::size_t kBlock = 64;
+  std::vector<Found> found(count);
+  std::vector<std::uint64_t> rays((count + kBlock - 1) / kBlock, 0);
+  parallelBlocks(count, kBlock, [&](std::size_t begin, std::size_t end) {
+    Direct direct(scene, lights);
     for (std::size_t i = begin; i < end; ++i) {
       const auto cell = static_cast<std::uint32_t>(first + i);
-      double sum = 0;
-      for (int path = 0; path < kPaths; ++path) {
-        Rng rng(keys[cell], static_cast<std::uint64_t>(path));
-        const double u0 = (path + rng.uniform()) / kPaths, u1 = rng.uniform();
-        const SurfacePoint p = senders.point(cell, {u0, u1});
-        Vertex v{p.position, p.normal};
-        double throughput = 1;
-        for (int k = 0; k < kVertices; ++k) {
-          sum += throughput * choice.direct(v, tracer, rng, weights, rays[begin / 64]) / kPaths;
-          if (k + 1 == kVertices) break;
-          const double a = rng.uniform(), b = rng.uniform();
-          const Vec3 w = cosineDirection(Frame(v.normal), a, b);
-          const Hit hit = look(scene, tracer, v, w, rays[begin / 64]);
-          if (!hit) break;
-          throughput *= kNominalReflectance;
-          v = {Vec3(hit.position), Vec3(hit.front ? hit.normal : -hit.normal)};
-        }
+      const ScrambledSobol places(keys[cell]), directions(mix64(keys[cell]));
+      Rng rng(keys[cell]);
+      for (std::uint32_t k = 0; k < kPoints; ++k) {
+        const UnitPair place = places(k), way = directions(k);
+        const SurfacePoint p = senders.point(cell, {place.x, place.y});
+        found[i].direct += direct.irradiance(p, tracer, rng, rays[begin / kBlock]) / kPoints;
+        const Hit hit = look(scene, tracer, p, cosineDirection(Frame(p.normal), way.x, way.y), rays[begin / kBlock]);
+        found[i].seen[k] = RadixNode::kNone;
+        if (!hit) continue;
+        const Vec2 uv = parameterAt(scene[hit.primitive].shape, Vec3(hit.position), hit.triangle);
+        found[i].seen[k] = senders.cellOf(hit.primitive, hit.triangle, hit.front, uv);
       }
-      result.perCell[cell] = static_cast<float>(kNominalReflectance * sum);
     }
   });
   for (const std::uint64_t r : rays) result.rays += r;
 
-  double flux = 0, area = 0;
-  for (std::size_t c = first; c < senders.cells().size(); ++c) {
-    flux += double(senders.cells()[c].measure) * result.perCell[c];
-    area += senders.cells()[c].measure;
+  std::vector<double> source(count), exitance(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double measure = senders.cells()[first + i].measure;
+    source[i] = kNominalReflectance * (found[i].direct + (measure > 0 ? caustics[first + i] / measure : 0.0));
   }
-  const double hidden = kHidden * choice.flux(bounds(scene).diagonal());
-  // In steps: a small edit, which moves the mean a little, must not change every cell.
-  const auto floor = static_cast<float>(coarse((kFloor * flux + hidden) / area));
-  for (std::size_t c = first; c < senders.cells().size(); ++c) result.perCell[c] = std::max(result.perCell[c], floor);
+  exitance = source;
+  for (int bounce = 0; bounce < kBounces; ++bounce) {
+    const std::vector<double> before = exitance;
+    for (std::size_t i = 0; i < count; ++i) {
+      double sum = 0;
+      for (const std::uint32_t cell : found[i].seen)
+        if (cell != RadixNode::kNone) sum += before[cell - first];
+      exitance[i] = source[i] + kNominalReflectance * sum / kPoints;
+    }
+  }
+  raise(senders, exitance);
+  for (std::size_t i = 0; i < count; ++i) result.perCell[first + i] = static_cast<float>(exitance[i]);
   return result;
-}
-
-void addFlux(CoarseExitance& exitance, const Senders& senders, std::span<const double> flux) {
-  for (std::size_t c = senders.surfaceCells(); c < senders.cells().size(); ++c)
-    exitance.perCell[c] += static_cast<float>(kNominalReflectance * flux[c] / senders.cells()[c].measure);
 }
 
 }  // namespace deltalux

@@ -1,9 +1,11 @@
 #pragma once
-// A first estimate of the irradiance of every diffuse sender cell. It decides how many particles a cell's links get and
+// A first estimate of the exitance of every diffuse sender cell. It decides how many particles a cell's links get and
 // nothing else: what particles carry is the radiosity that is solved for. So it must not know what an edit of colours
-// changes: lights count at scale 1, surfaces reflect a half. It is a function of the cell's few rays alone (keyed by
-// the cell's name), so that an edit of geometry changes it only where one of these rays is crossed.
-// Cost: kPaths paths of up to three vertices a cell, two shadow rays each.
+// changes: lights count at scale 1, surfaces reflect a half.
+//
+// A cell's irradiance is that of lights, by a few shadow rays, and that of caustics, by particles from lights that are
+// traced beforehand; from there it goes over a few rays from cell to cell, as often as light bounces.
+// Cost: kPoints shadow rays a cell and as many rays to other cells, and at each point one sample of every light.
 #include "particles/senders.hpp"
 #include "tracing/ray_tracer.hpp"
 
@@ -19,10 +21,8 @@ struct CoarseExitance {
 /// Radiance of the sky's cells, 1 of all others.
 std::vector<float> skyStrengths(const Scene&, const Senders&);
 
-CoarseExitance coarseExitance(const Scene&, const RayTracer&, const LightSampler&, const Senders&);
-
-/// Adds what particles bring: `flux` by cell [W]. Light that only glass lets out, and caustics, are found by no shadow
-/// ray.
-void addFlux(CoarseExitance&, const Senders&, std::span<const double> flux);
+/// `lights` at scale 1; `caustics`: flux that particles from lights bring, by sender cell [W].
+CoarseExitance coarseExitance(const Scene&, const RayTracer&, const LightSampler& lights, const Senders&,
+                              std::span<const double> caustics);
 
 }  // namespace deltalux

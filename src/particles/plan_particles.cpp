@@ -42,10 +42,10 @@ Particles plan(const Scene& scene, const RayTracer& tracer, const ParticleSettin
   Particles p;
   const Receivers receivers(scene);
   if (receivers.empty() || settings.count == 0) return p;
-  const LightSampler lights(scene);
+  const LightSampler lights(scene, std::vector<Rgb>(scene.lights.size(), Rgb(1.0f)));
   Senders senders(scene, lights);
   const ParticleEmission emission(scene, tracer, senders, receivers);
-  CoarseExitance exitance = coarseExitance(scene, tracer, lights, senders);
+  CoarseExitance exitance{skyStrengths(scene, senders)};
   senders.weigh(exitance.perCell);
   DsLinks links;
   const auto refine = [&](std::span<const std::uint32_t> roots) {
@@ -60,7 +60,7 @@ Particles plan(const Scene& scene, const RayTracer& tracer, const ParticleSettin
   nameSenders(senders, exitance, pilots);
   countPaths(links, kPilots, pilots);
   tracePaths(scene, tracer, emission, settings.maxDepth, pilots);
-  addFlux(exitance, senders, landedFlux(pilots, senders));
+  exitance = coarseExitance(scene, tracer, lights, senders, landedFlux(pilots, senders));
   senders.weigh(exitance.perCell);
   append(links, refine(senders.surfaceRoots()));
 
