@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "base/check.hpp"
+#include "base/sort_unique.hpp"
 #include "engine/state.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/side_index.hpp"
@@ -47,6 +48,16 @@ void Engine::State::placeParticles(const ParticleUpdate& followed, LightChanges&
   else
     transfer.emplace(s.particles, s.elements, s.scene);
   step.times.particles += time.seconds();
+}
+
+/// How far they are spread depends on what patches reflect and how much of them is exposed.
+void Engine::State::spreadParticlesAnew(LightChanges& light) {
+  if (light.allParticles) return;
+  const Elements& elements = solution->elements;
+  transfer->followPatches(elements, light.rows);  // which are looked at in any case
+  const std::vector<ElementId> painted = transfer->followPatches(elements, light.painted);
+  light.surfaces.insert(light.surfaces.end(), painted.begin(), painted.end());
+  sortUnique(light.surfaces);
 }
 
 bool Engine::State::gapsAreMany(double most) const {

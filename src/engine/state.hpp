@@ -106,6 +106,7 @@ struct Engine::State {
   bool subdivideWhereParticlesLanded(StepReport& step);
   /// On the mesh as it is now.
   void placeParticles(const ParticleUpdate& followed, LightChanges&, StepReport& step);
+  void spreadParticlesAnew(LightChanges&);
   /// Elements for what the edits brought into the light.
   Growth grow(const SceneUpdate& edits, const ParticleUpdate& followed, StepReport& step);
   /// Paths that were traced anew leave gaps.

@@ -43,6 +43,7 @@ StepReport Engine::State::update(Progress* progress) {
   motion.light.painted = std::exchange(backlog.painted, {});
   const std::vector<ElementId> rescaled = std::exchange(backlog.rescaled, {});
   motion.light.rows.insert(motion.light.rows.end(), rescaled.begin(), rescaled.end());
+  spreadParticlesAnew(motion.light);
   const Clock gathering;
   settleAfter(motion.light, progress);
   step.times.gather += gathering.seconds();

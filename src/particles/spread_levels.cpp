@@ -7,8 +7,18 @@
 namespace deltalux {
 
 namespace {
-constexpr double kMost = 1;  // share of the light all around that falls on a patch: no more is possible, but for noise
+
+constexpr double kMostReturned = 0.98;  // by a patch of what falls on it, when all around sends as much as it does
+constexpr double kByChance = 2;         // times what surfaces could send: more is no mere chance
 constexpr std::size_t kBlock = 64;
+
+/// By which what comes back exceeds what a patch of that area may get.
+double excess(const Feedback& f, double area, const ElementLight& light) {
+  const double rho = std::max<double>(maxChannel(light.rho + light.tau), 1e-3);
+  const double byReturn = f.flux / std::max(kMostReturned / rho - 1, 1e-6);
+  return std::min(f.once, std::max(f.often / kByChance, byReturn)) / std::max(area, 1e-30);
+}
+
 }  // namespace
 
 void PatchTree::list(const Elements& elements, ElementId top) {
@@ -28,6 +38,7 @@ void PatchTree::list(const Elements& elements, ElementId top) {
 /// Of a patch, from all that lies on it and below it.
 struct SpreadLevels::Cut {
   LandingSums sums;
+  double lit = 0;        // area
   double parts = 0;      // least error of what is below
   bool whole = true;     // its particles are spread over all of it
   bool tooMuch = false;  // for so small a patch, or one below
@@ -58,12 +69,14 @@ void SpreadLevels::choose(const Elements& elements, const std::vector<LandingSum
     const double A = std::max<double>(elements.shape(e).area, 1e-30);
     const double J = (2 * cut.sums.squares - cut.sums.weight * cut.sums.weight) / A;  // [Rudemo82 (2.8)]
     cut.whole = !split || cut.tooMuch || J <= cut.parts;
-    cut.tooMuch = cut.sums.share > kMost * A;
+    if (elements.isLeaf(e)) cut.lit = elements.shape(e).litArea();
+    const double times = excess(cut.sums.feedback, cut.lit, elements.radiometry[e.index()]);
+    cut.tooMuch = times > 1;
     // Counts where not even the whole surface is enough to spread it on.
-    damping_[e.index()] = cut.tooMuch ? static_cast<float>(kMost * A / cut.sums.share) : 1.0f;
+    damping_[e.index()] = cut.tooMuch ? static_cast<float>(1 / times) : 1.0f;
     if (i == 0) continue;
     Cut& up = cuts[tree.places[i].parent];
-    up.sums += cut.sums, up.parts += cut.whole ? J : cut.parts, up.tooMuch |= cut.tooMuch;
+    up.sums += cut.sums, up.lit += cut.lit, up.parts += cut.whole ? J : cut.parts, up.tooMuch |= cut.tooMuch;
   }
   // From above: once a patch is whole, so is everything in it.
   for (std::size_t i = 0; i < cuts.size(); ++i) {

@@ -5,11 +5,15 @@
 //   J = (2 sum w^2 - (sum w)^2) / A
 //
 // over the cut is least, w being the particles' fluxes and A a patch's area: the cross-validated squared error of a
-// histogram [Rudemo82]. No threshold, and much light on few particles is not mistaken for detail. A patch that would
-// receive more than surfaces of radiosity 1 all around could give it, over surfaces that reflect what these do, is too
-// small for its particles, too: light sent round between such patches would grow without end. Energy is kept, except
-// where a whole surface is that small.
+// histogram [Rudemo82]. No threshold, and much light on few particles is not mistaken for detail.
+//
+// A patch is too small for its particles, too, when light sent round between such patches could grow without end: when
+// it would get more from surfaces of radiosity 1 all around than they could send it over one surface that reflects what
+// those of the particles' links do, and either twice what they could over any number of such surfaces, as within a
+// brass tube, or so much that, with the 1 that comes straight, it would send back more than there is all around. Energy
+// is kept, except where a whole surface is that small.
 // Cost: 20 nanoseconds a patch of the surface.
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -17,14 +21,29 @@
 
 namespace deltalux {
 
+/// What an element can get back of what surfaces all around send, when each has a radiosity of 1.
+struct Feedback {
+  double flux = 0;
+  double once = 0;   // area that they could send as much to, over one surface like those of the links
+  double often = 0;  // the same over any number of them
+
+  void operator+=(const Feedback& o) { flux += o.flux, once += o.once, often += o.often; }
+  void operator-=(const Feedback& o) { flux -= o.flux, once -= o.once, often -= o.often; }
+};
+
+/// Of an impact of a path from a surface: flux per radiosity, largest channel, over a link of that albedo.
+inline Feedback feedbackOf(double flux, double albedo) {
+  return {flux, flux / albedo, flux * std::max(0.0, 1 - albedo) / albedo};
+}
+
 /// Of the impacts on an element itself.
 struct LandingSums {
   double weight = 0, squares = 0;  // by nominal senders
-  double share = 0;                // of the light of surfaces all around: flux per radiosity over the links' albedo
-  std::uint32_t count = 0;         // of impacts
+  Feedback feedback;
+  std::uint32_t count = 0;  // of impacts
 
   void operator+=(const LandingSums& o) {
-    weight += o.weight, squares += o.squares, share += o.share, count += o.count;
+    weight += o.weight, squares += o.squares, count += o.count, feedback += o.feedback;
   }
 };
 

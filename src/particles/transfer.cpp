@@ -70,10 +70,10 @@ template <class Visit>
 void ParticleTransfer::visit(const Particles& p, std::size_t path, std::uint32_t sender, std::uint32_t cell,
                              const PathRange& range, const Visit& visit) const {
   const ParticleLink& link = p.links[p.link[path]];
-  const float scale = link.scale, whole = scale / link.albedo;
+  const float scale = link.scale;
   for (std::uint32_t i = range.impact; i < range.impact + range.impacts; ++i)
     visit(Landing{elementOf_[i], sender, scale * p.throughput[i], scale * p.nominal[cell] * gray(p.throughput[i]),
-                  whole * maxChannel(p.throughput[i])});
+                  link.albedo});
 }
 
 ParticleTransfer::ParticleTransfer(const Particles& p, const Elements& elements, const Scene& scene)
@@ -185,11 +185,22 @@ std::vector<ElementId> ParticleTransfer::follow(const Particles& p, const Partic
   return changed;
 }
 
+std::vector<ElementId> ParticleTransfer::followPatches(const Elements& elements, std::span<const ElementId> patches) {
+  std::vector<ElementId> under;
+  for (const ElementId e : patches) under.push_back(surfaceOf(elements, e));
+  sortUnique(under);
+  std::erase_if(under, [&](ElementId e) {
+    return !elements.receives(e) || !std::binary_search(surfaces_.begin(), surfaces_.end(), e);
+  });
+  levels_.choose(under, elements, sums_);
+  return under;
+}
+
 void ParticleTransfer::add(const Landing& l) {
   if (l.sender == kNone) return;
   LandingSums& s = sums_[l.element];
   s.weight += l.weight, s.squares += double(l.weight) * l.weight, ++s.count;
-  if (l.sender >= lights_) s.share += l.share;
+  if (l.sender >= lights_) s.feedback += feedbackOf(maxChannel(l.flux), l.albedo);
   std::vector<Entry>& all = entries_[l.element];
   auto at = std::lower_bound(all.begin(), all.end(), l.sender,
                              [](const Entry& e, std::uint32_t sender) { return e.sender < sender; });
@@ -201,7 +212,7 @@ void ParticleTransfer::remove(const Landing& l) {
   if (l.sender == kNone) return;
   LandingSums& s = sums_[l.element];
   s.weight -= l.weight, s.squares -= double(l.weight) * l.weight, --s.count;
-  if (l.sender >= lights_) s.share -= l.share;
+  if (l.sender >= lights_) s.feedback -= feedbackOf(maxChannel(l.flux), l.albedo);
   std::vector<Entry>& all = entries_[l.element];
   const auto at = std::lower_bound(all.begin(), all.end(), l.sender,
                                    [](const Entry& e, std::uint32_t sender) { return e.sender < sender; });

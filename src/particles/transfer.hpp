@@ -25,6 +25,10 @@ class ParticleTransfer {
   /// particles, or compacted ones: then make a new one. Returns the surfaces that particles lie otherwise on.
   std::vector<ElementId> follow(const Particles&, const ParticleUpdate&, const Elements&, const Scene&);
 
+  /// Takes in that these patches reflect otherwise or are covered otherwise. Returns their surfaces with particles on
+  /// them, which may lie otherwise by that.
+  std::vector<ElementId> followPatches(const Elements&, std::span<const ElementId> patches);
+
   /// Writes E of particles at every leaf from today's radiosities and the scale of lights.
   void apply(Elements&, const Scene&) const;
 
@@ -67,7 +71,7 @@ class ParticleTransfer {
     std::uint32_t element, sender;
     Rgb flux;
     float weight;
-    float share;  // of the light of surfaces all around: flux per radiosity, had nothing been lost on the way
+    float albedo;  // of its link
   };
 
   std::uint32_t locateSender(const Particles&, std::size_t path, const SideLocator&, const Scene&) const;

@@ -94,5 +94,19 @@ TEST(ParticleFurnace, Pane) {
   EXPECT_NEAR(meanIrradiance(engine.solution().get(), 6) / kExact, 1.0, 0.01);
 }
 
+/// What is glossy shines on itself: more comes back to a wall than all walls could send it over one of them.
+TEST(ParticleFurnace, BrassWalls) {
+  constexpr float diffuse = 0.2f, specular = 0.6f;
+  Scene scene;
+  const MaterialId brass = test::addMaterial(scene, "brass", Opaque{Rgb(diffuse), {}, {Rgb(specular), 0.0f, {}}},
+                                             Emission{Rgb(1.0f), false, {}});
+  test::addBox(scene, brass, {0, 0, 0}, {1, 1.5, 0.8}, true);
+  SolveSettings settings;
+  settings.error = 0.02, settings.particles = 300000;
+  Engine engine(std::move(scene), settings);
+  engine.solve();
+  EXPECT_NEAR(meanIrradiance(engine.solution().get(), 6) / (kPi / (1 - diffuse - specular)), 1.0, 0.01);
+}
+
 }  // namespace
 }  // namespace deltalux
