@@ -30,7 +30,7 @@ void RowSurplus::takeLeaf(const Elements& elements, std::size_t e) {
   const float limit = std::max(1.0f, kMostReturned / std::max(maxChannel(light.rho + light.tau), 1e-3f));
   node.scale = 1 / std::max(g.exposed, node.factors / limit);
   node.surplus = g.area * std::max(0.0f, node.factors - limit * g.exposed);
-  node.room = node.factors > 0 ? g.area * std::max(0.0f, g.exposed - node.factors) : 0.0f;
+  node.room = g.area * std::clamp(g.exposed - node.factors, 0.0f, node.factors);
   node.height = 0;
 }
 

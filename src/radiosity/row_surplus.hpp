@@ -8,7 +8,11 @@
 //
 //   factors   F = sum of T over a row, that is of the whole leaf: in a closed cavity the exposed share of it
 //   limit     what F may be for each unit of exposed area: 1, or 0.98 / rho where that is more
-//   surplus   A (F - limit exposed), room A (exposed - F), where positive; summed upwards until there is room
+//   surplus   A (F - limit exposed), where positive
+//   room      A (exposed - F), where positive, but no more than A F: what sees little is not lit by its neighbours'
+//   chance
+//
+// Both are summed upwards until there is room.
 //
 // Cost: 32 bytes an element; a pass over leaves with a surplus before light is gathered.
 #include <span>

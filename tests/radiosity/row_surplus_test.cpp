@@ -79,6 +79,17 @@ TEST_F(RowSurpluses, LoseNothingAndGiveNobodyTooMuch) {
   EXPECT_NEAR(given, gathered, 1e-4 * gathered);
 }
 
+/// Every other leaf sees next to nothing: what its neighbours have too much of must not light it.
+TEST_F(RowSurpluses, LeaveInTheDarkWhatSeesLittle) {
+  constexpr float little = 0.001f;
+  for (std::size_t i = 0; i < leaves.size(); i += 2) factors[i] = little * elements.shape(leaves[i]).exposed;
+  const std::vector<float> E = received(listed(), 1);
+  float most = 0;
+  for (std::size_t i = 0; i < leaves.size(); i += 2) most = std::max(most, E[i]);
+  EXPECT_GT(most, little * 1.001f);  // some do share
+  EXPECT_LE(most, 2 * little * 1.001f);
+}
+
 TEST_F(RowSurpluses, FollowChangesAsIfListedAnew) {
   RowSurplus surplus = listed();
   const std::vector<float> before = received(surplus, 1);
