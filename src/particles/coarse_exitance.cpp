@@ -174,12 +174,12 @@ CoarseExitance coarseExitance(const Scene& scene, const RayTracer& tracer, const
   });
   for (const std::uint64_t r : rays) result.rays += r;
 
-  std::vector<double> source(count), exitance(count);
+  std::vector<double> source(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double measure = senders.cells()[first + i].measure;
     source[i] = kNominalReflectance * (found[i].direct + (measure > 0 ? caustics[first + i] / measure : 0.0));
   }
-  exitance = source;
+  std::vector<double> exitance = source;
   for (int bounce = 0; bounce < kBounces; ++bounce) {
     const std::vector<double> before = exitance;
     for (std::size_t i = 0; i < count; ++i) {

@@ -3,19 +3,18 @@
 #include <algorithm>
 
 #include "base/parallel.hpp"
+#include "hierarchy/most_returned.hpp"
 
 namespace deltalux {
 
 namespace {
 
-constexpr double kMostReturned = 0.98;  // by a patch of what falls on it, when all around sends as much as it does
-constexpr double kByChance = 2;         // times what surfaces could send: more is no mere chance
+constexpr double kByChance = 2;  // times what surfaces could send: more is no mere chance
 constexpr std::size_t kBlock = 64;
 
 /// By which what comes back exceeds what a patch of that area may get.
 double excess(const Feedback& f, double area, const ElementLight& light) {
-  const double rho = std::max<double>(maxChannel(light.rho + light.tau), 1e-3);
-  const double byReturn = f.flux / std::max(kMostReturned / rho - 1, 1e-6);
+  const double byReturn = f.flux / std::max<double>(mostReturned(light) - 1, 1e-6);
   return std::min(f.once, std::max(f.often / kByChance, byReturn)) / std::max(area, 1e-30);
 }
 

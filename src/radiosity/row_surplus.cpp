@@ -8,14 +8,14 @@
 #include "base/paged_array.hpp"
 #include "base/room.hpp"
 #include "hierarchy/below.hpp"
+#include "hierarchy/most_returned.hpp"
 
 namespace deltalux {
 
 namespace {
 
-constexpr float kMostReturned = 0.98f;  // of what a closed cavity of a leaf's kind would send to it
-constexpr float kSameGroup = 1e-3f;     // relative difference of what a group takes that is none
-constexpr int kHighest = 9;             // levels of a group above the furthest of its leaves
+constexpr float kSameGroup = 1e-3f;  // relative difference of what a group takes that is none
+constexpr int kHighest = 9;          // levels of a group above the furthest of its leaves
 
 bool alike(float a, float b) { return std::abs(a - b) <= kSameGroup * std::max(a, b); }
 
@@ -26,8 +26,7 @@ void RowSurplus::resize(const Elements& elements) { resizeWithRoom(nodes_, eleme
 void RowSurplus::takeLeaf(const Elements& elements, std::size_t e) {
   Node& node = nodes_[e];
   const ElementGeometry& g = elements.geometry[e];
-  const ElementLight& light = elements.radiometry[e];
-  const float limit = std::max(1.0f, kMostReturned / std::max(maxChannel(light.rho + light.tau), 1e-3f));
+  const float limit = std::max(1.0f, mostReturned(elements.radiometry[e]));
   node.scale = 1 / std::max(g.exposed, node.factors / limit);
   node.surplus = g.area * std::max(0.0f, node.factors - limit * g.exposed);
   node.room = g.area * std::clamp(g.exposed - node.factors, 0.0f, node.factors);

@@ -62,12 +62,14 @@ TEST(SpreadLevels, WhatIsTooMuchForALeafIsSpreadOverTheSurface) {
 }
 
 TEST(SpreadLevels, NothingComesBackBrighterAndBrighter) {
-  for (const float rho : {0.2f, 0.4f, 0.6f, 0.8f, 0.95f})
+  for (const float rho : {0.2f, 0.4f, 0.6f, 0.8f, 0.95f}) {
+    Floor floor(rho);
     for (const float albedo : {0.15f, 0.7f, 0.95f}) {
-      const double taken = 50 * Floor(rho).damping(50, albedo);
+      const double taken = 50 * floor.damping(50, albedo);
       // As much as over one surface, or what, with the 1 that comes straight, does not grow on its way round.
       EXPECT_TRUE(taken <= albedo * 1.001 || rho * (1 + taken) < 1) << rho << ' ' << albedo << ' ' << taken;
     }
+  }
 }
 
 TEST(SpreadLevels, WithinATubeMoreThanOneWallsWorthIsTaken) {

@@ -1,0 +1,15 @@
+#pragma once
+// How much light a patch may be given back of what it sends before light between such patches would grow without end.
+#include <algorithm>
+
+#include "hierarchy/element.hpp"
+
+namespace deltalux {
+
+/// Irradiance per radiosity of all around, of which a patch sends back a little less than there is.
+inline float mostReturned(const ElementLight& light) {
+  constexpr float kShare = 0.98f;  // of what a closed cavity of such patches would send
+  return kShare / std::max(maxChannel(light.rho + light.tau), 1e-3f);
+}
+
+}  // namespace deltalux
