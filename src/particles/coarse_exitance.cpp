@@ -6,6 +6,7 @@
 #include "base/cosine_direction.hpp"
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
+#include "tracing/shadow_ray.hpp"
 
 namespace deltalux {
 
@@ -46,9 +47,10 @@ class Direct {
     if (samples_.empty()) return 0;
     const auto drawn = std::upper_bound(samples_.begin(), std::prev(samples_.end()), target,
                                         [](double x, const Sample& s) { return x < s.summed; });
+    const LightSample& to = drawn->light;
     ++rays;
     return total * static_cast<double>(all) / static_cast<double>(some) *
-           gray(tracer.transmittance(towards(p, drawn->light)));
+           gray(tracer.transmittance(shadowRay(p.position, p.normal, to.direction, to.distance, to.normal)));
   }
 
  private:
@@ -56,15 +58,6 @@ class Direct {
     double summed;
     LightSample light;
   };
-
-  static Ray towards(const SurfacePoint& p, const LightSample& s) {
-    const Vec3f x(p.position), n(p.normal);
-    if (!std::isinf(s.distance)) return segment(x, n, Vec3f(p.position + s.distance * s.direction), Vec3f(s.normal));
-    Ray ray;
-    ray.direction = Vec3f(s.direction);
-    ray.origin = offsetOrigin(x, n, ray.direction);
-    return ray;
-  }
 
   const Scene& scene_;
   const LightSampler& lights_;

@@ -4,6 +4,7 @@
 
 #include "base/sobol.hpp"
 #include "hierarchy/patch.hpp"
+#include "tracing/shadow_ray.hpp"
 
 namespace deltalux {
 
@@ -120,15 +121,8 @@ std::optional<LightArrival> DirectLight::shadowRay(const SenderList& choice, con
 std::optional<LightArrival> DirectLight::arrival(ElementId sender, const Receiver& x, const Vec2& u) const {
   const auto sample = sampleSender(sender, x, u);
   if (!sample || !(glm::dot(sample->direction, x.normal) > 0)) return std::nullopt;
-  const Vec3f from(x.position), n(x.normal), w(sample->direction);
-  Ray ray;
-  if (std::isinf(sample->distance)) {
-    ray.origin = offsetOrigin(from, n, w);
-    ray.direction = w;
-  } else {
-    ray = segment(from, n, Vec3f(x.position + sample->distance * sample->direction), Vec3f(sample->normal));
-  }
-  const Rgb V = tracer_.transmittance(ray);
+  const Rgb V = tracer_.transmittance(
+      deltalux::shadowRay(x.position, x.normal, sample->direction, sample->distance, sample->normal));
   if (isBlack(V)) return std::nullopt;
   return LightArrival{sample->direction, elements_.light[sample->sender.index()], V * sample->E};
 }

@@ -4,15 +4,6 @@
 
 namespace deltalux {
 
-Ray shadowRay(const Vec3& from, const Vec3& fromNormal, const Vec3& direction, double distance, const Vec3& toNormal) {
-  const Vec3f origin(from), normal(fromNormal), d(direction);
-  if (!std::isinf(distance)) return segment(origin, normal, Vec3f(from + distance * direction), Vec3f(toNormal));
-  Ray ray;
-  ray.origin = offsetOrigin(origin, normal, d);
-  ray.direction = d;
-  return ray;
-}
-
 void BentWay::leg(const Vec3& to, const Vec3& toNormal) {
   const Vec3 d = to - at_;
   const double distance = glm::length(d);

@@ -1,4 +1,5 @@
 #pragma once
+#include "tracing/shadow_ray.hpp"
 // A way from a point to a light over known corners, as it is put together: its legs for shadow rays, its attenuation.
 #include <deltalux/math.hpp>
 #include <deltalux/units.hpp>
@@ -6,9 +7,6 @@
 #include "render/reference/light_connections.hpp"
 
 namespace deltalux {
-
-/// The open segment from `from`, or the ray when `distance` is infinite; zero normals in free space.
-Ray shadowRay(const Vec3& from, const Vec3& fromNormal, const Vec3& direction, double distance, const Vec3& toNormal);
 
 class BentWay {
  public:
