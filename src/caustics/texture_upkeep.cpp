@@ -66,7 +66,7 @@ TextureUpkeep::Report TextureUpkeep::follow(const ParticleUpdate& update, const 
                                             Caustics& caustics) {
   DELTALUX_CHECK(!update.all, "the particles of before");
   takeIn(update);
-  const std::vector<Rgb> powers = weigh(transfer);
+  const LargeArray<Rgb> powers = weigh(transfer);
   compare();
   const std::vector<double> background = meanOtherLight(parts_.scene, parts_.elements);
   std::vector<char> sides(looks_.size(), 0);
@@ -101,13 +101,14 @@ void TextureUpkeep::takeIn(const ParticleUpdate& update) {
 }
 
 /// Today's flux of every impact and tile. What every path carries.
-std::vector<Rgb> TextureUpkeep::weigh(const ParticleTransfer& transfer) {
+LargeArray<Rgb> TextureUpkeep::weigh(const ParticleTransfer& transfer) {
   const Particles& p = parts_.particles;
   now_.resize(p.impactSlots(), 0.0f);
-  std::vector<Rgb> powers(p.paths(), Rgb(0.0f));
+  LargeArray<Rgb> powers(p.paths());
   std::vector<std::vector<RgbSum>> sums(kParts, std::vector<RgbSum>(tiles_.size(), RgbSum(0.0)));
   inParts(p.paths(), [&](std::size_t part, std::size_t begin, std::size_t end) {
     for (std::size_t path = begin; path < end; ++path) {
+      powers[path] = Rgb(0.0f);
       if (p.range[path].impacts == 0) continue;
       const Rgb power = p.links[p.link[path]].scale * transfer.power(path, parts_.elements, parts_.scene);
       powers[path] = power;
@@ -187,7 +188,7 @@ bool TextureUpkeep::changed(std::size_t side, double background, bool textured) 
 }
 
 /// By side; on each in the order of the particles.
-std::vector<Impact> TextureUpkeep::landedOn(const std::vector<char>& sides, const std::vector<Rgb>& powers) const {
+std::vector<Impact> TextureUpkeep::landedOn(const std::vector<char>& sides, const LargeArray<Rgb>& powers) const {
   const Particles& p = parts_.particles;
   std::vector<std::vector<std::uint32_t>> places(kParts, std::vector<std::uint32_t>(sides.size(), 0));
   const auto forEach = [&](const auto& body) {

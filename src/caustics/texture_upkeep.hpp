@@ -57,21 +57,21 @@ class TextureUpkeep {
   };
 
   void takeIn(const ParticleUpdate&);
-  std::vector<Rgb> weigh(const ParticleTransfer&);
+  LargeArray<Rgb> weigh(const ParticleTransfer&);
   void compare();
   RgbSum fluxOf(std::size_t side) const;
   bool fewParticles(const SurfaceTiles::Side&) const;
   static std::vector<Tile> halved(const std::vector<Tile>&, std::uint32_t across);
   bool changed(std::size_t side, double background, bool textured) const;
-  std::vector<Impact> landedOn(const std::vector<char>& sides, const std::vector<Rgb>& powers) const;
+  std::vector<Impact> landedOn(const std::vector<char>& sides, const LargeArray<Rgb>& powers) const;
   void remember(const std::vector<char>& sides, const std::vector<double>& background);
 
   Parts parts_;
   double error_;
   SurfaceTiles tiles_;
-  std::vector<std::uint32_t> tileOf_;  // by slot of impact
-  std::vector<float> then_, now_;      // gray flux by slot: when its side was last looked at; today
-  std::vector<Look> looks_;            // by side
+  LargeArray<std::uint32_t> tileOf_;  // by slot of impact
+  LargeArray<float> then_, now_;      // gray flux by slot: when its side was last looked at; today
+  std::vector<Look> looks_;           // by side
   std::vector<Tile> tile_;
 };
 

@@ -81,7 +81,7 @@ double Lookout::passedOn(const Arrival& a, const EventNumbers& u, std::uint64_t&
   ray.direction = event->direction;
   ray.origin = offsetOrigin(a.position, a.normal, ray.direction);
   ++rays;
-  return tracer_.closestHit(ray) ? gray(a.flux * event->weight) : 0;
+  return tracer_.occluded(ray) ? gray(a.flux * event->weight) : 0;
 }
 
 }  // namespace deltalux

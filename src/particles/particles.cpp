@@ -57,9 +57,9 @@ namespace {
 
 /// Moves the entries of all ranges, in the order of the paths, to the front of a new array.
 template <class T>
-void gather(std::vector<T>& array, const std::vector<PathRange>& ranges, std::uint32_t PathRange::*first,
+void gather(LargeArray<T>& array, const LargeArray<PathRange>& ranges, std::uint32_t PathRange::*first,
             std::uint16_t PathRange::*count) {
-  std::vector<T> dense;
+  LargeArray<T> dense;
   for (const PathRange& r : ranges) {
     const auto begin = array.begin() + static_cast<std::ptrdiff_t>(r.*first);
     dense.insert(dense.end(), begin, begin + r.*count);

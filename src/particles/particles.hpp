@@ -13,6 +13,7 @@
 // Memory: about 16 bytes a vertex, 41 a path, 32 an impact.
 #include <span>
 
+#include "base/large_array.hpp"
 #include "particles/ds_links.hpp"
 #include "particles/impact.hpp"
 #include "particles/path_account.hpp"
@@ -55,24 +56,24 @@ struct Particles {
   std::vector<ParticleLink> links;
 
   // Per path.
-  std::vector<std::uint32_t> link;            // index
-  std::vector<std::uint32_t> sender;          // cell
-  std::vector<std::uint32_t> originTriangle;  // of a mesh
-  std::vector<PathRange> range;
-  std::vector<PathAccount> account;
-  std::vector<std::uint8_t> fate;
+  LargeArray<std::uint32_t> link;            // index
+  LargeArray<std::uint32_t> sender;          // cell
+  LargeArray<std::uint32_t> originTriangle;  // of a mesh
+  LargeArray<PathRange> range;
+  LargeArray<PathAccount> account;
+  LargeArray<std::uint8_t> fate;
 
   // Ranges may leave gaps where paths were traced anew.
 
   // Per vertex: origin, then every surface met; a path that leaves ends at a point outside. None: never traced.
-  std::vector<Vec3f> vertices;
-  std::vector<PrimitiveId> met;  // there, if anything was; where a target was not reached, what stood before it
+  LargeArray<Vec3f> vertices;
+  LargeArray<PrimitiveId> met;  // there, if anything was; where a target was not reached, what stood before it
 
   // Per impact.
-  std::vector<PrimitiveId> primitive;
-  std::vector<std::uint32_t> triangleAndSide;  // triangle * 2 + (front ? 0 : 1)
-  std::vector<glm::vec2> uv;
-  std::vector<Rgb> throughput;  // of its path alone; the link's scale comes on top
+  LargeArray<PrimitiveId> primitive;
+  LargeArray<std::uint32_t> triangleAndSide;  // triangle * 2 + (front ? 0 : 1)
+  LargeArray<glm::vec2> uv;
+  LargeArray<Rgb> throughput;  // of its path alone; the link's scale comes on top
 
   double quantum = 0;       // flux that one particle stands for, by the estimate [W]
   std::uint64_t rays = 0;   // of the particles

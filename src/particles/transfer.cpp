@@ -95,7 +95,7 @@ ParticleTransfer::ParticleTransfer(const Particles& p, const Elements& elements,
         ++first[l.element + 1];
     });
   for (std::size_t e = 0; e < elements.size(); ++e) first[e + 1] += first[e];
-  std::vector<Landing> landings(first.back());
+  LargeArray<Landing> landings(first.back());
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
   for (std::size_t path = 0; path < p.paths(); ++path)
     visit(p, path, senderOf_[path], p.sender[path], p.range[path], [&](const Landing& l) {

@@ -86,8 +86,8 @@ class ParticleTransfer {
 
   std::size_t lights_ = 0;
   double lost_ = 0;
-  std::vector<std::uint32_t> senderOf_;      // by path
-  std::vector<std::uint32_t> elementOf_;     // by slot of impact
+  LargeArray<std::uint32_t> senderOf_;       // by path
+  LargeArray<std::uint32_t> elementOf_;      // by slot of impact
   std::vector<std::vector<Entry>> entries_;  // by element: ascending by sender
   std::vector<LandingSums> sums_;            // by element
   std::vector<char> places_;                 // by element: whether particles can start and land there

@@ -89,8 +89,8 @@ namespace archive_detail {
 
 template <class>
 inline constexpr bool kIsVector = false;
-template <class T>
-inline constexpr bool kIsVector<std::vector<T>> = true;
+template <class T, class Memory>
+inline constexpr bool kIsVector<std::vector<T, Memory>> = true;
 template <class>
 inline constexpr bool kIsOptional = false;
 template <class T>
