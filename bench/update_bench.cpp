@@ -21,6 +21,7 @@
 #include <deltalux/edit_io.hpp>
 #include <deltalux/engine.hpp>
 #include <deltalux/io.hpp>
+#include <deltalux/memory.hpp>
 #include <stdexcept>
 #include <string_view>
 
@@ -278,6 +279,7 @@ bool run(const std::vector<std::string>& words) {
 }  // namespace deltalux::bench
 
 int main(int argc, char** argv) {
+  deltalux::keepFreedMemory();
   try {
     if (deltalux::bench::run({argv + 1, argv + argc})) return 0;
   } catch (const std::exception& error) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <deltalux/error.hpp>
+#include <deltalux/memory.hpp>
 #include <deltalux/scene.hpp>
 #include <exception>
 #include <new>
@@ -74,6 +75,7 @@ int run(CLI::App& app, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keepFreedMemory();
   cli::catchInterrupts();
   CLI::App app{"Physically based global illumination, updated incrementally.", "deltalux"};
   app.set_version_flag("--version", "deltalux " DELTALUX_VERSION);
