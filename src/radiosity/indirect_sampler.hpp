@@ -41,6 +41,10 @@ class IndirectSampler {
   /// little of it is left, or its rays have grown too uneven.
   bool update(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed, const SpaceChange&, int rays,
               TransferRow&, std::uint64_t& traced) const;
+  /// The row of a leaf that has been split off another, by the rays that were dealt to that one: each is drawn anew
+  /// from this leaf, and those over changed links are dealt anew. A row of its own where the rays do not suit it.
+  TransferRow inherited(ElementId leaf, const TransferRow& from, const LinkChanges&, std::span<const LinkId> changed,
+                        int rays, std::uint64_t& traced) const;
   /// Irradiance at a point of a leaf patch (unit normal) from the leaves' radiosities.
   Rgb atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const;
 
@@ -110,7 +114,9 @@ class IndirectSampler {
   bool turn(ElementId leaf, const LinkChanges&, std::span<const LinkId> changed, const SpaceChange&,
             TransferRow&) const;
   bool relink(ElementId leaf, const LinkChanges&, std::span<const LinkId> changed, TransferRow&) const;
-  std::vector<Again> moved(ElementId leaf, const TransferRow&) const;
+  std::vector<Again> allOf(ElementId leaf, const TransferRow&) const;
+  bool dropStale(const LinkChanges&, std::span<const LinkId> changed, TransferRow&) const;
+  bool suits(ElementId leaf, std::span<const Again>, int rays, const TransferRow&) const;
   bool uneven(ElementId leaf, std::span<const Again>, const TransferRow&) const;
   bool coveredBy(std::span<const LinkId> changed, const RowTerm&) const;
   Found findAgain(ElementId leaf, const RowTerm&, const SenderSample&, std::uint64_t& traced) const;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kMostGone = 0.5f;  // of the rays of a leaf that has moved: with fewer left, all are dealt anew
 constexpr double kUneven = 5.0;    // so they are when the mean square of what each may bring is this many shares'
+constexpr std::size_t kMostInherited = 2;  // times the rays that a leaf deserves: more cost more than new ones
 
 }  // namespace
 
@@ -50,14 +51,10 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(ElementId leaf, con
 bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed,
                              const SpaceChange& space, int rays, TransferRow& row, std::uint64_t& traced) const {
   if (space.hiddenFrom(leaf) && !space.moved(leaf) && turn(leaf, links, changed, space, row)) return false;
-  const auto stale = [&](const RowTerm& t) {
-    const LinkChange change = changeOf(links, t.link);
-    return change == LinkChange::Changed || (change == LinkChange::Touched && coveredBy(changed, t));
-  };
-  const bool gone = !changed.empty() && drop(row, stale) > 0;
-  const std::vector<Again> again = space.moved(leaf) ? moved(leaf, row) : meeting(leaf, space, row);
+  const bool gone = dropStale(links, changed, row);
+  const std::vector<Again> again = space.moved(leaf) ? allOf(leaf, row) : meeting(leaf, space, row);
   if (space.moved(leaf)) {
-    if (static_cast<float>(row.terms.size()) < kMostGone * static_cast<float>(rays) || uneven(leaf, again, row)) {
+    if (!suits(leaf, again, rays, row)) {
       row = atLeaf(leaf, rays, traced);
       return true;
     }
@@ -66,6 +63,33 @@ bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span
   const bool other = retrace(leaf, again, row, traced);
   const bool dealt = !changed.empty() && dealChanged(leaf, changed, rays, row, traced);
   return gone || other || dealt;
+}
+
+TransferRow IndirectSampler::inherited(ElementId leaf, const TransferRow& from, const LinkChanges& links,
+                                       std::span<const LinkId> changed, int rays, std::uint64_t& traced) const {
+  TransferRow row = from;
+  dropStale(links, changed, row);
+  const std::vector<Again> again = allOf(leaf, row);
+  if (row.terms.size() > kMostInherited * static_cast<std::size_t>(rays) || !suits(leaf, again, rays, row))
+    return atLeaf(leaf, rays, traced);
+  row.reach = {};
+  retrace(leaf, again, row, traced);
+  if (!changed.empty()) dealChanged(leaf, changed, rays, row, traced);
+  return row;
+}
+
+/// Takes the terms over links that are others by now out of a row; whether they brought anything.
+bool IndirectSampler::dropStale(const LinkChanges& links, std::span<const LinkId> changed, TransferRow& row) const {
+  const auto stale = [&](const RowTerm& t) {
+    const LinkChange change = changeOf(links, t.link);
+    return change == LinkChange::Changed || (change == LinkChange::Touched && coveredBy(changed, t));
+  };
+  return !changed.empty() && drop(row, stale) > 0;
+}
+
+/// Whether the rays that were dealt elsewhere will do here: there are enough of them, and none brings too much.
+bool IndirectSampler::suits(ElementId leaf, std::span<const Again> again, int rays, const TransferRow& row) const {
+  return static_cast<float>(row.terms.size()) >= kMostGone * static_cast<float>(rays) && !uneven(leaf, again, row);
 }
 
 /// The row of a leaf from which all that moved is hidden, before and after, brings what it did, over the links that
@@ -125,8 +149,8 @@ bool IndirectSampler::relink(ElementId leaf, const LinkChanges& links, std::span
   return true;
 }
 
-/// The rays of all terms, for a leaf that has moved itself.
-std::vector<IndirectSampler::Again> IndirectSampler::moved(ElementId leaf, const TransferRow& row) const {
+/// The rays of all terms, from where the leaf is now.
+std::vector<IndirectSampler::Again> IndirectSampler::allOf(ElementId leaf, const TransferRow& row) const {
   std::vector<Again> out;
   out.reserve(row.terms.size());
   for (std::uint32_t i = 0; i < row.terms.size(); ++i) {

@@ -99,6 +99,7 @@ class LeafTransfers {
   void dropNoLeaves(const Elements&);
   void measure(const LeafRow&);
   void setRow(ElementId leaf, std::size_t row);
+  const TransferRow* inheritance(const Elements&, ElementId leaf, const SpaceChange&) const;
 
   std::vector<LeafRow> rows_;  // one a leaf
   MeanLeaf mean_;              // when they were built
@@ -106,7 +107,12 @@ class LeafTransfers {
   std::vector<std::uint32_t> rowOf_;  // by element: index of its row, or none
   SurfaceReaches reaches_;
   RowSurplus surplus_;
-  std::vector<ElementId> dropped_;  // leaves whose rows were, since the last update
+  /// Of a leaf that is one no more.
+  struct Dropped {
+    ElementId leaf;
+    TransferRow indirect;
+  };
+  std::vector<Dropped> dropped_;  // since the last update; what they were split into takes over their rays
 };
 
 }  // namespace deltalux

@@ -58,13 +58,30 @@ void LeafTransfers::dropNoLeaves(const Elements& elements) {
   for (const std::size_t e : parallelWhere(rowOf_.size(), kManyElements, isStale)) {
     const std::uint32_t row = std::exchange(rowOf_[e], kNone);
     surplus_.set(ElementId(e), 0);
-    dropped_.emplace_back(e);
+    dropped_.push_back({ElementId(e), std::move(rows_[row].indirect)});
     if (row + 1 < rows_.size()) {
       rows_[row] = std::move(rows_.back());
       setRow(rows_[row].leaf, row);
     }
     rows_.pop_back();
   }
+}
+
+/// The row of the leaf that another was split off; null where there is none, and where what moved may have covered that
+/// leaf: its rays are those of the part that was not covered.
+const TransferRow* LeafTransfers::inheritance(const Elements& elements, ElementId leaf,
+                                              const SpaceChange& space) const {
+  for (ElementId e = leaf; e.valid() && elements.at(e).depth > 0;) {
+    e = elements.at(e).parent;
+    const LeafRow* kept = find(e);  // where it was split just now
+    const auto at = std::lower_bound(dropped_.begin(), dropped_.end(), e,
+                                     [](const Dropped& d, ElementId other) { return d.leaf < other; });
+    const bool dropped = at != dropped_.end() && at->leaf == e;
+    if (!kept && !dropped) continue;
+    const TransferRow& row = kept ? kept->indirect : at->indirect;
+    return row.terms.empty() || uncovers(elements, e, space) ? nullptr : &row;
+  }
+  return nullptr;
 }
 
 void LeafTransfers::listRows(const Elements& elements) {
@@ -162,12 +179,13 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
       rows_[rowOf_[leaf.index()]].indirect = {}, indirect.push_back(leaf);
   std::erase_if(indirect, [&](ElementId e) { return !elements.isReceivingLeaf(e); });
   sortUnique(indirect);
+  std::sort(dropped_.begin(), dropped_.end(), [](const Dropped& a, const Dropped& b) { return a.leaf < b.leaf; });
   updateIndirect(elements, change, indirect, report, reaching);
   for (const ElementId leaf : reaching)
     if (const LeafRow* row = find(leaf)) reaches_.add(elements, leaf, row->direct, row->indirect);
   dropNoLeaves(elements);
-  std::vector<ElementId> others = std::exchange(dropped_, {});
-  others.insert(others.end(), report.leaves.begin(), report.leaves.end());
+  std::vector<ElementId> others = report.leaves;
+  for (const Dropped& d : std::exchange(dropped_, {})) others.push_back(d.leaf);
   surplus_.follow(elements, others, report.leaves);
   sortUnique(report.leaves);
   return report;
@@ -232,13 +250,15 @@ void LeafTransfers::updateIndirect(const Elements& elements, const Change& chang
     const int ofLeaf = gatherRays.of(leaf, elements);
     LeafRow& whole = rows_[rowOf_[leaf.index()]];
     TransferRow& row = whole.indirect;
+    const std::vector<LinkId> changed = change.arriving.changedAt(leaf, false);
     if (row.terms.empty()) {
-      row = sampler.atLeaf(leaf, ofLeaf, rays[i]);
+      const TransferRow* from = inheritance(elements, leaf, change.space);
+      row = from ? sampler.inherited(leaf, *from, change.marks.changes, changed, ofLeaf, rays[i])
+                 : sampler.atLeaf(leaf, ofLeaf, rays[i]);
       other[i] = elsewhere[i] = 1;
     } else {
       const RowReach before = row.reach;
-      other[i] = sampler.update(leaf, change.marks.changes, change.arriving.changedAt(leaf, false), change.space,
-                                ofLeaf, row, rays[i]);
+      other[i] = sampler.update(leaf, change.marks.changes, changed, change.space, ofLeaf, row, rays[i]);
       elsewhere[i] = row.reach != before;
     }
     measure(whole);

@@ -6,6 +6,7 @@
 #include "base/sobol.hpp"
 #include "hierarchy/patch.hpp"
 #include "hierarchy/side_locator.hpp"
+#include "radiosity/indirect_sampler.hpp"
 #include "solution/solution.hpp"
 #include "support/rooms.hpp"
 
@@ -63,6 +64,46 @@ TEST(LeafTransfers, BringWhatRaysOverTheHemisphereFind) {
   EXPECT_GT(leaves, 50);
   EXPECT_NEAR(power, found, 0.015 * found);
   EXPECT_LT(apart, 0.06 * found);
+}
+
+/// What a row of a leaf brings: irradiance from today's radiosities, without the light that it has too much of.
+double broughtBy(const TransferRow& row, const Elements& elements) {
+  double sum = 0;
+  for (const LeafTransfer& t : row.transfers) sum += gray(t.T * elements.radiometry[t.leaf.index()].B);
+  return sum;
+}
+
+TEST(LeafTransfers, PartsOfALeafInheritItsRays) {
+  constexpr int kRays = 512;
+  Engine engine(furnished());
+  engine.solve();
+  const Solution& s = engine.solution().get();
+  Elements elements = s.elements;
+  const SideLocator locator(s.elements, s.scene);
+  double found = 0, asFresh = 0, light = 0, leaves = 0, cheaper = 0;
+  for (const LeafRow& whole : s.transfers.rows()) {
+    if (whole.leaf.index() % 5 != 0 || !elements.at(whole.leaf).flat) continue;
+    const std::size_t before = elements.size();
+    if (!subdivide(elements, s.scene, whole.leaf)) continue;
+    const IndirectSampler sampler(s.scene, elements, s.links, *s.tracer);
+    std::uint64_t rays = 0;
+    const TransferRow from = sampler.atLeaf(whole.leaf, kRays, rays);
+    for (std::size_t part = before; part < elements.size(); ++part) {
+      std::uint64_t traced = 0, anew = 0;
+      const TransferRow row = sampler.inherited(ElementId(part), from, {}, {}, kRays, traced);
+      const double A = elements.geometry[part].area;
+      found += A * broughtBy(row, elements);
+      asFresh += A * broughtBy(sampler.atLeaf(ElementId(part), kRays, anew), elements);
+      light += A * overHemisphere(s, locator, whole.leaf, 500);
+      cheaper += row.terms.size() == from.terms.size(), ++leaves;
+      for (const RowTerm& t : row.terms) ASSERT_TRUE(t.link.index() < s.links.size());
+      ASSERT_EQ(row.rays.size(), row.terms.size());
+    }
+  }
+  EXPECT_GT(leaves, 200);
+  EXPECT_GT(cheaper, 0.8 * leaves);  // the rays of most do suit their parts
+  EXPECT_NEAR(found, asFresh, 0.01 * asFresh);
+  EXPECT_NEAR(found, light, 0.02 * light);
 }
 
 TEST(LeafTransfers, AreLinearInEveryLight) {
