@@ -67,11 +67,11 @@ bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span
 
 TransferRow IndirectSampler::inherited(ElementId leaf, const TransferRow& from, const LinkChanges& links,
                                        std::span<const LinkId> changed, int rays, std::uint64_t& traced) const {
+  if (from.terms.size() > kMostInherited * static_cast<std::size_t>(rays)) return atLeaf(leaf, rays, traced);
   TransferRow row = from;
   dropStale(links, changed, row);
   const std::vector<Again> again = allOf(leaf, row);
-  if (row.terms.size() > kMostInherited * static_cast<std::size_t>(rays) || !suits(leaf, again, rays, row))
-    return atLeaf(leaf, rays, traced);
+  if (!suits(leaf, again, rays, row)) return atLeaf(leaf, rays, traced);
   row.reach = {};
   retrace(leaf, again, row, traced);
   if (!changed.empty()) dealChanged(leaf, changed, rays, row, traced);
