@@ -6,7 +6,7 @@ namespace deltalux {
 
 namespace {
 
-constexpr int kMostDoubled = 4;  // where leaves are few
+constexpr int kMostDoubled = 6;  // where leaves are few
 constexpr int kMostOfLeaf = 8;   // times the settings'
 
 MeanLeaf held(ElementId leaf, const Elements& elements) {

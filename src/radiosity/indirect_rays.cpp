@@ -45,8 +45,9 @@ SenderSample IndirectSampler::along(const ClosePair& pair, ElementId sender) con
   return s;
 }
 
-/// To a flat sender from a leaf whose kernel for all of it does not tell that of what sees the sender: a curved one, or
-/// one that is covered in part, since what is not covered is closer to what it sees than the whole is.
+/// To a flat sender where the kernel between the whole leaf and the whole sender does not tell that of the parts that
+/// see each other: from a curved leaf, or where one of the two is covered in part, since what is not covered is closer
+/// to what it sees than the whole is.
 SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, int index) const {
   const Place place{*this, leaf, nullptr};
   const SampleKey key = rayKey(leaf, sender);
@@ -60,28 +61,25 @@ SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, i
   return s;
 }
 
-/// From a point of a sender close by to the leaf: where the sender is curved, or the smaller of the two, so that few
-/// points of the leaf see much of it.
-SenderSample IndirectSampler::shootBack(ElementId leaf, ElementId sender, int index) const {
-  const SampleKey key = rayKey(leaf, sender);
-  const auto u = stratified4(key, index);
-  const PatchPoint y = samplePatch(elements_, scene_, sender, u[0], u[1]);
-  const auto pair = sampleClosePair(
-      elements_, scene_, [&](double, double) { return y; }, leaf, key, index);
+/// From a sender close by to the leaf: where the sender is curved, or the smaller of the two, so that few points of the
+/// leaf see much of it. Each candidate has a point of the sender of its own: parts of it may lie behind the leaf.
+SenderSample IndirectSampler::shootBack(ElementId leaf, ElementId sender, int index, bool measures) const {
+  const auto from = [&](double a, double b) { return samplePatch(elements_, scene_, sender, a, b); };
+  const auto pair = sampleClosePair(elements_, scene_, from, leaf, rayKey(leaf, sender), index);
   if (!pair) return {};
   SenderSample s;
   s.leaf = sender, s.weight = pair->weight / elements_.shape(leaf).area;
-  s.ray = segment(pair->to.position, pair->to.normal, y.position, y.normal);
-  s.measures = measures(leaf);
+  s.ray = segment(pair->to.position, pair->to.normal, pair->from.position, pair->from.normal);
+  s.measures = measures;
   return s;
 }
 
-SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index) const {
+SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index, bool measures) const {
   if (!(elements_.shape(sender).area > 0)) return {};  // removed
   const bool curved = !exact(sender);
   const bool back = (curved && elements_.at(leaf).flat) || elements_.shape(sender).area < elements_.shape(leaf).area;
-  if (back && isClosePatch(leaf, sender)) return shootBack(leaf, sender, index);
-  if (!curved && measures(leaf)) return shootMeasuring(leaf, sender, index);
+  if (back && isClosePatch(leaf, sender)) return shootBack(leaf, sender, index, measures);
+  if (!curved && measures) return shootMeasuring(leaf, sender, index);
   return shoot(leaf, sender, index, nullptr);
 }
 
@@ -142,15 +140,16 @@ void IndirectSampler::remember(ElementId leaf, std::size_t term, const Found& f,
 }
 
 void IndirectSampler::append(ElementId leaf, const Dealt& d, TransferRow& row, std::uint64_t& traced) const {
-  append(leaf, d, known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index), row, traced);
+  const bool measured = measures(leaf, d.term.sender);
+  append(leaf, d, known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index, measured), row, traced);
 }
 
 void IndirectSampler::append(ElementId leaf, const Dealt& d, const SenderSample& s, TransferRow& row,
                              std::uint64_t& traced) const {
   const Found found = find(d, s, traced);
   const bool some = !isBlack(found.T);
-  row.terms.push_back(
-      {d.term.link, d.term.sender, d.gain, static_cast<std::uint16_t>(d.index), some, d.term.open >= 1.0f});
+  row.terms.push_back({d.term.link, d.term.sender, d.gain, static_cast<std::uint16_t>(d.index), some,
+                       d.term.open >= 1.0f, measures(leaf, d.term.sender)});
   remember(leaf, row.terms.size() - 1, found, row);
   if (some) row.transfers.push_back({d.term.sender, found.T});
 }

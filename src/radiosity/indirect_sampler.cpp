@@ -88,7 +88,7 @@ IndirectSampler::Term IndirectSampler::term(ElementId leaf, LinkId link, Element
                                             const KernelOf& kernelOf) const {
   Term t{link, sender, 0.0f, open, 0.0f};
   const float B = strength(leaf, sender);
-  const bool measured = !exact(sender) || (open < 1.0f && measures(leaf));  // by rays: K only shares them out
+  const bool measured = !exact(sender) || (open < 1.0f && measures(leaf, sender));  // by rays: K only shares them out
   if (!(B > 0) || (measured && averted(leaf, sender))) return t;
   t.K = static_cast<float>(kernelOf(sender, open >= 1.0f));
   if (measured) t.K = atLeast(elements_, leaf, elements_.shape(leaf).center, sender, t.K);

@@ -5,8 +5,8 @@
 // So what a sender hides of itself where it is bright, and what stands just here, is seen without finer links (final
 // gathering [Reichert 1992; LTG93], with the links as its importance function).
 //
-//   E = sum over rays T B(leaf),   T = K V / (n p)              flat leaves
-//                                  T = A w V / (n p)            curved ones
+//   E = sum over rays T B(leaf),   T = K V / (n p)              between flat leaves
+//                                  T = A w V / (n p)            where one is curved, or covered in part
 //
 // with n p the expected rays of the leaf, K its exact kernel, w the kernel between two points, V whether the ray
 // passes. Rays are dealt out by halves (ray_shares.hpp) over all links and down to leaves, so that a closed room's row
@@ -87,8 +87,12 @@ class IndirectSampler {
   /// The ray of a dealt term, from a point or anywhere on the leaf (null); no leaf where no points face each other.
   SenderSample shoot(ElementId leaf, ElementId sender, int index, const PatchPoint* at) const;
   SenderSample shootMeasured(ElementId sender, SampleKey key, int index, const Place&) const;
-  SenderSample shoot(ElementId leaf, ElementId sender, int index) const;
-  SenderSample shootBack(ElementId leaf, ElementId sender, int index) const;
+  /// `measures`: its weight tells the kernel, also of a flat sender.
+  SenderSample shoot(ElementId leaf, ElementId sender, int index, bool measures) const;
+  SenderSample shootOf(ElementId leaf, const RowTerm& t) const {
+    return shoot(leaf, t.sender, t.index, t.measures || measures(leaf));
+  }
+  SenderSample shootBack(ElementId leaf, ElementId sender, int index, bool measures) const;
   SenderSample shootMeasuring(ElementId leaf, ElementId sender, int index) const;
   bool isClosePatch(ElementId leaf, ElementId sender) const;
   SenderSample along(const ClosePair&, ElementId sender) const;
@@ -133,6 +137,10 @@ class IndirectSampler {
   bool averted(ElementId leaf, ElementId sender) const;
   /// Whether rays of the leaf measure kernels, since parts of it see senders that others do not.
   bool measures(ElementId leaf) const { return !elements_.at(leaf).flat || elements_.shape(leaf).exposed < 1.0f; }
+  /// Whether rays that are dealt now between the two do: also where parts of a sender are covered.
+  bool measures(ElementId leaf, ElementId sender) const {
+    return measures(leaf) || elements_.shape(sender).exposed < 1.0f;
+  }
   /// Whether a term needs no ray.
   bool known(const Term& t) const { return t.open >= 1.0f && exact(t.sender); }
   float faintest(ElementId receiver) const;

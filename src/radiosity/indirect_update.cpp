@@ -40,7 +40,7 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(ElementId leaf, con
       const ElementGeometry& s = elements_.shape(t.sender);
       if (t.clear || !space.meets(r.center, r.radius, s.center, s.radius)) continue;
     }
-    const SenderSample sample = t.clear && exact(t.sender) ? SenderSample{} : shoot(leaf, t.sender, t.index);
+    const SenderSample sample = t.clear && exact(t.sender) ? SenderSample{} : shootOf(leaf, t);
     // Where the sender has been split since, it is another ray.
     const bool another = !elements_.isLeaf(t.sender);
     if (moved || (sample.leaf.valid() && (another || space.meets(sample.ray)))) out.push_back({i, sample});
@@ -117,7 +117,7 @@ bool IndirectSampler::turn(ElementId leaf, const LinkChanges& links, std::span<c
     return false;  // another ray, since its sender has been split
   for (const std::uint32_t i : met) {
     const RowTerm& t = row.terms[i];
-    const Ray ray = shoot(leaf, t.sender, t.index).ray;
+    const Ray ray = shootOf(leaf, t).ray;
     if (!space.moved(t.sender) && !space.meets(ray)) continue;
     const Vec3 origin(ray.origin), d = double(ray.tFar) * Vec3(ray.direction);
     const double at = glm::dot(wall.origin - origin, wall.normal) / glm::dot(d, wall.normal);
@@ -155,7 +155,7 @@ std::vector<IndirectSampler::Again> IndirectSampler::allOf(ElementId leaf, const
   out.reserve(row.terms.size());
   for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
     const RowTerm& t = row.terms[i];
-    out.push_back({i, t.clear && exact(t.sender) ? SenderSample{} : shoot(leaf, t.sender, t.index)});
+    out.push_back({i, t.clear && exact(t.sender) ? SenderSample{} : shootOf(leaf, t)});
   }
   return out;
 }

@@ -17,12 +17,13 @@ struct LeafTransfer {
 
 /// Rays from a leaf to one sender, and the transfer that they found.
 struct RowTerm {
-  LinkId link;              // that covers leaf and sender
-  ElementId sender;         // the link's, or below it
-  float gain = 1;           // by which chance weights it up
-  std::uint16_t index = 0;  // indirect: of its one ray; direct: number of rays, 0 where none were needed
-  std::uint8_t count = 0;   // transfers: 0 or 1
-  bool clear = false;       // nothing stands between: no ray was traced
+  LinkId link;                // that covers leaf and sender
+  ElementId sender;           // the link's, or below it
+  float gain = 1;             // by which chance weights it up
+  std::uint16_t index = 0;    // indirect: of its one ray; direct: number of rays, 0 where none were needed
+  std::uint8_t count = 0;     // transfers: 0 or 1
+  bool clear : 1 = false;     // nothing stands between: no ray was traced
+  bool measures : 1 = false;  // indirect: its ray measures the kernel, also of a flat sender
 };
 
 /// Transfers by term, in the order of the terms.
@@ -42,8 +43,8 @@ struct LeafTransferSettings {
   double finest = 1.0;   // least area of a leaf that is still split: finest * error * that area
   int shadowRays = 64;   // of a leaf
   int gatherRays = 128;  // of a leaf, more of those that hold much area or light (gather_rays.hpp)
-  int inAll = 1 << 19;   // gatherRays of all leaves together: where leaves are few, each has more, up to four times
-                         // as many, so that the light of a small scene is as sure as that of a large one
+  int inAll = 1 << 19;   // gatherRays of all leaves together: where leaves are few, each has more, up to 64 times as
+                         // many, so that the light of a small scene is as sure as that of a large one
 };
 
 }  // namespace deltalux

@@ -106,6 +106,43 @@ TEST(LeafTransfers, PartsOfALeafInheritItsRays) {
   EXPECT_NEAR(found, light, 0.02 * light);
 }
 
+/// White posts that stand half in a dark floor, so that parts of their sides are covered, and lie behind its plane.
+Scene sunkPosts() {
+  Scene scene;
+  const MaterialId dark = test::addMaterial(scene, "dark", test::lambert(0.02f));
+  const MaterialId white = test::addMaterial(scene, "white", test::lambert(0.8f));
+  test::addBox(scene, dark, {0, 0, -1}, {4, 3, 2.5}, true);
+  test::addBox(scene, dark, {0, 0, -1}, {4, 3, 0}, false);
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 at(0.5 + i % 4, 0.5 + i / 4, -0.3);
+    test::addBox(scene, white, at, at + Vec3(0.1, 0.1, 0.5), false);
+  }
+  const MaterialId lamp = test::addMaterial(scene, "lamp", test::lambert(0.0f), Emission{Rgb(10.0f), false, {}});
+  test::addPolygon(scene, lamp, {{1, 1, 2.4}, {1, 1.6, 2.4}, {1.6, 1.6, 2.4}, {1.6, 1, 2.4}});
+  return scene;
+}
+
+TEST(LeafTransfers, BringWhatSendersSendThatAreCoveredInPart) {
+  Engine engine(sunkPosts());
+  engine.solve();
+  const Solution& s = engine.solution().get();
+  const SideLocator locator(s.elements, s.scene);
+  double power = 0, found = 0;
+  int leaves = 0, covered = 0;
+  for (const LeafRow& row : s.transfers.rows()) {
+    const ElementGeometry& g = s.elements.shape(row.leaf);
+    const bool ofFloor = s.elements.at(row.leaf).flat && g.normal.z > 0.99f && std::abs(g.center.z) < 1e-3f;
+    covered += g.exposed < 1.0f && !ofFloor;
+    if (!ofFloor || g.exposed < 1.0f) continue;
+    power += g.area * broughtBy(row.indirect, s.elements);
+    found += g.area * overHemisphere(s, locator, row.leaf, 1000);
+    ++leaves;
+  }
+  EXPECT_GT(leaves, 30);
+  EXPECT_GT(covered, 12);
+  EXPECT_NEAR(power, found, 0.015 * found);
+}
+
 TEST(LeafTransfers, AreLinearInEveryLight) {
   Scene scene = furnished();
   Engine engine(scene);
