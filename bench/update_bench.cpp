@@ -173,8 +173,10 @@ void far(const std::string& name, const std::string& file, const Options& o) {
 
 void copies(const std::string& name, const std::string& scene, const std::string& file, int k, const Options& o) {
   const std::vector<Edit> edits = editsOf(file, o.import);
-  play({fmt::format("{} x {}", name, k), stemOf(file), o.settings},
-       solve(sideBySide(loadScene({scene}, o.import).scene, k), o.settings), edits, Checked::None);
+  Solved solved = solve(sideBySide(loadScene({scene}, o.import).scene, k), o.settings);
+  // As one who drags it does: what an object takes to be made ready for motion is not what its updates take.
+  if (const auto* moved = std::get_if<TransformObject>(&edits.front())) solved.engine.select(moved->object);
+  play({fmt::format("{} x {}", name, k), stemOf(file), o.settings}, std::move(solved), edits, Checked::None);
 }
 
 /// What [GD01 7] says of its scenes; nothing of ours that it has no like of.

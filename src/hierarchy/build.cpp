@@ -224,6 +224,7 @@ class Builder {
 
 std::vector<SurfaceSide> surfaceSides(const Scene& scene) {
   std::vector<SurfaceSide> sides;
+  sides.reserve(2 * scene.primitives.size());
   for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
     const PrimitiveId id(i);
     const Material& material = scene.materialOf(id);
