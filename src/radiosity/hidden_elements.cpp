@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
-#include "base/parallel.hpp"
 #include "radiosity/separation.hpp"
 
 namespace deltalux {
@@ -15,7 +13,6 @@ namespace {
 constexpr double kLeastCovered = 0.05;  // solid angle of a polygon about the region's middle: less hides little
 constexpr double kSlack = 1e-5;         // of the coordinates: what must lie between, for what rounding does
 constexpr int kFinest = 2;              // subdivisions of the input level that are told apart
-constexpr std::size_t kSubtrees = 64;   // that are shared out
 constexpr std::size_t kMostEdges = 8;   // polygons with more are taken by their triangles
 
 bool isConvex(std::span<const Vec3> outline, const Vec3& normal) {
@@ -47,34 +44,11 @@ class Umbras {
     });
   }
 
-  std::vector<HiddenElement> hidden() const {
-    // Level by level until there are subtrees enough to share out.
-    std::vector<HiddenElement> result;
-    std::vector<Subtree> subtrees, below;
-    std::vector<std::uint32_t> all(umbras_.size());
-    std::iota(all.begin(), all.end(), 0u);
-    for (const ElementId root : elements_.sceneRoots()) subtrees.push_back({root, all});
-    while (!subtrees.empty() && subtrees.size() < kSubtrees) {
-      below.clear();
-      for (const Subtree& tree : subtrees) {
-        Walk walk{tree.met, {}};
-        const std::size_t end = walk.candidates.size();
-        if (meet(tree.top, 0, end, walk))
-          for (std::size_t i = 0; i < elements_.at(tree.top).childCount; ++i)
-            below.push_back({elements_.child(tree.top, i),
-                             {walk.candidates.begin() + static_cast<std::ptrdiff_t>(end), walk.candidates.end()}});
-        result.insert(result.end(), walk.hidden.begin(), walk.hidden.end());
-      }
-      std::swap(subtrees, below);
-    }
-    std::vector<std::vector<HiddenElement>> found(subtrees.size());
-    parallelFor(subtrees.size(), 1, [&](std::size_t i) {
-      Walk walk{std::move(subtrees[i].met), {}};
-      find(subtrees[i].top, 0, walk.candidates.size(), walk);
-      found[i] = std::move(walk.hidden);
-    });
-    for (const auto& some : found) result.insert(result.end(), some.begin(), some.end());
-    return result;
+  std::vector<HiddenElement> hidden() {
+    for (std::uint32_t u = 0; u < umbras_.size(); ++u) candidates_.push_back(u);
+    const std::size_t all = candidates_.size();
+    for (const ElementId root : elements_.sceneRoots()) find(root, 0, all);
+    return std::move(hidden_);
   }
 
  private:
@@ -84,15 +58,6 @@ class Umbras {
     float covered;  // solid angle, about
   };
   enum class Place : char { Outside, Across, Inside };
-  /// An element, and the umbras that its parent meets.
-  struct Subtree {
-    ElementId top;
-    std::vector<std::uint32_t> met;
-  };
-  struct Walk {
-    std::vector<std::uint32_t> candidates;  // umbras that the elements on the way meet, one's behind another's
-    std::vector<HiddenElement> hidden;
-  };
 
   void collect(ElementId e) {
     const ElementGeometry& g = elements_.shape(e);
@@ -175,31 +140,24 @@ class Umbras {
     return place;
   }
 
-  /// Appends the umbras that an element meets; `begin` to `end`: of the candidates, those that its parent does. Whether
-  /// to ask what is below it: not when it is hidden, or meets none.
-  bool meet(ElementId e, std::size_t begin, std::size_t end, Walk& walk) const {
+  /// `begin` to `end`: of the candidates, the umbras that the parent meets. Its own are taken off again.
+  void find(ElementId e, std::size_t begin, std::size_t end) {
     const ElementGeometry& g = elements_.shape(e);
-    const std::size_t own = walk.candidates.size();
+    const std::size_t own = candidates_.size();
     for (std::size_t i = begin; i < end; ++i) {
-      const Umbra& umbra = umbras_[walk.candidates[i]];
+      const Umbra& umbra = umbras_[candidates_[i]];
       const Place place = placeOf(g, umbra);
       if (place == Place::Inside) {
-        walk.hidden.push_back({e, umbra.occluder});
-        walk.candidates.resize(own);
-        return false;
+        hidden_.push_back({e, umbra.occluder});
+        candidates_.resize(own);
+        return;
       }
-      if (place == Place::Across) walk.candidates.push_back(walk.candidates[i]);
+      if (place == Place::Across) candidates_.push_back(candidates_[i]);
     }
-    return walk.candidates.size() > own && !(elements_.isPatch(e) && elements_.at(e).depth >= kFinest);
-  }
-
-  void find(ElementId e, std::size_t begin, std::size_t end, Walk& walk) const {
-    const std::size_t own = walk.candidates.size();
-    if (meet(e, begin, end, walk)) {
-      const std::size_t ownEnd = walk.candidates.size();
-      for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) find(elements_.child(e, i), own, ownEnd, walk);
-    }
-    walk.candidates.resize(own);
+    const std::size_t ownEnd = candidates_.size();
+    if (ownEnd > own && !(elements_.isPatch(e) && elements_.at(e).depth >= kFinest))
+      for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) find(elements_.child(e, i), own, ownEnd);
+    candidates_.resize(own);
   }
 
   const Elements& elements_;
@@ -209,6 +167,8 @@ class Umbras {
   const std::array<Vec3, 8> corners_;
   std::vector<Plane> planes_;
   std::vector<Umbra> umbras_;
+  std::vector<std::uint32_t> candidates_;
+  std::vector<HiddenElement> hidden_;
   PrimitiveId last_;
   std::uint32_t lastTriangle_ = 0;
 };

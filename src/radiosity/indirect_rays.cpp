@@ -141,15 +141,11 @@ void IndirectSampler::remember(ElementId leaf, std::size_t term, const Found& f,
 
 void IndirectSampler::append(ElementId leaf, const Dealt& d, TransferRow& row, std::uint64_t& traced) const {
   const bool measured = measures(leaf, d.term.sender);
-  append(leaf, d, known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index, measured), row, traced);
-}
-
-void IndirectSampler::append(ElementId leaf, const Dealt& d, const SenderSample& s, TransferRow& row,
-                             std::uint64_t& traced) const {
+  const SenderSample s = known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index, measured);
   const Found found = find(d, s, traced);
   const bool some = !isBlack(found.T);
-  row.terms.push_back({d.term.link, d.term.sender, d.gain, static_cast<std::uint16_t>(d.index), some,
-                       d.term.open >= 1.0f, measures(leaf, d.term.sender)});
+  row.terms.push_back(
+      {d.term.link, d.term.sender, d.gain, static_cast<std::uint16_t>(d.index), some, d.term.open >= 1.0f, measured});
   remember(leaf, row.terms.size() - 1, found, row);
   if (some) row.transfers.push_back({d.term.sender, found.T});
 }

@@ -107,7 +107,6 @@ class IndirectSampler {
   /// Notes where the ray of one of the row's terms goes.
   void remember(ElementId leaf, std::size_t term, const Found&, TransferRow&) const;
   void append(ElementId leaf, const Dealt&, TransferRow&, std::uint64_t& traced) const;
-  void append(ElementId leaf, const Dealt&, const SenderSample&, TransferRow&, std::uint64_t& traced) const;
   /// A term of a row that has to be traced again, and its ray.
   struct Again {
     std::uint32_t term;

@@ -1,7 +1,6 @@
 #include "radiosity/line_space.hpp"
 
 #include "base/parallel.hpp"
-#include "base/prefetch.hpp"
 #include "radiosity/blockers.hpp"
 #include "radiosity/link_samples.hpp"
 #include "radiosity/visibility.hpp"
@@ -93,14 +92,7 @@ struct LineSpace::Block {
 };
 
 void LineSpace::examine(std::span<const LinkId> links, Block& found) const {
-  constexpr std::size_t kLinksAhead = 16, kEndsAhead = 8;  // each would be waited for: they lie anywhere
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    if (i + kLinksAhead < links.size()) prefetch(std::span(&links_[links[i + kLinksAhead]], 1));
-    if (i + kEndsAhead < links.size()) {
-      const Link& ahead = links_[links[i + kEndsAhead]];
-      prefetch(std::span(&elements_.shape(ahead.receiver), 1)), prefetch(std::span(&elements_.shape(ahead.sender), 1));
-    }
-    const LinkId id = links[i];
+  for (const LinkId id : links) {
     const Finding f = examine(id);
     if (!f.met) continue;
     if (f.touched) found.touched.push_back(id);
