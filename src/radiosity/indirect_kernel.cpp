@@ -10,16 +10,33 @@ namespace deltalux {
 
 namespace {
 
-constexpr float kNear = 8.0f;         // in radii of the leaf: nearer to a sender than this, K is taken at all its nodes
-constexpr float kSmall = 0.5f;        // radius of a sender, in those of the leaf, that counts as small
-constexpr int kFewSets = 2;           // of pairs of points, where K only shares out rays
-constexpr int kPoints = 16;           // of the smaller of two patches
-constexpr float kGauss = 1.1547005f;  // from centroids of quadrants to nodes that integrate cubics
+constexpr float kNear = 8.0f;   // in radii of the leaf: nearer to a sender than this, K is taken at all its nodes
+constexpr float kSmall = 0.5f;  // radius of a sender, in those of the leaf, that counts as small
+constexpr int kFewSets = 2;     // of pairs of points, where K only shares out rays
+constexpr int kPoints = 16;     // of the smaller of two patches
+constexpr float kGauss = 0.57735027f;  // place of the two nodes that integrate cubics, from the middle to the end
+constexpr float kMostPieces = 6.0f;    // of a rectangle that is longer than wide
 
 bool isRectangle(const Elements& elements, ElementId patch) {
   const ElementNodes& n = elements.nodes[patch.index()];
   return elements.outline(patch).size() == 4 &&
          std::all_of(n.weight, n.weight + 4, [](float w) { return std::abs(w - 0.25f) < 1e-4f; });
+}
+
+/// Visits where Gauss has the nodes of a whole rectangle, 2 x 2; where it is longer than wide and `pieces` are asked
+/// for, of each of some about as long as they are wide.
+template <class Visit>
+void forEachGaussNode(const ElementGeometry& g, const ElementNodes& n, bool pieces, const Visit& visit) {
+  Vec3f u = n.position[1] - n.position[0], v = n.position[2] - n.position[0];  // halves of the sides
+  if (glm::dot(u, u) < glm::dot(v, v)) std::swap(u, v);
+  const float ratio = glm::length(u) / std::max(glm::length(v), 1e-30f);
+  const int count = pieces ? static_cast<int>(std::clamp(std::round(ratio), 1.0f, kMostPieces)) : 1;
+  u /= static_cast<float>(count);
+  for (int piece = 0; piece < count; ++piece) {
+    const Vec3f middle = g.center + static_cast<float>(2 * piece + 1 - count) * u;
+    for (const float a : {-kGauss, kGauss})
+      for (const float b : {-kGauss, kGauss}) visit(middle + a * u + b * v, 0.25f / static_cast<float>(count));
+  }
 }
 
 /// Whether the plane of a flat patch runs through another: nodes of that may all lie behind it.
@@ -33,7 +50,7 @@ bool crosses(const ElementGeometry& g, const ElementGeometry& plane) {
 }  // namespace
 
 /// What is in plain view has no noise that would hide an error of K: then at all nodes, or, for a curved leaf close by,
-/// at many points. What a large leaf gets of a small patch close to it lies between its nodes: then at the nodes of
+/// at many points. What a large leaf gets of a smaller patch close to it lies between its nodes: then at the nodes of
 /// that, the other way round, or, where the leaf is narrow, at many points. What faces a part of it may face none of
 /// its nodes: at many points, too. What is curved and close has its light go between other places than nodes: then
 /// between many points.
@@ -41,9 +58,11 @@ float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear
   const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(sender);
   const bool flat = elements_.at(leaf).flat;
   if (exact(sender) && areClose(elements_, leaf, sender)) {
-    if (flat ? crosses(r, s) : clear) return kernelOverPoints(leaf, sender);
-    if (flat && s.radius < kSmall * r.radius)
-      return s.area < r.area ? s.area / r.area * kernelOverNodes(sender, leaf) : kernelOverPoints(leaf, sender);
+    if (!flat && clear) return kernelOverPoints(leaf, sender);
+    const bool turned = flat && s.area < r.area;
+    if (flat && (crosses(turned ? s : r, turned ? r : s) || (!turned && s.radius < kSmall * r.radius)))
+      return kernelOverPoints(leaf, sender);
+    if (turned) return s.area / r.area * kernelOverNodes(sender, leaf);
   }
   if (!exact(sender) && isClosePatch(leaf, sender)) return kernelOverPairs(leaf, sender, kFewSets);
   const float reach = kNear * r.radius + s.radius;
@@ -56,13 +75,15 @@ float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear
 float IndirectSampler::kernelOverNodes(ElementId at, ElementId of) const {
   const ElementGeometry& g = elements_.shape(at);
   const ElementNodes& n = elements_.nodes[at.index()];
-  // Nodes of whole rectangles are moved to where Gauss has them.
-  const float stretch = elements_.at(at).flat && isRectangle(elements_, at) ? kGauss : 1.0f;
   double K = 0;
-  for (int i = 0; i < 4; ++i) {
-    if (n.weight[i] <= 0) continue;
-    const Vec3f x = g.center + stretch * (n.position[i] - g.center);
-    K += n.weight[i] * kernelAtPoint(elements_, scene_, x, n.normal[i], of);
+  const auto add = [&](const Vec3f& x, const Vec3f& normal, float weight) {
+    if (weight > 0) K += weight * kernelAtPoint(elements_, scene_, x, normal, of);
+  };
+  if (elements_.at(at).flat && isRectangle(elements_, at)) {
+    const auto visit = [&](const Vec3f& x, float weight) { add(x, g.normal, weight); };
+    forEachGaussNode(g, n, areClose(elements_, at, of), visit);
+  } else {
+    for (int i = 0; i < 4; ++i) add(n.position[i], n.normal[i], n.weight[i]);
   }
   return static_cast<float>(K);
 }

@@ -152,7 +152,8 @@ double kernelAtPoint(const Elements& elements, const Scene& scene, const Vec3f& 
   if (elements.isPatch(sender) && elements.at(sender).flat && !isZero(n) && !spotOf(elements, scene, sender)) {
     const Vec3f d = g.center - x;
     if (glm::dot(d, d) < kNear * kNear * g.radius * g.radius) {
-      if (glm::dot(x - g.center, g.normal) <= 0) return 0;
+      // A point in its plane may come to lie above it by rounding, and would see half of it: the other side of a leaf.
+      if (glm::dot(x - g.center, g.normal) <= roundingAlong(g.normal, x, g)) return 0;
       std::array<Vec3f, 64> outline;
       const std::size_t count = worldOutline(elements, sender, outline);
       return formFactorToPolygon(x, n, {outline.data(), count});

@@ -11,4 +11,9 @@ inline float roundingAlong(const Vec3f& n, const ElementGeometry& a, const Eleme
   return 4e-6f * glm::dot(glm::abs(n), largest);
 }
 
+/// What it does to the height of a point above the plane of an element: a few units in the last place.
+inline float roundingAlong(const Vec3f& n, const Vec3f& x, const ElementGeometry& g) {
+  return 5e-7f * glm::dot(glm::abs(n), glm::max(glm::abs(x), glm::abs(g.center)));
+}
+
 }  // namespace deltalux

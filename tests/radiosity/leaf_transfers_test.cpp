@@ -143,6 +143,36 @@ TEST(LeafTransfers, BringWhatSendersSendThatAreCoveredInPart) {
   EXPECT_NEAR(power, found, 0.015 * found);
 }
 
+/// White leaves of two sides, each turned some other way, far from the origin, where coordinates are rounded.
+Scene foliage() {
+  Scene scene;
+  const MaterialId white = test::addMaterial(scene, "white", test::lambert(0.5f));
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 center(30 + i % 10, -40 + i / 10, 3 + 0.1 * (i % 7));
+    const Vec3 u = glm::normalize(Vec3(std::cos(i), std::sin(i), std::cos(3.0 * i)));
+    const Vec3 v = glm::normalize(glm::cross(u, Vec3(0.3, std::cos(2.0 * i), 1.0)));
+    const double r = 0.2;
+    test::addPolygon(scene, white,
+                     {center - r * u - r * v, center + r * u - r * v, center + r * u + r * v, center - r * u + r * v});
+  }
+  const MaterialId lamp = test::addMaterial(scene, "lamp", test::lambert(0.0f), Emission{Rgb(10.0f), false, {}});
+  test::addPolygon(scene, lamp, {{34, -36, 6}, {34, -35, 6}, {35, -35, 6}, {35, -36, 6}});
+  return scene;
+}
+
+TEST(LeafTransfers, BringNothingFromTheOtherSide) {
+  Engine engine(foliage());
+  engine.solve();
+  const Solution& s = engine.solution().get();
+  int transfers = 0;
+  for (const LeafRow& row : s.transfers.rows())
+    for (const LeafTransfer& t : row.indirect.transfers) {
+      ++transfers;
+      EXPECT_NE(s.elements.domain[row.leaf.index()].primitive, s.elements.domain[t.leaf.index()].primitive);
+    }
+  EXPECT_GT(transfers, 1000);
+}
+
 TEST(LeafTransfers, AreLinearInEveryLight) {
   Scene scene = furnished();
   Engine engine(scene);
