@@ -48,7 +48,7 @@ class PagedArray {
   }
 
  private:
-  static constexpr std::size_t kPage = 1024;
+  static constexpr std::size_t kPage = 256;
   using Page = std::array<T, kPage>;
 
   Page filled() const {

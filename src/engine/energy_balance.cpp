@@ -68,7 +68,6 @@ Outcome diffuseLight(const Solution& s) {
                                         : 0.0));
   const double total = power.back();
   if (!(total > 0)) return {};
-  const SideElements sides(elements, s.scene);
   Outcome all = parallelSum<Outcome>(kRays, kBlock, [&](std::size_t i) {
     const auto index = static_cast<std::uint32_t>(i);
     const UnitPair at = scrambledSobol(index, kKey), to = scrambledSobol(index, ~kKey);
@@ -91,7 +90,7 @@ Outcome diffuseLight(const Solution& s) {
       const Material& material = s.scene.materialOf(hit.primitive);
       const auto* glass = std::get_if<ThinGlass>(&material.surface);
       if (!glass) {
-        if (stopsLight(material) && !sides.side(hit.primitive, hit.triangle, hit.front).valid()) outcome.gaps = flux;
+        if (stopsLight(material) && !elements.side(hit.primitive, hit.triangle, hit.front).valid()) outcome.gaps = flux;
         break;
       }
       const double cosine = std::abs(glm::dot(Vec3(hit.normal), Vec3(ray.direction)));

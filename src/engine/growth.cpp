@@ -5,7 +5,6 @@
 #include "hierarchy/below.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
-#include "hierarchy/side_locator.hpp"
 #include "particles/reached_sides.hpp"
 #include "radiosity/covered_sides.hpp"
 #include "radiosity/push_pull.hpp"
@@ -31,10 +30,9 @@ void addLanding(std::vector<SurfaceSide>& sides, const Solution& s, const Partic
   std::vector<std::uint32_t> paths(update.all ? s.particles.paths() : update.paths.size());
   for (std::uint32_t i = 0; i < paths.size(); ++i) paths[i] = update.all ? i : update.paths[i].path;
   if (paths.empty()) return;
-  const SideElements known(s.elements, s.scene);
   addReachedSides(sides, s.particles, paths, s.scene, *s.tracer,
                   [&](PrimitiveId primitive, std::uint32_t triangle, bool front) {
-                    return known.side(primitive, triangle, front).valid();
+                    return s.elements.side(primitive, triangle, front).valid();
                   });
 }
 

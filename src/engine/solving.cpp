@@ -4,6 +4,7 @@
 #include <deltalux/error.hpp>
 
 #include "base/check.hpp"
+#include "base/parallel.hpp"
 #include "engine/energy_balance.hpp"
 #include "engine/particle_count.hpp"
 #include "engine/state.hpp"
@@ -216,10 +217,11 @@ bool Engine::State::settleRows(Progress* progress) {
 
 RgbSum Engine::State::directPower() const {
   const Elements& e = solution->elements;
-  RgbSum sum(0.0);
-  for (const ElementId i : e.inputs)
-    if (e.receives(i)) sum += double(e.shape(i).litArea()) * RgbSum(e.radiometry[i.index()].direct);
-  return sum;
+  return parallelSum<RgbSum>(e.inputs.size(), 4096, [&](std::size_t i) {
+    const ElementId input = e.inputs[i];
+    return e.receives(input) ? double(e.shape(input).litArea()) * RgbSum(e.radiometry[input.index()].direct)
+                             : RgbSum(0.0);
+  });
 }
 
 void Engine::State::count() {

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <map>
 #include <memory>
-#include <tuple>
 
 #include "base/check.hpp"
 #include "base/random.hpp"
@@ -225,18 +223,10 @@ class Builder {
 std::vector<SurfaceSide> surfaceSides(const Scene& scene) {
   std::vector<SurfaceSide> sides;
   sides.reserve(2 * scene.primitives.size());
-  for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
-    const PrimitiveId id(i);
-    const Material& material = scene.materialOf(id);
-    const bool glass = passesStraight(material);
-    const auto* mesh = std::get_if<Mesh>(&scene[id].shape);
-    const std::size_t triangles = mesh ? mesh->triangles.size() : 1;
-    if (!(area(scene[id].shape) > 0)) continue;
-    for (std::size_t t = 0; t < triangles; ++t) {
-      sides.push_back({id, static_cast<std::uint32_t>(t), true, 0, Rgb(0.0f), 0});
-      if (!glass) sides.push_back({id, static_cast<std::uint32_t>(t), false, 0, Rgb(0.0f), 0});
-    }
-  }
+  for (std::size_t i = 0; i < scene.primitives.size(); ++i)
+    forEachSide(scene, PrimitiveId(i), [&](const Side& s) {
+      sides.push_back({s.primitive, s.triangle, s.front, 0, Rgb(0.0f), 0});
+    });
   return sides;
 }
 
@@ -273,24 +263,13 @@ Elements buildElements(const Scene& scene, const std::vector<SurfaceSide>& reach
     shapeDistant(elements, scene, e);
     elements.distant.push_back(e);
   }
+  elements.listSides(0);
   return elements;
 }
 
 std::vector<ElementId> elementsOf(const Elements& elements, std::span<const SurfaceSide> sides) {
-  std::vector<ElementId> found(sides.size());
-  if (sides.empty()) return found;
-  const auto place = [](PrimitiveId primitive, std::uint32_t triangle, bool front) {
-    return std::tuple(primitive, triangle, front);
-  };
-  std::map<std::tuple<PrimitiveId, std::uint32_t, bool>, std::size_t> index;
-  for (std::size_t i = 0; i < sides.size(); ++i)
-    index[place(sides[i].primitive, sides[i].triangle, sides[i].front)] = i;
-  for (const ElementId e : elements.inputs) {
-    if (!elements.isPatch(e) || elements.at(e).emitter) continue;
-    const PatchDomain& d = elements.domain[e.index()];
-    const auto at = index.find(place(d.primitive, d.triangle, elements.at(e).front));
-    if (at != index.end()) found[at->second] = e;
-  }
+  std::vector<ElementId> found;
+  for (const SurfaceSide& s : sides) found.push_back(elements.sides.at(s.side()));
   return found;
 }
 
@@ -299,7 +278,9 @@ ElementId growElements(Elements& elements, const Scene& scene, const std::vector
   const SurfaceSide& first = sides.front();
   const std::uint64_t key =
       combineKeys(combineKeys(first.primitive.value, first.triangle), kGrownKey + (first.front ? 0u : 1u));
+  const std::size_t known = elements.inputs.size();
   const ElementId root = Builder(scene, elements).build(sides, key, false, {});
+  elements.listSides(known);
   (elements.sceneRoot.valid() ? elements.grown.emplace_back() : elements.sceneRoot) = root;
   return root;
 }

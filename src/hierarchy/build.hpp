@@ -4,6 +4,7 @@
 // the lowest cluster that fits it [Christensen 1995, 6.7]); the area emitters in a tree of their own.
 // Cost: O(n log n) over input-level surfaces; meshes take part by triangle, so clusters within a mesh do the work.
 #include "hierarchy/element.hpp"
+#include "hierarchy/input_level.hpp"
 
 namespace deltalux {
 
@@ -15,11 +16,27 @@ struct SurfaceSide {
   float meanFreePath = 0.0f;       // mean distance to what it sees [scene units]
   Rgb irradiance{0.0f};            // first estimate [W/m2]
   float typicalIrradiance = 0.0f;  // gray; a mean over the surface that favours its dark parts
+
+  Side side() const { return {primitive, triangle, front}; }
 };
 
 /// Both sides of every surface, one of each pane and body of glass (which has no diffuse side, but blocks). Meshes give
 /// their triangles. Fields that need rays are left at zero.
 std::vector<SurfaceSide> surfaceSides(const Scene&);
+
+/// visit(Side) of those of one primitive.
+template <class Visit>
+void forEachSide(const Scene& scene, PrimitiveId primitive, const Visit& visit) {
+  const Shape& shape = scene[primitive].shape;
+  if (!(area(shape) > 0)) return;
+  const bool glass = passesStraight(scene.materialOf(primitive));
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  const auto triangles = static_cast<std::uint32_t>(mesh ? mesh->triangles.size() : 1);
+  for (std::uint32_t t = 0; t < triangles; ++t) {
+    visit(Side{primitive, t, true});
+    if (!glass) visit(Side{primitive, t, false});
+  }
+}
 
 Elements buildElements(const Scene&, const std::vector<SurfaceSide>& reachable);
 

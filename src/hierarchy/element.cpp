@@ -41,13 +41,24 @@ void Elements::listInputs() {
   inputs.clear();
   for (std::size_t i = 0; i < size(); ++i)
     if (const ElementId e(i); topology[i].depth == 0 && !isCluster(e)) inputs.push_back(e);
+  sides = {};
+  listSides(0);
+}
+
+void Elements::listSides(std::size_t firstInput) {
+  for (std::size_t i = firstInput; i < inputs.size(); ++i) {
+    const ElementId e = inputs[i];
+    if (!isPatch(e) || at(e).emitter) continue;
+    const PatchDomain& d = domain[e.index()];
+    sides.add({d.primitive, d.triangle, at(e).front}, e);
+  }
 }
 
 std::size_t Elements::memoryBytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(topology) + bytes(geometry) + bytes(nodes) + bytes(domain) + bytes(moments) + bytes(light) +
          bytes(radiometry) + bytes(slot) + bytes(clusters) + bytes(key) + bytes(outlines) + bytes(frames) +
-         bytes(inputs);
+         bytes(inputs) + sides.memoryBytes();
 }
 
 }  // namespace deltalux

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "hierarchy/directional.hpp"
+#include "hierarchy/element_id.hpp"
+#include "hierarchy/side_table.hpp"
 
 namespace deltalux {
-
-using ElementId = Id<struct ElementTag>;
 
 enum class ElementKind : std::uint8_t {
   Cluster,  // children are clusters and input-level elements
@@ -115,7 +115,9 @@ class Elements {
   std::vector<ElementId> distant;  // suns and dome roots
   std::vector<ElementId> asleep;   // input-level patches that edits have left in the dark: blockers for now; ascending
   Box sceneBox;                    // of all surfaces; the far boxes of distant elements are measured from it
-  std::vector<ElementId> inputs;   // all of the input level: patches, points and distant roots; follows from the others
+  // These follow from the others:
+  std::vector<ElementId> inputs;  // all of the input level: patches, points and distant roots
+  SideTable sides;                // its patches in the scene trees, by the sides that they stand for
 
   std::size_t size() const { return topology.size(); }
   /// Appends `count` contiguous elements as the children of `parent` (none: invalid); returns the first.
@@ -133,8 +135,15 @@ class Elements {
   /// Takes diffuse light: a patch, of surfaces that are not lamps or glass.
   bool receives(ElementId e) const { return isPatch(e) && !at(e).emitter && !at(e).blocker; }
   bool isReceivingLeaf(ElementId e) const { return receives(e) && isLeaf(e); }
-  /// Lists `inputs` anew.
+  /// Lists `inputs` and `sides` anew.
   void listInputs();
+  /// Lists the sides of inputs from this one on.
+  void listSides(std::size_t firstInput);
+  /// The input-level element of a side; invalid when light does not reach it, when it is glass, or was removed.
+  ElementId side(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
+    const ElementId e = sides.at({primitive, triangle, front});
+    return e.valid() && receives(e) ? e : ElementId();
+  }
   bool isInputLevel(ElementId e) const { return isPatch(e) && at(e).depth == 0; }
   ElementId child(ElementId e, std::size_t i) const {
     return ElementId(at(e).firstChild.value + static_cast<std::uint32_t>(i));

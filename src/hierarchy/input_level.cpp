@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort_unique.hpp"
+#include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
 
 namespace deltalux {
@@ -191,11 +193,18 @@ void shapeCluster(Elements& elements, ElementId e) {
 
 std::vector<ElementId> elementsOf(const Elements& elements, std::span<const PrimitiveId> primitives) {
   std::vector<PrimitiveId> sorted(primitives.begin(), primitives.end());
-  std::sort(sorted.begin(), sorted.end());
+  sortUnique(sorted);
   std::vector<ElementId> out;
-  for (const ElementId e : elements.inputs)
-    if (elements.isPatch(e) && std::binary_search(sorted.begin(), sorted.end(), elements.domain[e.index()].primitive))
-      out.push_back(e);
+  for (const PrimitiveId primitive : sorted)
+    elements.sides.forEachOf(primitive, [&](ElementId e) { out.push_back(e); });
+  if (elements.lightRoot.valid())
+    forEachBelow(elements, elements.lightRoot, [&](ElementId e) {
+      if (elements.isInputLevel(e) &&
+          std::binary_search(sorted.begin(), sorted.end(), elements.domain[e.index()].primitive))
+        out.push_back(e);
+      return elements.isCluster(e);
+    });
+  std::sort(out.begin(), out.end());
   return out;
 }
 

@@ -4,32 +4,7 @@
 
 namespace deltalux {
 
-namespace {
-std::size_t surfacesOf(const Shape& shape) {
-  const auto* mesh = std::get_if<Mesh>(&shape);
-  return mesh ? mesh->triangles.size() : 1;
-}
-}  // namespace
-
-SideElements::SideElements(const Elements& elements, const Scene& scene) {
-  first_.reserve(scene.primitives.size() + 1);
-  std::size_t total = 0;
-  for (const Primitive& p : scene.primitives) {
-    first_.push_back(static_cast<std::uint32_t>(total));
-    total += 2 * surfacesOf(p.shape);
-  }
-  first_.push_back(static_cast<std::uint32_t>(total));
-  sides_.resize(total);
-  for (const ElementId e : elements.inputs) {
-    if (!elements.receives(e)) continue;
-    const PatchDomain& d = elements.domain[e.index()];
-    const std::size_t at = indexOf(d.primitive, d.triangle, elements.at(e).front);
-    if (at < sides_.size()) sides_[at] = e;
-  }
-}
-
-SideLocator::SideLocator(const Elements& elements, const Scene& scene)
-    : SideElements(elements, scene), elements_(elements), scene_(scene) {
+SideLocator::SideLocator(const Elements& elements, const Scene& scene) : elements_(elements), scene_(scene) {
   for (const PlaneFrame& f : elements.frames) {
     const Vec3 n = glm::cross(f.edgeU, f.edgeV);
     const double squared = std::max(glm::dot(n, n), 1e-300);
@@ -37,17 +12,6 @@ SideLocator::SideLocator(const Elements& elements, const Scene& scene)
     dualV_.push_back(glm::cross(n, f.edgeU) / squared);
     origin_.push_back(f.origin);
   }
-}
-
-/// Beyond all sides for surfaces that were removed: their elements stay, without a shape.
-std::size_t SideElements::indexOf(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
-  const std::size_t at = first_[primitive.index()] + 2 * std::size_t(triangle) + (front ? 0 : 1);
-  return at < first_[primitive.index() + 1] ? at : sides_.size();
-}
-
-ElementId SideElements::side(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
-  const std::size_t at = indexOf(primitive, triangle, front);
-  return at < sides_.size() ? sides_[at] : ElementId();
 }
 
 LeafPoint SideLocator::locate(ElementId side, const Vec3& p) const {

@@ -11,26 +11,15 @@ struct LeafPoint {
   Vec2 uv{0};
 };
 
-/// Sides and their elements.
-class SideElements {
- public:
-  SideElements(const Elements&, const Scene&);
-
-  /// The input-level element of a side; invalid when light does not reach it, when it is glass, or was removed.
-  ElementId side(PrimitiveId, std::uint32_t triangle, bool front) const;
-
- private:
-  std::size_t indexOf(PrimitiveId, std::uint32_t triangle, bool front) const;
-
-  std::vector<std::uint32_t> first_;  // per primitive: its first entry in sides_; and the end
-  std::vector<ElementId> sides_;      // front and back of every surface or triangle
-};
-
-class SideLocator : public SideElements {
+class SideLocator {
  public:
   /// Both must outlive this.
   SideLocator(const Elements&, const Scene&);
 
+  /// As Elements::side().
+  ElementId side(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
+    return elements_.side(primitive, triangle, front);
+  }
   /// The leaf under `side` whose domain holds the surface point `p`, or is nearest to it.
   LeafPoint locate(ElementId side, const Vec3& p) const;
   /// The same for parameters that are known.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <tuple>
 
 #include "base/check.hpp"
 #include "base/cosine_direction.hpp"
@@ -18,10 +17,8 @@ namespace deltalux {
 
 namespace {
 
-/// In the order of surfaceSides(): fronts before backs.
-auto orderOf(const SurfaceSide& s) { return std::tuple(s.primitive, s.triangle, !s.front); }
-
-bool before(const SurfaceSide& a, const SurfaceSide& b) { return orderOf(a) < orderOf(b); }
+/// In the order of surfaceSides().
+bool before(const SurfaceSide& a, const SurfaceSide& b) { return a.side() < b.side(); }
 
 double areaOf(const Scene& scene, const SurfaceSide& s) {
   const Shape& shape = scene[s.primitive].shape;

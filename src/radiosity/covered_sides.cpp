@@ -1,10 +1,14 @@
 #include "radiosity/covered_sides.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/sort_unique.hpp"
+#include "hierarchy/below.hpp"
 #include "radiosity/side_estimator.hpp"
 
 namespace deltalux {
@@ -17,9 +21,6 @@ constexpr std::size_t kBoxes = 8;     // more are taken for one
 constexpr double kMargin = 0.01;      // of a box's diagonal: how far beside it counts as in it
 constexpr double kNear = 0.1;         // and as close by
 constexpr std::uint64_t kLineKey = 0x756e636f7665726cull;
-
-/// By side of the estimator. Looked: at its paths.
-enum class State : char { Dark, Lit, Looked };
 
 Box widened(const Box& box, double share = kMargin) {
   const double margin = share * box.diagonal();
@@ -54,27 +55,25 @@ class Search {
       : scene_(scene),
         tracer_(tracer),
         elements_(elements),
-        estimator_(scene, tracer),
-        state_(estimator_.sides().size(), State::Dark),
-        moves_(scene.primitives.size(), 0),
+        estimator_(scene, tracer, sideCount(scene)),
+        moved_(moved.begin(), moved.end()),
         openSky_(std::any_of(scene.lights.begin(), scene.lights.end(),
                              [](const Light& light) { return std::holds_alternative<DomeLight>(light.emitter); })) {
-    for (const PrimitiveId id : moved) moves_[id.index()] = 1;
-    for (const ElementId e : elements.inputs)
-      if (isSide(e) && !isAsleep(e)) state_[indexOf(e)] = State::Lit;
+    sortUnique(moved_);
   }
 
   /// Of what moved: all dark sides but those that only see the like.
   void lookAtMoved() {
-    std::vector<std::size_t> dark;
-    for (std::size_t i = 0; i < state_.size(); ++i)
-      if (state_[i] == State::Dark && moves_[primitiveOf(i)]) dark.push_back(i);
+    std::vector<Side> dark;
+    for (const PrimitiveId primitive : moved_)
+      forEachSide(scene_, primitive, [&](const Side& s) {
+        if (!isLit(s)) dark.push_back(s);
+      });
     std::vector<char> open(dark.size(), 0);
     parallelFor(dark.size(), 8, [&](std::size_t i) {
       const auto met = estimator_.firstMet(dark[i], kLooks);
-      open[i] = std::any_of(met.begin(), met.end(), [&](const Hit& hit) {
-        return !hit || !moves_[hit.primitive.index()] || state_[estimator_.indexOf(hit)] != State::Dark;
-      });
+      open[i] = std::any_of(met.begin(), met.end(),
+                            [&](const Hit& hit) { return !hit || !moves(hit.primitive) || isLit(sideOf(hit)); });
     });
     for (std::size_t i = 0; i < dark.size(); ++i)
       if (open[i]) candidates_.push_back(dark[i]);
@@ -102,85 +101,110 @@ class Search {
       tracer_.closestHits(std::span(rays).subspan(begin, end - begin), std::span(hits).subspan(begin, end - begin));
     });
     for (const Hit& hit : hits)
-      if (hit) add(estimator_.indexOf(hit));
+      if (hit) add(sideOf(hit));
   }
 
   /// Estimates what was found, and what those of it that light reaches have met, until there is no more.
   std::vector<SurfaceSide> uncovered() {
-    std::vector<std::size_t> found;
     while (!candidates_.empty()) {
       sortUnique(candidates_);
-      for (const std::size_t i : candidates_) state_[i] = State::Looked;
-      estimate(candidates_);
-      found.insert(found.end(), candidates_.begin(), candidates_.end());
-      candidates_.clear();
-      for (std::size_t i = 0; i < state_.size(); ++i)
-        if (estimator_.met(i)) add(i);
+      estimate(std::exchange(candidates_, {}));
     }
-    std::sort(found.begin(), found.end());
-    std::vector<SurfaceSide> sides;
-    for (const std::size_t i : found)
-      if (estimator_.reached(i)) sides.push_back(estimator_.estimated(i));
-    return sides;
+    return found([&](const Side& s) { return isReached(s); });
   }
 
   /// Lit sides of what moved, and within its bounds, that light no longer reaches.
   std::vector<SurfaceSide> covered() {
-    std::vector<Box> own;
-    for (std::size_t i = 0; i < moves_.size(); ++i)
-      if (moves_[i]) own.push_back(bounds(scene_.primitives[i].shape));
+    std::vector<Box> ofMoved;
+    for (const PrimitiveId primitive : moved_) ofMoved.push_back(bounds(scene_[primitive].shape));
     std::vector<Box> within;
-    for (const Box& box : joined(own)) within.push_back(widened(box));
-    std::vector<std::size_t> closed;
-    for (const ElementId e : elements_.inputs) {
-      if (!isSide(e) || isAsleep(e) || elements_.at(e).blocker) continue;
-      for (const Box& box : within)
-        if (holds(box, elements_.box(e)) && noRayLeaves(widened(box, kNear), indexOf(e))) {
-          closed.push_back(indexOf(e));
-          break;
-        }
-    }
-    std::sort(closed.begin(), closed.end());  // elements that have grown stand behind all others
+    for (const Box& box : joined(ofMoved)) within.push_back(widened(box));
+    std::vector<Side> closed;
+    for (const ElementId root : elements_.sceneRoots())
+      forEachBelow(elements_, root, [&](ElementId e) {
+        const Box own = elements_.box(e);
+        if (elements_.isCluster(e))
+          return std::any_of(within.begin(), within.end(), [&](const Box& box) { return box.overlaps(own); });
+        if (!isAwake(e) || elements_.at(e).blocker) return false;
+        const Side s = sideOf(e);
+        if (std::any_of(within.begin(), within.end(),
+                        [&](const Box& box) { return holds(box, own) && noRayLeaves(widened(box, kNear), s); }))
+          closed.push_back(s);
+        return false;
+      });
+    std::sort(closed.begin(), closed.end());
+    estimates_.clear();
     estimate(closed);
-    std::vector<SurfaceSide> sides;
-    for (const std::size_t i : closed)
-      if (!estimator_.reached(i)) sides.push_back(estimator_.estimated(i));
-    return sides;
+    return found([&](const Side& s) { return !isReached(s); });
   }
 
  private:
-  std::size_t primitiveOf(std::size_t side) const { return estimator_.sides()[side].primitive.index(); }
-  bool isSide(ElementId e) const {
-    return elements_.isInputLevel(e) && !elements_.at(e).emitter && elements_.shape(e).area > 0;
+  static std::size_t sideCount(const Scene& scene) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < scene.primitives.size(); ++i)
+      forEachSide(scene, PrimitiveId(i), [&](const Side&) { ++count; });
+    return count;
   }
-  bool isAsleep(ElementId e) const { return std::binary_search(elements_.asleep.begin(), elements_.asleep.end(), e); }
-  std::size_t indexOf(ElementId e) const {
+  Side sideOf(ElementId e) const {
     const PatchDomain& d = elements_.domain[e.index()];
-    return estimator_.indexOf(d.primitive, d.triangle, elements_.at(e).front);
+    return {d.primitive, d.triangle, elements_.at(e).front};
+  }
+  Side sideOf(const Hit& hit) const { return deltalux::sideOf(scene_, hit); }
+  bool moves(PrimitiveId primitive) const { return std::binary_search(moved_.begin(), moved_.end(), primitive); }
+  bool isAwake(ElementId e) const {
+    return elements_.shape(e).area > 0 && !std::binary_search(elements_.asleep.begin(), elements_.asleep.end(), e);
+  }
+  /// It has elements that are awake.
+  bool isLit(const Side& s) const {
+    const ElementId e = elements_.sides.at(s);
+    return e.valid() && isAwake(e);
+  }
+  /// By what is estimated.
+  bool isReached(const Side& side) const {
+    return deltalux::isReached(scene_, side, [&](const Side& s) { return reached_.contains(s); });
   }
   static bool holds(const Box& box, const Box& inner) { return box.contains(inner.lower) && box.contains(inner.upper); }
   /// Those that meet nothing are of sides that lie upon others, or of a scene that is open: no light comes from there
   /// without a sky.
-  bool noRayLeaves(const Box& box, std::size_t side) const {
+  bool noRayLeaves(const Box& box, const Side& side) const {
     const auto met = estimator_.firstMet(side, kLooks);
     return std::all_of(met.begin(), met.end(),
                        [&](const Hit& hit) { return hit ? box.contains(Vec3(hit.position)) : !openSky_; });
   }
-  void add(std::size_t side) {
-    if (state_[side] == State::Dark) candidates_.push_back(side);
+  void add(const Side& side) {
+    if (!estimates_.contains(side) && !isLit(side)) candidates_.push_back(side);
   }
-  void estimate(const std::vector<std::size_t>& sides) {
-    parallelFor(sides.size(), 4, [&](std::size_t i) { estimator_.estimate(sides[i]); });
+  /// Sides, each of them once; finds further candidates.
+  void estimate(const std::vector<Side>& sides) {
+    std::vector<SideEstimate> estimates(sides.size());
+    parallelFor(sides.size(), 4, [&](std::size_t i) { estimates[i] = estimator_.estimate(sides[i]); });
+    for (const SideEstimate& e : estimates) {
+      estimates_[e.side.side()] = e.side;
+      if (!isBlack(e.side.irradiance)) reached_.insert(e.side.side());
+      reached_.insert(e.lit.begin(), e.lit.end());
+    }
+    for (SideEstimate& e : estimates) {
+      sortUnique(e.met);
+      for (const Side& s : e.met) add(s);
+    }
+  }
+  template <class Wanted>
+  std::vector<SurfaceSide> found(const Wanted& wanted) const {
+    std::vector<SurfaceSide> sides;
+    for (const auto& [side, estimated] : estimates_)
+      if (wanted(side)) sides.push_back(estimated);
+    return sides;
   }
 
   const Scene& scene_;
   const RayTracer& tracer_;
   const Elements& elements_;
   SideEstimator estimator_;
-  std::vector<State> state_;
-  std::vector<char> moves_;  // by primitive
+  std::vector<PrimitiveId> moved_;  // ascending
   bool openSky_;
-  std::vector<std::size_t> candidates_;
+  std::vector<Side> candidates_;
+  std::map<Side, SurfaceSide> estimates_;
+  std::set<Side> reached_;
 };
 
 }  // namespace

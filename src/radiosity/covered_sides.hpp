@@ -8,7 +8,7 @@
 // along, so dark sides of which every ray ends on other dark sides of what moved are left alone. Covered ones are
 // looked for on what moved and within its bounds, where no ray leaves those. A side counts as reached when paths of the
 // first estimate say so, as in a fresh solve. Cost: 32 rays a side that is looked at, 2048 a box that was left, and the
-// paths of the sides that look as if they had changed; a pass over all sides and elements.
+// paths of the sides that look as if they had changed; a count of all sides.
 #include <span>
 
 #include "hierarchy/build.hpp"

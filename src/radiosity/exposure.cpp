@@ -22,7 +22,7 @@ constexpr int kRays = 4;  // of a point, all of which must meet sides without an
 }  // namespace
 
 Exposure::Exposure(const Scene& scene, const Elements& elements, const RayTracer& tracer)
-    : scene_(scene), elements_(elements), tracer_(tracer), sides_(elements, scene), points_(kManyPoints) {
+    : scene_(scene), elements_(elements), tracer_(tracer), points_(kManyPoints) {
   std::size_t leaves = 0;  // as far as it matters
   for (std::size_t i = 0; i < elements.size() && leaves * kManyPoints < kInAll; ++i)
     leaves += elements.isReceivingLeaf(ElementId(i));
@@ -75,7 +75,7 @@ bool Exposure::covered(const Vec3f& p, const Vec3f& normal, float near, std::uin
     ray.direction = w;
     const Hit hit = tracer_.closestHit(ray);
     if (!hit || !stopsLight(scene_.materialOf(hit.primitive))) return false;
-    if (sides_.side(hit.primitive, hit.triangle, hit.front).valid()) return false;
+    if (elements_.side(hit.primitive, hit.triangle, hit.front).valid()) return false;
     if (hit.t < near) return true;
   }
   return true;

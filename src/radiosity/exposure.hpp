@@ -7,7 +7,7 @@
 // so that of a point at the rim of what stands there the share counts that it sends into the dark; or farther away,
 // when all of a few rays do. Cost: 20 rays a leaf, most of them short; 64 points and a few more rays where something
 // stands on it, up to 1024 in small scenes.
-#include "hierarchy/side_locator.hpp"
+#include "hierarchy/element.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
@@ -27,7 +27,6 @@ class Exposure {
   const Scene& scene_;
   const Elements& elements_;
   const RayTracer& tracer_;
-  SideElements sides_;
   int points_;
 };
 

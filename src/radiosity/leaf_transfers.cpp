@@ -73,6 +73,7 @@ LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, 
   });
   for (const std::uint64_t n : rays) report.rays += n;
   listRows(elements);
+  known_ = elements.size();
   return report;
 }
 

@@ -96,7 +96,7 @@ class LeafTransfers {
   void updateDirect(Elements&, const Change&, std::span<const ElementId> leaves, LeafUpdateReport&);
   void updateIndirect(const Elements&, const Change&, std::span<const ElementId> leaves, LeafUpdateReport&,
                       std::vector<ElementId>& reaching);
-  void dropNoLeaves(const Elements&);
+  void dropNoLeaves(const Elements&, std::span<const ElementId> inputs);
   void measure(const LeafRow&);
   void setRow(ElementId leaf, std::size_t row);
   const TransferRow* inheritance(const Elements&, ElementId leaf, const SpaceChange&) const;
@@ -105,6 +105,7 @@ class LeafTransfers {
   MeanLeaf mean_;              // when they were built
   // These follow from the rows.
   std::vector<std::uint32_t> rowOf_;  // by element: index of its row, or none
+  std::size_t known_ = 0;             // elements before this one that want rows have them, or have been listed as such
   SurfaceReaches reaches_;
   RowSurplus surplus_;
   /// Of a leaf that is one no more.

@@ -11,7 +11,7 @@ namespace deltalux {
 
 namespace {
 
-constexpr std::size_t kBlock = 256;
+constexpr std::size_t kBlock = 64;
 
 /// Children of `link` after splitting its end(s), appended contiguously. False when the end cannot be split.
 bool splitLink(Links& links, Elements& elements, const Scene& scene, LinkId id, Split split) {

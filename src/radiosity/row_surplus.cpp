@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/paged_array.hpp"
+#include "base/parallel.hpp"
 #include "base/room.hpp"
 #include "hierarchy/below.hpp"
 #include "hierarchy/most_returned.hpp"
@@ -78,7 +79,7 @@ void RowSurplus::follow(const Elements& elements, std::span<const ElementId> lea
       groups.push_back(e);
     }
   }
-  std::erase_if(full_, [&](ElementId e) { return marked[e.index()] || !elements.isReceivingLeaf(e); });
+  std::erase_if(full_, [&](ElementId e) { return bool(marked[e.index()]); });
   const auto known = static_cast<std::ptrdiff_t>(full_.size());
   full_.insert(full_.end(), full.rbegin(), full.rend());
   std::inplace_merge(full_.begin(), full_.begin() + known, full_.end());
@@ -92,15 +93,23 @@ void RowSurplus::addWithRoom(const Elements& elements, ElementId group, std::vec
 }
 
 RowSurplus::Pools RowSurplus::pools(const Elements& elements) const {
-  std::vector<RgbSum> light(groups_.size(), RgbSum(0.0));
-  for (const ElementId leaf : full_) {
+  struct Beyond {
+    std::uint32_t slot = kNone;  // none where there is no room anywhere
+    RgbSum light{0.0};
+  };
+  std::vector<Beyond> beyond(full_.size());
+  parallelFor(full_.size(), 1024, [&](std::size_t i) {
+    const ElementId leaf = full_[i];
     ElementId above = elements.at(leaf).parent;
     while (above.valid() && nodes_[above.index()].slot == kNone) above = elements.at(above).parent;
-    if (!above.valid()) continue;  // no room anywhere
+    if (!above.valid()) return;
     const ElementGeometry& g = elements.shape(leaf);
-    const double beyond = double(g.area) * (1.0 / double(scale(leaf)) - double(g.exposed));
-    light[nodes_[above.index()].slot] += beyond * RgbSum(elements.radiometry[leaf.index()].indirect);
-  }
+    const double area = double(g.area) * (1.0 / double(scale(leaf)) - double(g.exposed));
+    beyond[i] = {nodes_[above.index()].slot, area * RgbSum(elements.radiometry[leaf.index()].indirect)};
+  });
+  std::vector<RgbSum> light(groups_.size(), RgbSum(0.0));
+  for (const Beyond& b : beyond)
+    if (b.slot != kNone) light[b.slot] += b.light;
   Pools pools(groups_.size(), Rgb(0.0f));
   for (std::size_t i = 0; i < pools.size(); ++i)
     if (groups_[i].valid()) pools[i] = Rgb(double(nodes_[groups_[i].index()].perRoom) * light[i]);

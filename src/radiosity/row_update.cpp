@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::size_t kBlock = 64;
 constexpr std::size_t kFew = 8;  // a row made from nothing takes as long as looking at fifty, and those stand together
-constexpr std::size_t kManyElements = 16384;
 constexpr int kByLights = 1, kByLeaves = 2;  // which row of a leaf is concerned
 
 /// Whether what moved may have covered some of the leaf, or may cover it now.
@@ -53,12 +52,23 @@ void visitLeaves(const Elements& elements, ElementId top, PagedArray<char>& visi
 
 }  // namespace
 
-void LeafTransfers::dropNoLeaves(const Elements& elements) {
-  const auto isStale = [&](std::size_t e) { return rowOf_[e] != kNone && !elements.isReceivingLeaf(ElementId(e)); };
-  for (const std::size_t e : parallelWhere(rowOf_.size(), kManyElements, isStale)) {
-    const std::uint32_t row = std::exchange(rowOf_[e], kNone);
-    surplus_.set(ElementId(e), 0);
-    dropped_.push_back({ElementId(e), std::move(rows_[row].indirect)});
+/// Rows of what is no receiving leaf any more: what new elements were split off, what sleeps, and of these `inputs`
+/// what is gone.
+void LeafTransfers::dropNoLeaves(const Elements& elements, std::span<const ElementId> inputs) {
+  std::vector<ElementId> stale;
+  const auto look = [&](ElementId e) {
+    if (find(e) && !elements.isReceivingLeaf(e)) stale.push_back(e);
+    return true;
+  };
+  for (std::size_t i = known_; i < elements.size(); ++i)
+    if (const ElementId parent = elements.topology[i].parent; parent.valid()) look(parent);
+  for (const ElementId input : inputs) forEachBelow(elements, input, look);
+  for (const ElementId input : elements.asleep) forEachBelow(elements, input, look);
+  sortUnique(stale);
+  for (const ElementId e : stale) {
+    const std::uint32_t row = std::exchange(rowOf_[e.index()], kNone);
+    surplus_.set(e, 0);
+    dropped_.push_back({e, std::move(rows_[row].indirect)});
     if (row + 1 < rows_.size()) {
       rows_[row] = std::move(rows_.back());
       setRow(rows_[row].leaf, row);
@@ -86,6 +96,7 @@ const TransferRow* LeafTransfers::inheritance(const Elements& elements, ElementI
 
 void LeafTransfers::listRows(const Elements& elements) {
   std::fill(rowOf_.begin(), rowOf_.end(), kNone);
+  known_ = 0;
   reaches_ = {};
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     setRow(rows_[i].leaf, i);
@@ -105,7 +116,7 @@ void LeafTransfers::setRow(ElementId leaf, std::size_t row) {
 
 ConcernedLeaves LeafTransfers::concerned(const Elements& elements, const Links& links,
                                          std::span<const LinkId> changedLinks, const SpaceChange& space) {
-  dropNoLeaves(elements);
+  dropNoLeaves(elements, space.inputs());
   PagedArray<char> found(elements.size());  // bits: kBy
   const auto add = [&](ElementId leaf, int by) {
     found.at(leaf.index()) = static_cast<char>(found[leaf.index()] | by);
@@ -118,9 +129,8 @@ ConcernedLeaves LeafTransfers::concerned(const Elements& elements, const Links& 
   PagedArray<char> visited(elements.size());
   for (const ElementId input : space.inputs())
     visitLeaves(elements, input, visited, [&](ElementId e) { add(e, kByLights | kByLeaves); });
-  const auto isNew = [&](std::size_t i) { return !find(ElementId(i)) && elements.isReceivingLeaf(ElementId(i)); };
-  for (const std::size_t i : parallelWhere(elements.size(), kManyElements, isNew))
-    add(ElementId(i), kByLights | kByLeaves);
+  for (; known_ < elements.size(); ++known_)
+    if (const ElementId e(known_); !find(e) && elements.isReceivingLeaf(e)) add(e, kByLights | kByLeaves);
 
   const bool inScene = space.within(elements.sceneBox);
   const std::vector<ElementId> surfaces = reaches_.met(space, !inScene);
@@ -183,7 +193,7 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
   updateIndirect(elements, change, indirect, report, reaching);
   for (const ElementId leaf : reaching)
     if (const LeafRow* row = find(leaf)) reaches_.add(elements, leaf, row->direct, row->indirect);
-  dropNoLeaves(elements);
+  dropNoLeaves(elements, space.inputs());
   std::vector<ElementId> others = report.leaves;
   for (const Dropped& d : std::exchange(dropped_, {})) others.push_back(d.leaf);
   surplus_.follow(elements, others, report.leaves);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace deltalux {
 
@@ -25,50 +24,18 @@ Vec3f cosineDirection(const Vec3& normal, Rng& rng) {
 
 }  // namespace
 
-SideEstimator::SideEstimator(const Scene& scene, const RayTracer& tracer)
-    : scene_(scene), tracer_(tracer), sides_(surfaceSides(scene)), lit_(sides_.size()), met_(sides_.size()) {
-  first_.resize(scene.primitives.size(), 0);
-  twoSided_.resize(scene.primitives.size(), false);
-  for (std::size_t i = sides_.size(); i-- > 0;) first_[sides_[i].primitive.index()] = static_cast<std::uint32_t>(i);
-  for (const SurfaceSide& s : sides_)
-    if (!s.front) twoSided_[s.primitive.index()] = true;  // has back sides too
-  rays_ = std::clamp<std::size_t>(kPathBudget / std::max<std::size_t>(sides_.size(), 1), kFewestOfTriangle, kMost);
-  estimates_.resize(sides_.size());
-}
-
-std::size_t SideEstimator::indexOf(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
-  const std::size_t base = first_[primitive.index()];
-  return twoSided_[primitive.index()] ? base + 2 * triangle + (front ? 0u : 1u) : base + triangle;
-}
+SideEstimator::SideEstimator(const Scene& scene, const RayTracer& tracer, std::size_t sides)
+    : scene_(scene),
+      tracer_(tracer),
+      rays_(std::clamp<std::size_t>(kPathBudget / std::max<std::size_t>(sides, 1), kFewestOfTriangle, kMost)) {}
 
 double SideEstimator::diagonal() const {
   std::call_once(measured_, [&] { diagonal_ = bounds(scene_).diagonal(); });
   return diagonal_;
 }
 
-bool SideEstimator::reached(std::size_t i) const {
-  if (isLit(i) || isGlass(i)) return true;
-  // What shines through a surface lights both its sides.
-  const std::size_t other = indexOf(sides_[i].primitive, sides_[i].triangle, !sides_[i].front);
-  return !isBlack(diffuseTransmittance(scene_.materialOf(sides_[i].primitive))) && isLit(other);
-}
-
-SurfaceSide SideEstimator::estimated(std::size_t i) const {
-  SurfaceSide side = sides_[i];
-  side.irradiance = estimates_[i].E;
-  side.typicalIrradiance = estimates_[i].typical;
-  side.meanFreePath = estimates_[i].meanFreePath;
-  return side;
-}
-
-std::uint64_t SideEstimator::rays() const {
-  return std::accumulate(estimates_.begin(), estimates_.end(), std::uint64_t{0},
-                         [](std::uint64_t sum, const Estimate& e) { return sum + e.rays; });
-}
-
-std::vector<Hit> SideEstimator::firstMet(std::size_t i, std::size_t rays) const {
+std::vector<Hit> SideEstimator::firstMet(const Side& side, std::size_t rays) const {
   std::vector<Hit> found;
-  const SurfaceSide& side = sides_[i];
   Rng rng(combineKeys(combineKeys(side.primitive.value, side.triangle), side.front), 1);
   for (std::size_t k = 0; k < rays; ++k) {
     const double u = (double(k) + rng.uniform()) / double(rays), v = rng.uniform();
@@ -80,7 +47,7 @@ std::vector<Hit> SideEstimator::firstMet(std::size_t i, std::size_t rays) const 
   return found;
 }
 
-SideEstimator::Origin SideEstimator::pointOnSide(const SurfaceSide& side, Vec2 u) const {
+SideEstimator::Origin SideEstimator::pointOnSide(const Side& side, Vec2 u) const {
   const Shape& shape = scene_[side.primitive].shape;
   Origin o;
   if (const auto* mesh = std::get_if<Mesh>(&shape)) {
@@ -98,7 +65,7 @@ SideEstimator::Origin SideEstimator::pointOnSide(const SurfaceSide& side, Vec2 u
 }
 
 /// What sides reflect of what they receive, every way together: this is an estimate, not transport.
-Rgb SideEstimator::wholeReflectance(const SurfaceSide& side) const {
+Rgb SideEstimator::wholeReflectance(const Side& side) const {
   const Material& m = scene_.materialOf(side.primitive);
   Rgb r = diffuseReflectance(m, side.front);
   if (const auto* opaque = std::get_if<Opaque>(&m.surface)) r += opaque->specular.reflectance;
@@ -107,7 +74,7 @@ Rgb SideEstimator::wholeReflectance(const SurfaceSide& side) const {
 }
 
 /// Whether a ray that comes straight down on the point meets another surface in its stead, one in the same place.
-bool SideEstimator::hidden(const SurfaceSide& side, const Origin& o) const {
+bool SideEstimator::hidden(const Side& side, const Origin& o) const {
   Ray ray;
   ray.direction = -Vec3f(o.normal);
   ray.origin = offsetOrigin(Vec3f(o.position), Vec3f(o.normal), Vec3f(o.normal));
@@ -116,7 +83,7 @@ bool SideEstimator::hidden(const SurfaceSide& side, const Origin& o) const {
   return hit && hit.primitive != side.primitive && hit.t <= 2 * height;
 }
 
-bool SideEstimator::hidden(const SurfaceSide& side, std::size_t points) const {
+bool SideEstimator::hidden(const Side& side, std::size_t points) const {
   Rng rng(combineKeys(combineKeys(side.primitive.value, side.triangle), side.front), 2);
   for (std::size_t k = 0; k < points; ++k) {
     const double u = (double(k) + rng.uniform()) / double(points);
@@ -125,13 +92,12 @@ bool SideEstimator::hidden(const SurfaceSide& side, std::size_t points) const {
   return true;
 }
 
-void SideEstimator::estimate(std::size_t i) {
-  const SurfaceSide& side = sides_[i];
-  Estimate& e = estimates_[i];
+SideEstimate SideEstimator::estimate(const Side& side) const {
+  SideEstimate e;
+  e.side = {side.primitive, side.triangle, side.front};
   const bool triangle = std::holds_alternative<Mesh>(scene_[side.primitive].shape);
   const std::size_t rays = triangle ? rays_ : std::max(rays_, kFewest);
-  if (hidden(side, rays)) return;
-  std::vector<std::size_t> seen;
+  if (hidden(side, rays)) return e;
   Rng rng(combineKeys(combineKeys(side.primitive.value, side.triangle), side.front));
   double path = 0;
   std::size_t found = 0;
@@ -162,21 +128,21 @@ void SideEstimator::estimate(std::size_t i) {
         break;
       }
       if (bounce == 0) path += t, ++found;
-      const std::size_t j = indexOf(hit);
-      seen.push_back(j);
-      if (!isBlack(direct * through)) lit_[j].store(1, std::memory_order_relaxed);
-      throughput *= through * wholeReflectance(sides_[j]);
+      const Side other = sideOf(scene_, hit);
+      e.met.push_back(other);
+      if (!isBlack(direct * through)) e.lit.push_back(other);
+      throughput *= through * wholeReflectance(other);
       if (isBlack(throughput)) break;
       o.position = Vec3(hit.position);
       o.normal = Vec3(hit.front ? hit.normal : -hit.normal);
     }
     total += sum / double(rays);
   }
-  e.E = Rgb(total);
-  if (!isBlack(e.E))
-    for (const std::size_t j : seen) met_[j].store(1, std::memory_order_relaxed);
-  e.typical = static_cast<float>(std::max(0.0, gray(total) - own) + root * root);
-  e.meanFreePath = static_cast<float>(found > 0 ? path / double(found) : diagonal());
+  if (isBlack(Rgb(total))) e.met.clear();
+  e.side.irradiance = Rgb(total);
+  e.side.typicalIrradiance = static_cast<float>(std::max(0.0, gray(total) - own) + root * root);
+  e.side.meanFreePath = static_cast<float>(found > 0 ? path / double(found) : diagonal());
+  return e;
 }
 
 /// First surface that is not a pane.

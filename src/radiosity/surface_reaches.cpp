@@ -1,6 +1,7 @@
 #include "radiosity/surface_reaches.hpp"
 
 #include "base/parallel.hpp"
+#include "base/room.hpp"
 
 namespace deltalux {
 
@@ -24,7 +25,7 @@ void SurfaceReaches::add(const Elements& elements, ElementId leaf, const Transfe
                          const TransferRow& indirect) {
   const ElementGeometry& g = elements.shape(leaf);
   const ElementId part = partOf(elements, leaf);
-  if (part.index() >= slot_.size()) slot_.resize(elements.size(), kNone);
+  if (part.index() >= slot_.size()) resizeWithRoom(slot_, elements.size(), kNone);
   std::uint32_t& slot = slot_[part.index()];
   if (slot == kNone) {
     slot = static_cast<std::uint32_t>(surfaces_.size());

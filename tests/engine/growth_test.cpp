@@ -89,6 +89,22 @@ TEST(Growth, WhatALiftedBoxUncoversIsLit) {
   expectAsSolved(engine, {kRoom, kRoom + 1, kRoom + 2, kRoom + 3, kRoom + 4, kRoom + 5}, 0.01);
 }
 
+TEST(Growth, PanesHaveOneSide) {
+  Scene scene = litRoom();
+  const MaterialId glass = test::addMaterial(scene, "glass", ThinGlass{Rgb(0.9f), 1.52f});
+  const std::size_t pane = scene.primitives.size();
+  test::addPolygon(scene, glass, {{2, 1, 0.5}, {2, 3, 0.5}, {2, 3, 2}, {2, 1, 2}});
+  test::addPolygon(scene, glass, {{0.5, 1, 0.5}, {0.5, 1, 2}, {0.5, 3, 2}, {0.5, 3, 0.5}});
+  nameFrom(scene, pane, "panes");
+  test::addBox(scene, MaterialId(0), {1, 1.2, 0.8}, {1.3, 1.5, 1.1}, false);
+  nameFrom(scene, pane + 2, "box");
+  addLamp(scene);
+  Engine engine = test::solved(std::move(scene), 0.1);
+  engine.apply(move("box", {0.1, 0.8, 0}));
+  engine.update();
+  EXPECT_TRUE(engine.solution().get().elements.grown.empty());
+}
+
 TEST(Growth, WhatIsSetDownAgainSleeps) {
   Engine engine = test::solved(roomWithStandingBox(), 0.05);
   const double floorBefore = test::meshMean(engine, PrimitiveId(kRoom));

@@ -22,7 +22,8 @@ void members(auto& archive, Is<SolveReport> auto& r) {
 
 void members(auto& archive, Is<Elements> auto& e) {
   auto& [topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines, frames,
-         sceneRoot, grown, lightRoot, distant, asleep, sceneBox, inputs] = e;  // the last follows from the others
+         sceneRoot, grown, lightRoot, distant, asleep, sceneBox, inputs, sides] =
+      e;  // the last two follow from the others
   transferAll(archive, topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines,
               frames, sceneRoot, grown, lightRoot, distant, asleep, sceneBox);
 }
@@ -48,7 +49,7 @@ void members(auto& archive, Is<LeafRow> auto& r) {
 }
 struct StoredTransfers {
   static void transfer(auto& archive, auto& t) {
-    auto& [rows, mean, rowOf, reaches, surplus, dropped] = t;  // the others follow from the rows
+    auto& [rows, mean, rowOf, known, reaches, surplus, dropped] = t;  // the others follow from the rows
     transferAll(archive, rows, mean.area, mean.light);
   }
 };
