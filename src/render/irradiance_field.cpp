@@ -20,6 +20,7 @@ constexpr float kDisagree = 0.3f;              // relative difference that asks 
 constexpr float kLift = 0.1f;                  // of the smaller leaf's size: height at which that is looked for
 constexpr int kExposureRays = 16;              // that tell how much of a torn leaf is in sight of its centre
 constexpr std::uint32_t kFewestWitnesses = 4;  // joined leaves that tell what is out of the way
+constexpr float kLittleExposed = 0.2f;         // share of a leaf that tells too little of what is around it
 constexpr int kQuietPasses = 4;                // of averaging: it reaches about as many leaves
 constexpr float kLeeway = 2.0f;                // predictions stay within so many times what the neighbours differ
 
@@ -27,6 +28,8 @@ bool disagree(const Rgb& a, const Rgb& b) {
   const float x = gray(a), y = gray(b);
   return std::abs(x - y) > kDisagree * std::max(x, y);
 }
+
+bool isLittleExposed(const Elements& elements, ElementId leaf) { return elements.shape(leaf).exposed < kLittleExposed; }
 
 }  // namespace
 
@@ -46,7 +49,7 @@ IrradianceField::IrradianceField(const Elements& elements, const Scene& scene, c
     site.support = PatchSupport(elements, scene, site.leaf);
   });
   findNeighbours(values);
-  const std::vector<LeafIrradiance> whole = quiet(mended(values), noise);
+  const std::vector<LeafIrradiance> whole = quiet(mended(filled(values)), noise);
   fit(direct_, &LeafIrradiance::direct, whole);
   fit(indirect_, &LeafIrradiance::indirect, whole);
 }
@@ -127,6 +130,23 @@ float IrradianceField::exposed(ElementId leaf) const {
     seen += inSight(samplePatch(elements_, scene_, leaf, u.x, u.y).position, leaf, leaf);
   }
   return static_cast<float>(std::max(seen, 1)) / float(kExposureRays);
+}
+
+std::vector<LeafIrradiance> IrradianceField::filled(const std::vector<LeafIrradiance>& values) const {
+  std::vector<LeafIrradiance> result = values;
+  parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
+    if (!isLittleExposed(elements_, sites_[i].leaf)) return;
+    RgbSum direct(0.0), indirect(0.0);
+    double area = 0;
+    for (std::uint32_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+      const ElementId leaf = sites_[neighbours_[k]].leaf;
+      const double lit = isLittleExposed(elements_, leaf) ? 0.0 : elements_.shape(leaf).litArea();
+      direct += lit * RgbSum(values[leaf.index()].direct), indirect += lit * RgbSum(values[leaf.index()].indirect);
+      area += lit;
+    }
+    if (area > 0) result[sites_[i].leaf.index()] = {Rgb(direct / area), Rgb(indirect / area)};
+  });
+  return result;
 }
 
 std::vector<LeafIrradiance> IrradianceField::mended(const std::vector<LeafIrradiance>& values) const {

@@ -62,6 +62,9 @@ class IrradianceField {
   bool sameSurface(ElementId a, ElementId b) const;
   /// Whether `center` of a leaf can be seen from `p` of the same surface, a little above it.
   bool inSight(const Vec3f& p, ElementId home, ElementId other) const;
+  /// With means of what is around leaves that are all but covered: what peeps out is lit as that is, and its own value,
+  /// of few rays, would tilt the slopes of all that is beside it.
+  std::vector<LeafIrradiance> filled(const std::vector<LeafIrradiance>&) const;
   /// Mended values of leaves that are cut in two.
   std::vector<LeafIrradiance> mended(const std::vector<LeafIrradiance>&) const;
   /// With indirect light kept within what the joined leaves have.

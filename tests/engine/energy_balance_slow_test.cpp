@@ -18,6 +18,8 @@ double residueOf(const char* name) {
 TEST(EnergyOfLargeScenes, LodgeInTheMorning) { EXPECT_NEAR(residueOf("lodge/morning.rad"), 0, 1e-3); }
 TEST(EnergyOfLargeScenes, LodgeAtNight) { EXPECT_NEAR(residueOf("lodge/night.rad"), 0, 1e-3); }
 TEST(EnergyOfLargeScenes, Street) { EXPECT_NEAR(residueOf("street/day.rad"), 0, 1e-3); }
+/// Its leaves of trees lie every way: each once was lit by its own other side.
+TEST(EnergyOfLargeScenes, StreetAtNight) { EXPECT_NEAR(residueOf("street/night.rad"), 0, 1e-3); }
 
 }  // namespace
 }  // namespace deltalux

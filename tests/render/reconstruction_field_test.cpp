@@ -159,6 +159,26 @@ TEST(IrradianceField, StaysWithinWhatTheLeavesDiffer) {
   EXPECT_LT(high, 1.5f);
 }
 
+/// What all but a sliver of a leaf is worth nobody knows: it says nothing to the leaves around it.
+TEST(IrradianceField, LeavesThatAreAllButCoveredTiltNothing) {
+  MeshScene mesh({square(0, 0)});
+  mesh.splitIrregularly(kLeast, kMost, 9);
+  int covered = 0;
+  mesh.light([&](const Vec3f&, ElementId e) {
+    if (Rng(7, mesh.elements.key[e.index()]).uniform() > 0.05) return Rgb(1.0f);
+    mesh.elements.geometry[e.index()].exposed = 0.02f;
+    ++covered;
+    return Rgb(10.0f);
+  });
+  EXPECT_GT(covered, 10);
+  const FieldReader reader{mesh};
+  Rng rng(10);
+  for (int i = 0; i < 20000; ++i) {
+    const Rgb E = reader.at(PrimitiveId(0), {rng.uniform(), rng.uniform(), 0});
+    EXPECT_NEAR(E.x, 1.0f, 1e-4f);
+  }
+}
+
 TEST(IrradianceField, JoinsPolygonsOfOnePlaneAndNoOthers) {
   // Two squares side by side, one at right angles, and a small one a little above: a picture on a wall.
   MeshScene mesh({square(0, 0), square(1, 0), polygon({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}),
