@@ -48,9 +48,7 @@ void Elements::listInputs() {
 void Elements::listSides(std::size_t firstInput) {
   for (std::size_t i = firstInput; i < inputs.size(); ++i) {
     const ElementId e = inputs[i];
-    if (!isPatch(e) || at(e).emitter) continue;
-    const PatchDomain& d = domain[e.index()];
-    sides.add({d.primitive, d.triangle, at(e).front}, e);
+    if (isPatch(e) && !at(e).emitter) sides.add(sideOf(e)) = e;
   }
 }
 

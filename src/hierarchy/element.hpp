@@ -11,10 +11,11 @@
 #include <vector>
 
 #include "hierarchy/directional.hpp"
-#include "hierarchy/element_id.hpp"
 #include "hierarchy/side_table.hpp"
 
 namespace deltalux {
+
+using ElementId = Id<struct ElementTag>;
 
 enum class ElementKind : std::uint8_t {
   Cluster,  // children are clusters and input-level elements
@@ -117,7 +118,7 @@ class Elements {
   Box sceneBox;                    // of all surfaces; the far boxes of distant elements are measured from it
   // These follow from the others:
   std::vector<ElementId> inputs;  // all of the input level: patches, points and distant roots
-  SideTable sides;                // its patches in the scene trees, by the sides that they stand for
+  SideTable<ElementId> sides;     // its patches in the scene trees, by the sides that they stand for
 
   std::size_t size() const { return topology.size(); }
   /// Appends `count` contiguous elements as the children of `parent` (none: invalid); returns the first.
@@ -139,6 +140,11 @@ class Elements {
   void listInputs();
   /// Lists the sides of inputs from this one on.
   void listSides(std::size_t firstInput);
+  /// Of a patch: the side of its input-level surface.
+  Side sideOf(ElementId e) const {
+    const PatchDomain& d = domain[e.index()];
+    return {d.primitive, d.triangle, at(e).front};
+  }
   /// The input-level element of a side; invalid when light does not reach it, when it is glass, or was removed.
   ElementId side(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
     const ElementId e = sides.at({primitive, triangle, front});

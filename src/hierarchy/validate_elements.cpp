@@ -48,9 +48,8 @@ void validate(const Elements& elements) {
                 child, "its parent's box holds it");
     }
     if (t.childCount > 0) require(near(area, g.area, 2e-3), e, "child areas sum to the parent's");
-    const PatchDomain& d = elements.domain[i];
     if (elements.isInputLevel(e) && !t.emitter)
-      require(elements.sides.at({d.primitive, d.triangle, t.front}) == e, e, "its side knows it");
+      require(elements.sides.at(elements.sideOf(e)) == e, e, "its side knows it");
   }
 }
 

@@ -126,7 +126,7 @@ class Search {
         if (elements_.isCluster(e))
           return std::any_of(within.begin(), within.end(), [&](const Box& box) { return box.overlaps(own); });
         if (!isAwake(e) || elements_.at(e).blocker) return false;
-        const Side s = sideOf(e);
+        const Side s = elements_.sideOf(e);
         if (std::any_of(within.begin(), within.end(),
                         [&](const Box& box) { return holds(box, own) && noRayLeaves(widened(box, kNear), s); }))
           closed.push_back(s);
@@ -144,10 +144,6 @@ class Search {
     for (std::size_t i = 0; i < scene.primitives.size(); ++i)
       forEachSide(scene, PrimitiveId(i), [&](const Side&) { ++count; });
     return count;
-  }
-  Side sideOf(ElementId e) const {
-    const PatchDomain& d = elements_.domain[e.index()];
-    return {d.primitive, d.triangle, elements_.at(e).front};
   }
   Side sideOf(const Hit& hit) const { return deltalux::sideOf(scene_, hit); }
   bool moves(PrimitiveId primitive) const { return std::binary_search(moved_.begin(), moved_.end(), primitive); }

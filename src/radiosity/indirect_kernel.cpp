@@ -57,11 +57,12 @@ bool crosses(const ElementGeometry& g, const ElementGeometry& plane) {
 float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const {
   const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(sender);
   const bool flat = elements_.at(leaf).flat;
-  if (exact(sender) && areClose(elements_, leaf, sender)) {
-    if (!flat && clear) return kernelOverPoints(leaf, sender);
-    const bool turned = flat && s.area < r.area;
-    if (flat && (crosses(turned ? s : r, turned ? r : s) || (!turned && s.radius < kSmall * r.radius)))
-      return kernelOverPoints(leaf, sender);
+  const bool close = exact(sender) && areClose(elements_, leaf, sender);
+  if (close && !flat && clear) return kernelOverPoints(leaf, sender);
+  if (close && flat) {
+    const bool turned = s.area < r.area;
+    const bool missed = turned ? crosses(s, r) : crosses(r, s) || s.radius < kSmall * r.radius;
+    if (missed) return kernelOverPoints(leaf, sender);
     if (turned) return s.area / r.area * kernelOverNodes(sender, leaf);
   }
   if (!exact(sender) && isClosePatch(leaf, sender)) return kernelOverPairs(leaf, sender, kFewSets);

@@ -140,7 +140,8 @@ std::vector<LeafIrradiance> IrradianceField::filled(const std::vector<LeafIrradi
     double area = 0;
     for (std::uint32_t k = begin_[i]; k < begin_[i + 1]; ++k) {
       const ElementId leaf = sites_[neighbours_[k]].leaf;
-      const double lit = isLittleExposed(elements_, leaf) ? 0.0 : elements_.shape(leaf).litArea();
+      if (isLittleExposed(elements_, leaf)) continue;
+      const double lit = elements_.shape(leaf).litArea();
       direct += lit * RgbSum(values[leaf.index()].direct), indirect += lit * RgbSum(values[leaf.index()].indirect);
       area += lit;
     }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/random.hpp"
+#include "hierarchy/element.hpp"
 
 namespace deltalux {
 namespace {
@@ -21,10 +22,10 @@ TEST(SideTable, FindsWhatWasAddedInAnyOrder) {
   for (std::size_t i = added.size(); i-- > 1;)
     std::swap(added[i], added[static_cast<std::size_t>(rng.uniform() * static_cast<double>(i + 1))]);
   added.resize(added.size() * 2 / 3);
-  SideTable table;
+  SideTable<ElementId> table;
   std::map<Side, ElementId> expected;
   for (std::size_t i = 0; i < added.size(); ++i) {
-    table.add(added[i], ElementId(i));
+    table.add(added[i]) = ElementId(i);
     expected[added[i]] = ElementId(i);
   }
   for (const Side& s : sides)
