@@ -33,12 +33,16 @@ double coneDepth(const Vec3& toCenter, double radius) {
   return sin2 / (1 + std::sqrt(1 - sin2));
 }
 
+bool isBehind(const SendingPoint& y, const BoundingSphere& ball) {
+  return glm::dot(ball.center - y.position, y.normal) + kLeeway * std::max(ball.radius, 0.0) <= 0;
+}
+
 }  // namespace
 
 std::optional<double> Aiming::behind(const SendingPoint& y, std::uint32_t at) const {
   const BoundingSphere& ball = receivers_.bound(at);
+  if (!isBehind(y, ball) || !receivers_.holdsAll(at)) return std::nullopt;
   const Vec3 d = ball.center - y.position;
-  if (glm::dot(d, y.normal) + kLeeway * std::max(ball.radius, 0.0) > 0 || !receivers_.holdsAll(at)) return std::nullopt;
   return kPi * square(ball.radius) / glm::dot(d, d);
 }
 
@@ -143,7 +147,11 @@ void Aiming::aimAround(const SendingPoint& y, const BoundingSphere& ball, const 
 double Aiming::densityAround(const SendingPoint& y, const BoundingSphere& ball, const Vec3& direction) const {
   const Vec3 toCenter = ball.center - y.position;
   const double depth = coneDepth(toCenter, ball.radius), omega = 2 * kPi * depth;
-  if (omega > kWide && y.lambertian) return std::max(0.0, glm::dot(direction, y.normal)) / kPi;
+  if (omega > kWide && y.lambertian) {
+    // Nor when what has moved may be elsewhere: whether all is in the ball must not decide where a path goes.
+    if (isBehind(y, ball)) return 0;
+    return std::max(0.0, glm::dot(direction, y.normal)) / kPi;
+  }
   // What an edit has moved away from its neighbours may be outside.
   const bool inCone = glm::dot(direction, toCenter) >= (1 - depth - 1e-9) * glm::length(toCenter);
   return inCone ? 1 / omega : 0;

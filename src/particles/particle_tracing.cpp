@@ -99,7 +99,9 @@ ParticleTracing::Ends::Ends(const Scene& scene, const RayTracer& tracer)
     : lights(scene), senders(scene, lights), receivers(scene), emission(scene, tracer, senders, receivers) {}
 
 ParticleTracing::Look::Look(const Scene& scene)
-    : materials(scene.materials), lights(scene.lights), primitives(scene.primitives.size()), far(farDistance(scene)) {}
+    : materials(scene.materials), lights(scene.lights), far(farDistance(scene)) {
+  for (const Primitive& p : scene.primitives) materialOf.push_back(p.material);
+}
 
 ParticleTracing::ParticleTracing(const Scene& scene, const RayTracer& tracer, const ParticleSettings& settings)
     : scene_(scene), tracer_(tracer), settings_(settings), ends_(std::make_unique<Ends>(scene, tracer)), look_(scene) {}
@@ -123,13 +125,22 @@ void ParticleTracing::weigh(const Particles& p) {
 }
 
 bool ParticleTracing::looksAsBefore(const SceneChange& change) const {
-  if (look_.primitives != scene_.primitives.size() || look_.lights.size() != scene_.lights.size() ||
+  if (look_.materialOf.size() != scene_.primitives.size() || look_.lights.size() != scene_.lights.size() ||
       look_.materials.size() != scene_.materials.size() || look_.far != farDistance(scene_))
     return false;
   const auto lightAsBefore = [&](LightId l) { return look_.lights[l.index()].emitter == scene_[l].emitter; };
   const auto materialAsBefore = [&](MaterialId m) { return emitAlike(look_.materials[m.index()], scene_[m]); };
+  // A lamp that turns gets a material of its own, and its old one back.
+  const auto surfacesAsBefore = [&] {
+    for (std::size_t i = 0; i < scene_.primitives.size(); ++i) {
+      const MaterialId before = look_.materialOf[i], now = scene_.primitives[i].material;
+      if (before != now && !emitAlike(look_.materials[before.index()], scene_[now])) return false;
+    }
+    return true;
+  };
   return std::all_of(change.lights.begin(), change.lights.end(), lightAsBefore) &&
-         std::all_of(change.materials.begin(), change.materials.end(), materialAsBefore);
+         std::all_of(change.materials.begin(), change.materials.end(), materialAsBefore) &&
+         (change.materials.empty() || surfacesAsBefore());
 }
 
 /// Watches a region around what moves, with room to move on.

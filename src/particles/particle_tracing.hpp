@@ -82,7 +82,7 @@ class ParticleTracing {
   struct Look {
     std::vector<Material> materials;
     std::vector<Light> lights;
-    std::size_t primitives = 0;
+    std::vector<MaterialId> materialOf;  // by primitive
     double far = 0;
 
     explicit Look(const Scene&);

@@ -33,6 +33,15 @@ Scene sunlitCornell() {
   return scene;
 }
 
+/// The lamp shines in a cone.
+Scene spotlitCornell() {
+  Scene scene = cornell();
+  for (const Light& light : scene.lights)
+    if (const auto* lamp = std::get_if<AreaLight>(&light.emitter))
+      scene.materials[scene[lamp->primitive].material.index()].emission->spot = SpotCone{2.0, Vec3(0, -0.1, 0)};
+  return scene;
+}
+
 struct World {
   Scene scene = cornell();
   std::unique_ptr<RayTracer> tracer = makeEmbreeTracer(scene);
@@ -109,6 +118,45 @@ TEST(ParticleEdits, ThereAndBackIsNothing) {
     expectFresh(w);
   }
   while (history.canUndo()) follow(history.undo(w.scene));
+  EXPECT_EQ(w.particles.hash(), hash);
+}
+
+/// Also where clusters hold what moves and what does not, and where what moves is a lamp.
+TEST(ParticleEdits, EveryThingOfAHouseThereAndBackIsNothing) {
+  Scene house = loadScene({DELTALUX_SOURCE_DIR "/scenes/lodge/morning.rad"}).scene;
+  addAreaLights(house);
+  World w{std::move(house)};
+  const std::uint64_t hash = w.particles.hash();
+  std::vector<std::string> things;
+  for (const Object& o : w.scene.objects)
+    if (!o.parent.valid()) things.push_back(o.name);
+  ASSERT_GT(things.size(), 50u);
+  EditHistory history;
+  const auto follow = [&](const AppliedEdit& applied) {
+    w.tracer->rebuild(GroupId(0));
+    w.tracing.follow(w.particles, applied.change);
+  };
+  for (const std::string& thing : things) {
+    follow(history.apply(w.scene, TransformObject{thing, translation({0.03, -0.02, 0.01}) *
+                                                             glm::rotate(Mat4(1.0), 0.05, Vec3(0, 0, 1))}));
+    follow(history.undo(w.scene));
+    ASSERT_EQ(w.particles.hash(), hash) << thing;
+  }
+}
+
+/// A lamp that was turned has a material of its own; undone, it has that which was there all the time.
+TEST(ParticleEdits, ASpotTurnsAndBackIsNothing) {
+  World w{spotlitCornell()};
+  const std::uint64_t hash = w.particles.hash();
+  EditHistory history;
+  const auto follow = [&](const AppliedEdit& applied) {
+    w.tracer->rebuild(GroupId(0));
+    return w.tracing.follow(w.particles, applied.change);
+  };
+  EXPECT_TRUE(follow(history.apply(w.scene, AimLight{"lamp", Vec3(0.3, -1, 0)})).all);
+  expectFresh(w);
+  EXPECT_NE(w.particles.hash(), hash);
+  EXPECT_TRUE(follow(history.undo(w.scene)).all);
   EXPECT_EQ(w.particles.hash(), hash);
 }
 
