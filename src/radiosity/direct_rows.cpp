@@ -4,6 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "hierarchy/patch.hpp"
+#include "radiosity/parted_leaf.hpp"
 
 namespace deltalux {
 
@@ -11,15 +12,33 @@ namespace {
 
 constexpr std::size_t kBlock = 8;  // a row takes a tenth of a millisecond or more, and updates make few
 
-/// Whether a variation of direct light over the leaf is more than its surroundings can stand.
-bool exceeds(double variation, double mean, const Elements& elements, ElementId leaf,
-             const LeafTransferSettings& settings) {
+/// Whether a variation of direct light over the leaf is more than its surroundings, where there is about as much light
+/// as `level`, can stand. `finer`: by which smaller leaves are still split.
+bool exceeds(double variation, double level, const Elements& elements, ElementId leaf,
+             const LeafTransferSettings& settings, double finer = 1) {
   const ElementGeometry& g = elements.shape(leaf);
-  const ElementLight& l = elements.radiometry[leaf.index()];
   const double side = settings.scale * g.meanFreePath, area = side * side;
-  if (g.area < settings.finest * settings.error * area) return false;
-  const double tolerated = settings.variation * settings.error * std::max<double>(l.tolerance, mean + gray(l.indirect));
+  if (finer * g.area < settings.finest * settings.error * area) return false;
+  const double tolerated = settings.variation * settings.error * level;
   return variation * g.area > tolerated * std::max<double>(area, g.area);
+}
+
+double levelAround(const ElementLight& l, double direct) {
+  return std::max<double>(l.tolerance, direct + gray(l.indirect));
+}
+
+bool varies(const DirectRow& row, const Elements& elements, ElementId leaf, const LeafTransferSettings& settings) {
+  return exceeds(row.variation, levelAround(elements.radiometry[leaf.index()], row.mean), elements, leaf, settings);
+}
+
+/// Whether light on a part of the leaf would shine where there is none of it, behind what stands on the leaf.
+bool leaks(const DirectRow& row, const Elements& elements, const Scene& scene, const RayTracer& tracer, ElementId leaf,
+           const LeafTransferSettings& settings) {
+  constexpr double kFiner = 16;
+  const ElementLight& l = elements.radiometry[leaf.index()];
+  const double dark = std::min<double>(l.tolerance, gray(l.indirect));
+  return exceeds(row.variation, dark, elements, leaf, settings, kFiner) &&
+         standsBetween(elements, scene, tracer, leaf, row.darkest, row.brightest);
 }
 
 }  // namespace
@@ -29,17 +48,21 @@ DirectRowsReport sampleDirectRows(std::vector<ElementId> leaves, Elements& eleme
                                   const std::function<void(ElementId, TransferRow)>& keep) {
   DirectRowsReport report;
   std::vector<DirectRow> rows;
+  std::vector<char> splits;
   while (!leaves.empty()) {
-    rows.assign(leaves.size(), {});
+    rows.assign(leaves.size(), {}), splits.assign(leaves.size(), 0);
     {
       const DirectSampler sampler(scene, elements, links, tracer);
-      parallelFor(leaves.size(), kBlock, [&](std::size_t i) { rows[i] = sampler.at(leaves[i], settings.shadowRays); });
+      parallelFor(leaves.size(), kBlock, [&](std::size_t i) {
+        rows[i] = sampler.at(leaves[i], settings.shadowRays);
+        splits[i] = varies(rows[i], elements, leaves[i], settings) ||
+                    leaks(rows[i], elements, scene, tracer, leaves[i], settings);
+      });
     }
     std::vector<ElementId> parts;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
       report.rays += rows[i].rays;
-      if (!exceeds(rows[i].variation, rows[i].mean, elements, leaves[i], settings) ||
-          !subdivide(elements, scene, leaves[i])) {
+      if (!splits[i] || !subdivide(elements, scene, leaves[i])) {
         elements.geometry[leaves[i].index()].exposed = rows[i].exposed;
         keep(leaves[i], std::move(rows[i].row));
         continue;
@@ -57,7 +80,8 @@ bool mayVary(const Elements& elements, ElementId leaf, const DirectUpdate& updat
   constexpr double kOneOfFour = 1.7320508;  // standard deviation over quadrants, per mean, of what one of them has
   constexpr double kBesides = 2;            // the lights that are what they were vary, too
   const double most = kOneOfFour * update.change + kBesides * update.variation;
-  return most > 0 && exceeds(most / elements.shape(leaf).exposed, 0.0, elements, leaf, settings);
+  return most > 0 && exceeds(most / elements.shape(leaf).exposed, levelAround(elements.radiometry[leaf.index()], 0.0),
+                             elements, leaf, settings);
 }
 
 }  // namespace deltalux

@@ -25,7 +25,8 @@ DirectSampler::DirectSampler(const Scene& scene, const Elements& elements, const
       tracer_(tracer),
       exposure_(scene, elements, tracer),
       senders_(elements, links, scene, creditedStrength),
-      lights_(scene, std::vector<Rgb>(scene.lights.size(), Rgb(1.0f))) {}
+      lights_(scene, std::vector<Rgb>(scene.lights.size(), Rgb(1.0f))),
+      places_(elements) {}
 
 bool DirectSampler::curved(ElementId sender) const { return elements_.isPatch(sender) && !elements_.at(sender).flat; }
 
@@ -81,12 +82,19 @@ DirectRow DirectSampler::at(ElementId leaf, int rays) const {
   row.exposed = exposure_.of(leaf);
   row.mean = mean(leaf, sampled) / row.exposed;
   row.variation = variation(leaf, sampled) / row.exposed;
+  const auto& weight = elements_.nodes[leaf.index()].weight;
+  for (std::uint8_t q = 0; q < 4; ++q) {
+    if (weight[q] <= 0) continue;  // nothing of the leaf
+    if (!(weight[row.darkest] > 0) || sampled.E[q] < sampled.E[row.darkest]) row.darkest = q;
+    if (!(weight[row.brightest] > 0) || sampled.E[q] > sampled.E[row.brightest]) row.brightest = q;
+  }
   row.row = std::move(sampled.row), row.rays = sampled.rays;
   return row;
 }
 
 void DirectSampler::deal(ElementId leaf, const std::vector<Term>& terms, float step, Sampled& sampled) const {
   sampled.row.weightPerRay = step;
+  std::vector<Term> few;
   for (const Term& t : terms) {
     const std::uint64_t key = rayKey(leaf, t.sender);
     if (t.known()) {
@@ -99,12 +107,57 @@ void DirectSampler::deal(ElementId leaf, const std::vector<Term>& terms, float s
     }
     const float share = t.weight / step;
     if (share < 1.0f) {
-      if (toUnit(mix64(combineKeys(key, 1))) < share) sample(leaf, t, 1, 1.0f / share, key, sampled);
+      few.push_back(t);
       continue;
     }
     const int n = std::clamp(static_cast<int>(std::ceil(share)), t.curved ? kFewestCurved : 1, kMostRays);
     sample(leaf, t, n, 1.0f, key, sampled);
   }
+  if (!few.empty()) dealFew(leaf, few, step, sampled);
+  addPool(sampled);
+}
+
+void DirectSampler::dealFew(ElementId leaf, const std::vector<Term>& few, float step, Sampled& sampled) const {
+  const Roundings roundings(elements_, leaf);
+  double weight = 0;
+  std::uint64_t key = 0;
+  std::vector<RayShare> shares;
+  for (const Term& t : few) {
+    const std::uint64_t own = elements_.key[t.sender.index()];
+    shares.push_back({placeOf(t.sender), own, static_cast<std::uint32_t>(shares.size()), t.weight});
+    weight += t.weight, key = combineKeys(key, own);
+  }
+  const double expected = weight / step;
+  const int rays = static_cast<int>(expected + (expected < 1 ? roundings.of(key) : 0.5));
+  const double perRay = weight / (expected < 1 ? expected : rays);
+  dealOut(shares, rays, roundings, [&](std::uint32_t i, int own) {
+    const Term& t = few[i];
+    sample(leaf, t, own, static_cast<float>(own * perRay / t.weight), rayKey(leaf, t.sender), sampled);
+  });
+}
+
+/// Distant lights by their direction.
+std::uint64_t DirectSampler::placeOf(ElementId sender) const {
+  const Vec3f& at = elements_.shape(sender).center;
+  if (!elements_.isDistant(sender)) return places_.code(at);
+  return places_.code(Vec3f(elements_.sceneBox.center()) +
+                      0.5f * static_cast<float>(elements_.sceneBox.diagonal()) * at);
+}
+
+void DirectSampler::addPool(Sampled& out) const {
+  const auto sum = [](const std::array<double, 4>& a) { return a[0] + a[1] + a[2] + a[3]; };
+  const Pool& pool = out.pool;
+  const double all = sum(pool.all), square = sum(pool.square);
+  if (!(all > 0)) return;
+  // As of so many rays of one weight.
+  const double p = std::clamp(sum(pool.seen) / all, 0.0, 1.0), n = all * all / square;
+  const double middle = std::clamp((p * n + 0.5) / (n + 1), 0.0, 1.0);
+  for (std::size_t q = 0; q < 4; ++q) {
+    const double own = pool.all[q] > 0 ? pool.all[q] * pool.all[q] / pool.square[q] : 0.0;
+    out.E[q] += pool.whole[q] * (own > 0 ? pool.seen[q] / pool.all[q] : p);
+    out.chance[q] += pool.whole[q] * pool.whole[q] * middle * (1 - middle) / (own > 0 ? own : n);
+  }
+  out.pool = {};
 }
 
 double DirectSampler::mean(ElementId leaf, const Sampled& sampled) const {
@@ -216,6 +269,7 @@ void DirectSampler::sample(ElementId leaf, const Term& t, int rays, float gain, 
   remember(t.sender, s, out.row);
   if (!(s.weights > 0)) return;
   const bool byAngle = sampledByAngle(t.sender);
+  const bool few = std::any_of(s.count.begin(), s.count.end(), [](int n) { return n == 0; });
   const double n = s.used;
   const double p = std::clamp((s.seen[0] + s.seen[1] + s.seen[2] + s.seen[3]) / s.weights, 0.0, 1.0);
   const double shown = byAngle ? gray(B) / std::max<double>(gray(wholeB(t.sender)), 1e-30) : 0.0;
@@ -225,10 +279,17 @@ void DirectSampler::sample(ElementId leaf, const Term& t, int rays, float gain, 
       continue;
     }
     const double E = gain * t.at[q] * gray(B);
-    const double V = s.all[q] > 0 ? s.seen[q] / s.all[q] : p, known = s.count[q] > 0 ? s.count[q] : n;
+    if (few) {
+      const double worth = gain * double(t.K) * gray(B) / s.weights;
+      out.pool.whole[q] += E;
+      out.pool.all[q] += worth * s.all[q], out.pool.seen[q] += worth * s.seen[q];
+      out.pool.square[q] += s.count[q] > 0 ? worth * worth * s.all[q] * s.all[q] / s.count[q] : 0.0;
+      continue;
+    }
+    const double V = s.seen[q] / s.all[q];
     const double q1 = std::clamp((p * n + 0.5) / (n + 1), 0.0, 1.0);
     out.E[q] += E * V;
-    out.chance[q] += E * E * q1 * (1 - q1) / known;
+    out.chance[q] += E * E * q1 * (1 - q1) / s.count[q];
   }
   if (isBlack(s.T)) return;
   out.row.terms.back().count = 1;

@@ -17,6 +17,7 @@
 #include "radiosity/direct_senders.hpp"
 #include "radiosity/exposure.hpp"
 #include "radiosity/leaf_row.hpp"
+#include "radiosity/ray_shares.hpp"
 #include "radiosity/space_change.hpp"
 #include "scene/light_sampling.hpp"
 #include "tracing/ray_tracer.hpp"
@@ -25,10 +26,11 @@ namespace deltalux {
 
 /// The row of one leaf.
 struct DirectRow {
-  TransferRow row;       // emitters in place of leaves; over the whole leaf
-  double mean = 0;       // irradiance, gray
-  double variation = 0;  // of it over the quadrants, beyond what chance explains
-  float exposed = 1;     // share of the leaf's area that this is the mean of (exposure.hpp)
+  TransferRow row;                          // emitters in place of leaves; over the whole leaf
+  double mean = 0;                          // irradiance, gray
+  double variation = 0;                     // of it over the quadrants, beyond what chance explains
+  std::uint8_t darkest = 0, brightest = 0;  // quadrants
+  float exposed = 1;                        // share of the leaf's area that this is the mean of (exposure.hpp)
   std::uint64_t rays = 0;
 };
 
@@ -74,8 +76,15 @@ class DirectSampler {
     int used = 0;
     RowReach reach;  // of the rays
   };
+  /// Lights of too few rays to tell quadrants apart, cells of the sky above all: together they do.
+  struct Pool {
+    std::array<double, 4> whole{};        // irradiance, were nothing in the way, by quadrant
+    std::array<double, 4> all{}, seen{};  // of rays that start there: weights, and what passed
+    std::array<double, 4> square{};       // their weights squared
+  };
   /// A row in the making: irradiance by quadrant, and the variance that chance gives it.
   struct Sampled {
+    Pool pool;
     TransferRow row;
     std::array<double, 4> E{}, chance{};
     std::uint64_t rays = 0;
@@ -102,9 +111,14 @@ class DirectSampler {
   bool meets(ElementId leaf, const RowTerm&, const SpaceChange&) const;
   std::vector<std::uint32_t> meeting(ElementId leaf, const LinkChanges&, const SpaceChange&, const TransferRow&) const;
   Passage pass(ElementId leaf, const Term&, int rays, std::uint64_t key, std::uint64_t& traced) const;
-  /// Deals rays out over terms, one for `step` of weight.
+  /// Deals rays out over terms, one for `step` of weight; over those that are worth less than one by halves
+  /// (ray_shares.hpp), as many to each half as it is worth: of the sky, of which leaves see hundreds of cells, no part
+  /// is met too often or too seldom by chance.
   void deal(ElementId leaf, const std::vector<Term>&, float step, Sampled&) const;
   void sample(ElementId leaf, const Term&, int rays, float gain, std::uint64_t key, Sampled&) const;
+  void dealFew(ElementId leaf, const std::vector<Term>&, float step, Sampled&) const;
+  std::uint64_t placeOf(ElementId sender) const;
+  void addPool(Sampled&) const;
   double mean(ElementId leaf, const Sampled&) const;
   double variation(ElementId leaf, const Sampled&) const;
   Passage tracedAgain(ElementId leaf, const RowTerm&, std::uint64_t& traced) const;
@@ -119,6 +133,7 @@ class DirectSampler {
   Exposure exposure_;
   DirectSenders senders_;
   LightSampler lights_;
+  PlaceCodes places_;
 };
 
 }  // namespace deltalux
