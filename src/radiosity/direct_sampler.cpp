@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kMostRays = 128;        // for one light
 constexpr int kFewestCurved = 8;      // rays of a curved light: they measure K too
+constexpr double kDoubt = 2;          // times the variance of lights together: so much chance alone shows, too
 constexpr float kUnseenShare = 0.5f;  // most rays of one light that the links never saw, against all that they saw
 
 }  // namespace
@@ -155,7 +156,7 @@ void DirectSampler::addPool(Sampled& out) const {
   for (std::size_t q = 0; q < 4; ++q) {
     const double own = pool.all[q] > 0 ? pool.all[q] * pool.all[q] / pool.square[q] : 0.0;
     out.E[q] += pool.whole[q] * (own > 0 ? pool.seen[q] / pool.all[q] : p);
-    out.chance[q] += pool.whole[q] * pool.whole[q] * middle * (1 - middle) / (own > 0 ? own : n);
+    out.chance[q] += kDoubt * pool.whole[q] * pool.whole[q] * middle * (1 - middle) / (own > 0 ? own : n);
   }
   out.pool = {};
 }

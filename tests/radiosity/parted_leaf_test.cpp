@@ -77,8 +77,8 @@ double inShed(float sky) {
   return inside;
 }
 
-/// The mesh does not end where the walls stand, so some of the light outside does come in: 27 W of 1,600 that fall on
-/// the shed and the ground that its outer leaves cover, 144 W when leaves are split no finer than shadows ask for.
+/// The mesh does not end where the walls stand, so some of the light outside does come in: 27 W where 1,600 fall on
+/// the shed outside; 144 W when leaves were split neither for the sky nor for walls.
 TEST(PartedLeaf, LittleSkyShinesUnderTheWallsOfAShed) {
   const double dark = inShed(0), bright = inShed(10);
   EXPECT_GT(dark, 30);
