@@ -148,7 +148,7 @@ double Aiming::densityAround(const SendingPoint& y, const BoundingSphere& ball, 
   const Vec3 toCenter = ball.center - y.position;
   const double depth = coneDepth(toCenter, ball.radius), omega = 2 * kPi * depth;
   if (omega > kWide && y.lambertian) {
-    // Nor when what has moved may be elsewhere: whether all is in the ball must not decide where a path goes.
+    // Whether all of the node is in its ball (behind()) must not decide where a path goes.
     if (isBehind(y, ball)) return 0;
     return std::max(0.0, glm::dot(direction, y.normal)) / kPi;
   }

@@ -97,7 +97,6 @@ void DirectSampler::deal(ElementId leaf, const std::vector<Term>& terms, float s
   sampled.row.weightPerRay = step;
   std::vector<Term> few;
   for (const Term& t : terms) {
-    const std::uint64_t key = rayKey(leaf, t.sender);
     if (t.known()) {
       sampled.row.terms.push_back({t.link, t.sender, 1.0f, 0, 1, true});
       sampled.row.transfers.push_back({t.sender, Rgb(t.K)});
@@ -112,7 +111,7 @@ void DirectSampler::deal(ElementId leaf, const std::vector<Term>& terms, float s
       continue;
     }
     const int n = std::clamp(static_cast<int>(std::ceil(share)), t.curved ? kFewestCurved : 1, kMostRays);
-    sample(leaf, t, n, 1.0f, key, sampled);
+    sample(leaf, t, n, 1.0f, sampled);
   }
   if (!few.empty()) dealFew(leaf, few, step, sampled);
   addPool(sampled);
@@ -133,7 +132,7 @@ void DirectSampler::dealFew(ElementId leaf, const std::vector<Term>& few, float 
   const double perRay = weight / (expected < 1 ? expected : rays);
   dealOut(shares, rays, roundings, [&](std::uint32_t i, int own) {
     const Term& t = few[i];
-    sample(leaf, t, own, static_cast<float>(own * perRay / t.weight), rayKey(leaf, t.sender), sampled);
+    sample(leaf, t, own, static_cast<float>(own * perRay / t.weight), sampled);
   });
 }
 
@@ -263,9 +262,9 @@ DirectSampler::Passage DirectSampler::pass(ElementId leaf, const Term& t, int ra
   return p;
 }
 
-void DirectSampler::sample(ElementId leaf, const Term& t, int rays, float gain, std::uint64_t key, Sampled& out) const {
+void DirectSampler::sample(ElementId leaf, const Term& t, int rays, float gain, Sampled& out) const {
   const Rgb B = elements_.radiometry[t.sender.index()].B;
-  const Passage s = pass(leaf, t, rays, key, out.rays);
+  const Passage s = pass(leaf, t, rays, rayKey(leaf, t.sender), out.rays);
   out.row.terms.push_back({t.link, t.sender, gain, static_cast<std::uint16_t>(rays), 0, t.clear});
   remember(t.sender, s, out.row);
   if (!(s.weights > 0)) return;

@@ -115,7 +115,7 @@ class DirectSampler {
   /// (ray_shares.hpp), as many to each half as it is worth: of the sky, of which leaves see hundreds of cells, no part
   /// is met too often or too seldom by chance.
   void deal(ElementId leaf, const std::vector<Term>&, float step, Sampled&) const;
-  void sample(ElementId leaf, const Term&, int rays, float gain, std::uint64_t key, Sampled&) const;
+  void sample(ElementId leaf, const Term&, int rays, float gain, Sampled&) const;
   void dealFew(ElementId leaf, const std::vector<Term>&, float step, Sampled&) const;
   std::uint64_t placeOf(ElementId sender) const;
   void addPool(Sampled&) const;

@@ -49,8 +49,8 @@ struct World {
   ParticleTracing tracing{scene, *tracer, settings};
   Particles particles = tracing.trace();
 
-  ParticleUpdate apply(const Edit& edit) {
-    const AppliedEdit applied = applyEdit(scene, edit);
+  ParticleUpdate apply(const Edit& edit) { return follow(applyEdit(scene, edit)); }
+  ParticleUpdate follow(const AppliedEdit& applied) {
     tracer->rebuild(GroupId(0));
     return tracing.follow(particles, applied.change);
   }
@@ -109,15 +109,11 @@ TEST(ParticleEdits, ThereAndBackIsNothing) {
   const std::vector<Edit> edits = {TransformObject{"ball", translation({0.1, 0.05, 0})},
                                    TransformObject{"tall_block", turn(0.3, {0.37, 0, 0.35})}, RemoveObject{"ball"}};
   EditHistory history;
-  const auto follow = [&](const AppliedEdit& applied) {
-    w.tracer->rebuild(GroupId(0));
-    w.tracing.follow(w.particles, applied.change);
-  };
   for (const Edit& e : edits) {
-    follow(history.apply(w.scene, e));
+    w.follow(history.apply(w.scene, e));
     expectFresh(w);
   }
-  while (history.canUndo()) follow(history.undo(w.scene));
+  while (history.canUndo()) w.follow(history.undo(w.scene));
   EXPECT_EQ(w.particles.hash(), hash);
 }
 
@@ -132,14 +128,10 @@ TEST(ParticleEdits, EveryThingOfAHouseThereAndBackIsNothing) {
     if (!o.parent.valid()) things.push_back(o.name);
   ASSERT_GT(things.size(), 50u);
   EditHistory history;
-  const auto follow = [&](const AppliedEdit& applied) {
-    w.tracer->rebuild(GroupId(0));
-    w.tracing.follow(w.particles, applied.change);
-  };
   for (const std::string& thing : things) {
-    follow(history.apply(w.scene, TransformObject{thing, translation({0.03, -0.02, 0.01}) *
-                                                             glm::rotate(Mat4(1.0), 0.05, Vec3(0, 0, 1))}));
-    follow(history.undo(w.scene));
+    w.follow(history.apply(w.scene, TransformObject{thing, translation({0.03, -0.02, 0.01}) *
+                                                               glm::rotate(Mat4(1.0), 0.05, Vec3(0, 0, 1))}));
+    w.follow(history.undo(w.scene));
     ASSERT_EQ(w.particles.hash(), hash) << thing;
   }
 }
@@ -149,14 +141,10 @@ TEST(ParticleEdits, ASpotTurnsAndBackIsNothing) {
   World w{spotlitCornell()};
   const std::uint64_t hash = w.particles.hash();
   EditHistory history;
-  const auto follow = [&](const AppliedEdit& applied) {
-    w.tracer->rebuild(GroupId(0));
-    return w.tracing.follow(w.particles, applied.change);
-  };
-  EXPECT_TRUE(follow(history.apply(w.scene, AimLight{"lamp", Vec3(0.3, -1, 0)})).all);
+  EXPECT_TRUE(w.follow(history.apply(w.scene, AimLight{"lamp", Vec3(0.3, -1, 0)})).all);
   expectFresh(w);
   EXPECT_NE(w.particles.hash(), hash);
-  EXPECT_TRUE(follow(history.undo(w.scene)).all);
+  EXPECT_TRUE(w.follow(history.undo(w.scene)).all);
   EXPECT_EQ(w.particles.hash(), hash);
 }
 
