@@ -264,6 +264,7 @@ Elements buildElements(const Scene& scene, const std::vector<SurfaceSide>& reach
     elements.distant.push_back(e);
   }
   elements.listSides(0);
+  elements.contacts = ContactLines(elements, scene);
   return elements;
 }
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "hierarchy/contact_lines.hpp"
 #include "hierarchy/directional.hpp"
 #include "hierarchy/side_table.hpp"
 
@@ -119,6 +120,7 @@ class Elements {
   // These follow from the others:
   std::vector<ElementId> inputs;  // all of the input level: patches, points and distant roots
   SideTable<ElementId> sides;     // its patches in the scene trees, by the sides that they stand for
+  ContactLines contacts;          // where patches are split besides in their middle
 
   std::size_t size() const { return topology.size(); }
   /// Appends `count` contiguous elements as the children of `parent` (none: invalid); returns the first.

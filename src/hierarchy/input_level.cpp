@@ -11,19 +11,8 @@ namespace deltalux {
 
 namespace {
 
-/// The plane of a flat input-level patch; nothing for other shapes and for what is no more.
 std::optional<PlaneFrame> planeOf(const Scene& scene, const PatchDomain& d) {
-  const Shape& shape = scene[d.primitive].shape;
-  if (const auto* polygon = std::get_if<Polygon>(&shape))
-    return PlaneFrame{polygon->origin, polygon->edgeU, polygon->edgeV, polygon->normal};
-  const auto* mesh = std::get_if<Mesh>(&shape);
-  if (!mesh || d.triangle >= mesh->triangles.size()) return std::nullopt;
-  const auto& triangle = mesh->triangles[d.triangle];
-  const Vec3 p0 = mesh->positions[triangle[0]], e1 = mesh->positions[triangle[1]] - p0,
-             e2 = mesh->positions[triangle[2]] - p0;
-  const Vec3 n = glm::cross(e1, e2);
-  const double length = glm::length(n);
-  return PlaneFrame{p0, e1, e2, length > 0 ? n / length : Vec3(0, 0, 1)};
+  return planeOf(scene[d.primitive].shape, d.triangle);
 }
 
 bool isGone(const Scene& scene, PrimitiveId primitive) { return !(area(scene[primitive].shape) > 0); }
@@ -64,6 +53,19 @@ void shapeAbove(Elements& elements, std::span<const ElementId> changed) {
 
 bool passesStraight(const Material& material) {
   return isThinGlass(material) || std::holds_alternative<Dielectric>(material.surface);
+}
+
+std::optional<PlaneFrame> planeOf(const Shape& shape, std::uint32_t triangle) {
+  if (const auto* polygon = std::get_if<Polygon>(&shape))
+    return PlaneFrame{polygon->origin, polygon->edgeU, polygon->edgeV, polygon->normal};
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  if (!mesh || triangle >= mesh->triangles.size()) return std::nullopt;
+  const auto& corners = mesh->triangles[triangle];
+  const Vec3 p0 = mesh->positions[corners[0]], e1 = mesh->positions[corners[1]] - p0,
+             e2 = mesh->positions[corners[2]] - p0;
+  const Vec3 n = glm::cross(e1, e2);
+  const double length = glm::length(n);
+  return PlaneFrame{p0, e1, e2, length > 0 ? n / length : Vec3(0, 0, 1)};
 }
 
 void addPlane(Elements& elements, const Scene& scene, ElementId e) {

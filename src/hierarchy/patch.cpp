@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kMaxDepth = 14;         // four bits below the 2 * 14 that addresses use
 constexpr double kLongAndThin = 1.6;  // aspect above which a patch is halved rather than quartered
+constexpr double kWall = 0.2;         // least height of what a patch is split along, in the patch's side
 
 double areaScale(const PlaneFrame& f) { return glm::length(glm::cross(f.edgeU, f.edgeV)); }
 
@@ -213,6 +214,15 @@ void shapeDistant(Elements& elements, const Scene& scene, ElementId e) {
   }
 }
 
+Walls wallsAcross(const Elements& elements, const Scene& scene, ElementId e) {
+  if (!elements.at(e).flat) return {};
+  const PatchDomain& d = elements.domain[e.index()];
+  const Vec2 size = worldSize(elements, scene, e);
+  const auto height = static_cast<float>(kWall * std::sqrt(size.x * size.y));
+  return {elements.contacts.across({d.frame, 0, d.u0, d.u1, d.v0, d.v1}, height),
+          elements.contacts.across({d.frame, 1, d.v0, d.v1, d.u0, d.u1}, height)};
+}
+
 bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
   if (!elements.isLeaf(e)) return true;
   const ElementTopology parent = elements.at(e);
@@ -223,12 +233,16 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
     return false;
 
   bool splitU = true, splitV = true;
+  float um = 0.5f * (whole.u0 + whole.u1), vm = 0.5f * (whole.v0 + whole.v1);
   if (parent.kind == ElementKind::Patch) {
     const Vec2 size = worldSize(elements, scene, e);
     splitU = size.x * kLongAndThin > size.y;
     splitV = size.y * kLongAndThin > size.x;
+    if (const Walls walls = wallsAcross(elements, scene, e); walls) {
+      splitU = walls.u.has_value(), splitV = walls.v.has_value();
+      um = walls.u.value_or(um), vm = walls.v.value_or(vm);
+    }
   }
-  const float um = 0.5f * (whole.u0 + whole.u1), vm = 0.5f * (whole.v0 + whole.v1);
   std::vector<PatchDomain> parts;
   std::vector<std::vector<Vec2>> outlines;
   for (int q = 0; q < 4; ++q) {

@@ -25,7 +25,16 @@ PatchPoint samplePatch(const Elements&, const Scene&, ElementId patch, double a,
 /// Fills geometry, nodes, moments and reflectances of a patch whose domain, side and frame are set.
 void shapePatch(Elements&, const Scene&, ElementId patch);
 
-/// Splits a leaf patch into quadrants (into halves when it is long and thin), or a leaf cell of a sky dome into four.
+/// Where walls cross a flat patch that rise by a fifth of its side or more: the parameters of their feet.
+struct Walls {
+  std::optional<float> u, v;
+
+  explicit operator bool() const { return u || v; }
+};
+Walls wallsAcross(const Elements&, const Scene&, ElementId patch);
+
+/// Splits a leaf patch along the walls that cross it, or else into quadrants (into halves when it is long and thin), or
+/// a leaf cell of a sky dome into four.
 /// Children inherit light and reflectances; quadrants that miss the outline are left out. False when it cannot be
 /// split.
 bool subdivide(Elements&, const Scene&, ElementId element);

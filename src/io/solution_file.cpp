@@ -86,6 +86,7 @@ SolutionView readSolution(std::string_view bytes, const std::string& file) {
     throw InputError(file, 0, std::string("does not hold together: ") + error.what(), "solve the scene again");
   }
   solution->elements.listInputs();
+  solution->elements.contacts = ContactLines(solution->elements, solution->scene);
   solution->links.listArriving();
   solution->transfers.listRows(solution->elements);
   solution->tracer = makeEmbreeTracer(solution->scene);

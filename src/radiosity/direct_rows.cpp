@@ -12,15 +12,22 @@ namespace {
 
 constexpr std::size_t kBlock = 8;  // a row takes a tenth of a millisecond or more, and updates make few
 
+/// Whether a leaf is so large that it may be split. `finer`: by which smaller leaves are, too.
+bool isLarge(const Elements& elements, ElementId leaf, const LeafTransferSettings& settings, double finer = 1) {
+  const ElementGeometry& g = elements.shape(leaf);
+  const double side = settings.scale * g.meanFreePath;
+  return finer * g.area >= settings.finest * settings.error * side * side;
+}
+
 /// Whether a variation of direct light over the leaf is more than its surroundings, where there is about as much light
-/// as `level`, can stand. `finer`: by which smaller leaves are still split.
+/// as `level`, can stand.
 bool exceeds(double variation, double level, const Elements& elements, ElementId leaf,
              const LeafTransferSettings& settings, double finer = 1) {
+  if (!isLarge(elements, leaf, settings, finer)) return false;
   const ElementGeometry& g = elements.shape(leaf);
-  const double side = settings.scale * g.meanFreePath, area = side * side;
-  if (finer * g.area < settings.finest * settings.error * area) return false;
+  const double side = settings.scale * g.meanFreePath;
   const double tolerated = settings.variation * settings.error * level;
-  return variation * g.area > tolerated * std::max<double>(area, g.area);
+  return variation * g.area > tolerated * std::max<double>(side * side, g.area);
 }
 
 double levelAround(const ElementLight& l, double direct) {
@@ -41,6 +48,23 @@ bool leaks(const DirectRow& row, const Elements& elements, const Scene& scene, c
          standsBetween(elements, scene, tracer, leaf, row.darkest, row.brightest);
 }
 
+/// Splits leaves along walls that cross them. Returns what is left whole, and the parts; adds to `split`.
+std::vector<ElementId> alongWalls(std::vector<ElementId> leaves, Elements& elements, const Scene& scene,
+                                  const LeafTransferSettings& settings, std::size_t& split) {
+  std::vector<ElementId> whole;
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const ElementId leaf = leaves[i];
+    if (!isLarge(elements, leaf, settings) || !wallsAcross(elements, scene, leaf) ||
+        !subdivide(elements, scene, leaf)) {
+      whole.push_back(leaf);
+      continue;
+    }
+    ++split;
+    for (std::size_t c = 0; c < elements.at(leaf).childCount; ++c) leaves.push_back(elements.child(leaf, c));
+  }
+  return whole;
+}
+
 }  // namespace
 
 DirectRowsReport sampleDirectRows(std::vector<ElementId> leaves, Elements& elements, const Links& links,
@@ -49,7 +73,7 @@ DirectRowsReport sampleDirectRows(std::vector<ElementId> leaves, Elements& eleme
   DirectRowsReport report;
   std::vector<DirectRow> rows;
   std::vector<char> splits;
-  while (!leaves.empty()) {
+  for (leaves = alongWalls(std::move(leaves), elements, scene, settings, report.split); !leaves.empty();) {
     rows.assign(leaves.size(), {}), splits.assign(leaves.size(), 0);
     {
       const DirectSampler sampler(scene, elements, links, tracer);
@@ -70,7 +94,7 @@ DirectRowsReport sampleDirectRows(std::vector<ElementId> leaves, Elements& eleme
       ++report.split;
       for (std::size_t c = 0; c < elements.at(leaves[i]).childCount; ++c) parts.push_back(elements.child(leaves[i], c));
     }
-    leaves = std::move(parts);
+    leaves = alongWalls(std::move(parts), elements, scene, settings, report.split);
   }
   return report;
 }

@@ -22,8 +22,8 @@ void members(auto& archive, Is<SolveReport> auto& r) {
 
 void members(auto& archive, Is<Elements> auto& e) {
   auto& [topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines, frames,
-         sceneRoot, grown, lightRoot, distant, asleep, sceneBox, inputs, sides] =
-      e;  // the last two follow from the others
+         sceneRoot, grown, lightRoot, distant, asleep, sceneBox, inputs, sides, contacts] =
+      e;  // the last three follow from the others
   transferAll(archive, topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines,
               frames, sceneRoot, grown, lightRoot, distant, asleep, sceneBox);
 }

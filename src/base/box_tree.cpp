@@ -1,4 +1,4 @@
-#include "render/box_tree.hpp"
+#include "base/box_tree.hpp"
 
 #include <algorithm>
 #include <numeric>

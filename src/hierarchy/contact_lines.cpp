@@ -1,0 +1,203 @@
+#include "hierarchy/contact_lines.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <tuple>
+
+#include "base/box_tree.hpp"
+#include "hierarchy/element.hpp"
+#include "hierarchy/input_level.hpp"
+#include "scene/edit/plan.hpp"
+#include "scene/stops_light.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr double kGap = 0.02;         // between a surface and what stands on it, in the height of the latter
+constexpr double kUpright = 0.3;      // sine of how far a wall may lean
+constexpr double kAligned = 0.01;     // by which a line may leave its axis, in its length
+constexpr double kShortest = 0.01;    // length of a line, in that of the surface
+constexpr double kTogether = 1e-4;    // lines that are closer count as one: parts of a wall, its two faces when thin
+constexpr float kWellInside = 0.02f;  // least distance of a split from the ends
+constexpr float kCrossed = 0.5f;      // least share of a patch that a line has to cross
+
+/// A flat face of a surface that stops light.
+struct Face {
+  std::vector<Vec3> corners;
+  Vec3 normal;
+};
+
+/// Plane coordinates of points of space.
+class PlanePoints {
+ public:
+  explicit PlanePoints(const PlaneFrame& f) : origin_(f.origin) {
+    const Vec3 n = glm::cross(f.edgeU, f.edgeV);
+    const double squared = std::max(glm::dot(n, n), 1e-300);
+    dualU_ = glm::cross(f.edgeV, n) / squared, dualV_ = glm::cross(n, f.edgeU) / squared;
+  }
+  Vec2 of(const Vec3& p) const { return {glm::dot(p - origin_, dualU_), glm::dot(p - origin_, dualV_)}; }
+
+ private:
+  Vec3 origin_, dualU_, dualV_;
+};
+
+BoxF around(std::span<const Vec3> points, double slack) {
+  Box box;
+  for (const Vec3& p : points) box.extend(p);
+  const double by = slack * box.diagonal();
+  return {Vec3f(box.lower - by), Vec3f(box.upper + by)};
+}
+
+/// Input-level patches below the scene's root that have a plane.
+std::vector<ElementId> flatInputs(const Elements& elements) {
+  const auto rootOf = [&](ElementId e) {
+    while (elements.at(e).parent.valid()) e = elements.at(e).parent;
+    return e;
+  };
+  std::vector<ElementId> flat;
+  for (const ElementId e : elements.inputs)
+    if (elements.isPatch(e) && elements.at(e).flat && rootOf(e) == elements.sceneRoot) flat.push_back(e);
+  return flat;
+}
+
+/// A patch's outline in space, with everything at rest.
+std::vector<Vec3> cornersOf(const Elements& elements, const PlaneFrame& plane, ElementId patch) {
+  std::vector<Vec3> corners;
+  for (const Vec2& q : elements.outline(patch)) corners.push_back(plane.at(q));
+  return corners;
+}
+
+}  // namespace
+
+class ContactLines::Search {
+ public:
+  Search(const Elements& elements, const Scene& scene, std::span<const ElementId> inputs)
+      : elements_(elements), scene_(scene), faces_(facesOf(inputs)), tree_(boxesOf(faces_)) {}
+
+  /// The lines on a patch that stand across u, and across v.
+  std::array<std::vector<Line>, 2> on(ElementId patch) const {
+    std::array<std::vector<Line>, 2> lines;
+    const auto plane = atRest(patch);
+    if (!plane) return lines;
+    const Vec3 up = elements_.at(patch).front ? plane->normal : -plane->normal;
+    tree_.overlapping(around(cornersOf(elements_, *plane, patch), 1e-4),
+                      [&](std::uint32_t face) { addFoot(faces_[face], *plane, up, lines); });
+    for (auto& across : lines) align(across);
+    return lines;
+  }
+
+ private:
+  std::optional<PlaneFrame> atRest(ElementId patch) const {
+    const PatchDomain& d = elements_.domain[patch.index()];
+    return planeOf(edits::restShape(scene_, d.primitive), d.triangle);
+  }
+
+  std::vector<Face> facesOf(std::span<const ElementId> inputs) const {
+    std::vector<Face> faces;
+    for (const ElementId e : inputs) {
+      const Side side = elements_.sideOf(e);
+      const bool again = !side.front && elements_.sides.at({side.primitive, side.triangle, true}).valid();
+      if (again || !stopsLight(scene_.materialOf(side.primitive))) continue;
+      if (const auto plane = atRest(e)) faces.push_back({cornersOf(elements_, *plane, e), plane->normal});
+    }
+    return faces;
+  }
+
+  static std::vector<BoxF> boxesOf(const std::vector<Face>& faces) {
+    std::vector<BoxF> boxes;
+    for (const Face& f : faces) boxes.push_back(around(f.corners, kGap));
+    return boxes;
+  }
+
+  /// Adds where a face meets the plane, if it rises from it to the side of `up`.
+  static void addFoot(const Face& face, const PlaneFrame& plane, const Vec3& up,
+                      std::array<std::vector<Line>, 2>& lines) {
+    if (std::abs(glm::dot(face.normal, up)) > kUpright) return;
+    const auto heightOf = [&](const Vec3& p) { return glm::dot(p - plane.origin, up); };
+    double height = 0;
+    for (const Vec3& p : face.corners) height = std::max(height, heightOf(p));
+    const double close = kGap * height;
+    const PlanePoints points(plane);
+    Vec2 lower(kInfinity), upper(-kInfinity);
+    for (std::size_t i = 0; i < face.corners.size(); ++i) {
+      const Vec3 &a = face.corners[i], &b = face.corners[(i + 1) % face.corners.size()];
+      const double ha = heightOf(a), rise = heightOf(b) - ha;
+      // The part of the edge that lies in the slab |h| <= close.
+      double from = 0, to = 1;
+      if (rise != 0) {
+        const auto [first, last] = std::minmax((-close - ha) / rise, (close - ha) / rise);
+        from = std::max(first, 0.0), to = std::min(last, 1.0);
+      } else if (std::abs(ha) > close) {
+        continue;
+      }
+      if (from > to) continue;
+      for (const double at : {from, to}) {
+        const Vec2 q = points.of(a + at * (b - a));
+        lower = glm::min(lower, q), upper = glm::max(upper, q);
+      }
+    }
+    const Vec2 size(glm::length(plane.edgeU), glm::length(plane.edgeV));
+    for (const int axis : {0, 1}) {
+      const int along = 1 - axis;
+      const double at = 0.5 * (lower[axis] + upper[axis]);
+      const double from = std::max(lower[along], 0.0), to = std::min(upper[along], 1.0);
+      const double strays = (upper[axis] - lower[axis]) * size[axis];
+      if (at > 0 && at < 1 && to - from >= kShortest &&
+          strays <= kAligned * (upper[along] - lower[along]) * size[along])
+        lines[static_cast<std::size_t>(axis)].push_back(
+            {static_cast<float>(at), static_cast<float>(from), static_cast<float>(to), static_cast<float>(height)});
+    }
+  }
+
+  /// Sorts lines, and puts those on one that are almost.
+  static void align(std::vector<Line>& lines) {
+    std::sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) {
+      return std::tie(a.at, a.from, a.to, a.height) < std::tie(b.at, b.from, b.to, b.height);
+    });
+    for (std::size_t i = 1; i < lines.size(); ++i)
+      if (lines[i].at - lines[i - 1].at < kTogether) lines[i].at = lines[i - 1].at;
+  }
+
+  const Elements& elements_;
+  const Scene& scene_;
+  std::vector<Face> faces_;
+  BoxTree tree_;
+};
+
+ContactLines::ContactLines(const Elements& elements, const Scene& scene) {
+  const std::vector<ElementId> inputs = flatInputs(elements);
+  const Search search(elements, scene, inputs);
+  std::vector<ElementId> patchOf(elements.frames.size());
+  for (const ElementId e : inputs) patchOf[elements.domain[e.index()].frame] = e;
+  for (const ElementId patch : patchOf) {
+    const auto found = patch.valid() ? search.on(patch) : std::array<std::vector<Line>, 2>();
+    for (const auto& across : found) {
+      lines_.insert(lines_.end(), across.begin(), across.end());
+      end_.push_back(static_cast<std::uint32_t>(lines_.size()));
+    }
+  }
+}
+
+std::optional<float> ContactLines::across(const Range& r, float height) const {
+  const std::size_t i = 2 * std::size_t(r.plane) + static_cast<std::size_t>(r.axis);
+  if (i >= end_.size()) return std::nullopt;  // a surface that an edit has brought into the light
+  const float margin = kWellInside * (r.to - r.from), middle = 0.5f * (r.from + r.to);
+  const auto last = lines_.begin() + end_[i];
+  auto line = std::lower_bound(lines_.begin() + (i > 0 ? end_[i - 1] : 0), last, r.from + margin,
+                               [](const Line& l, float at) { return l.at < at; });
+  std::optional<float> nearest;
+  while (line != last && line->at <= r.to - margin) {
+    const float at = line->at;
+    float crossed = 0;
+    for (; line != last && line->at == at; ++line)
+      if (line->height >= height) crossed += std::max(0.0f, std::min(line->to, r.high) - std::max(line->from, r.low));
+    if (crossed < kCrossed * (r.high - r.low)) continue;
+    if (!nearest || std::abs(at - middle) < std::abs(*nearest - middle)) nearest = at;
+  }
+  return nearest;
+}
+
+}  // namespace deltalux
