@@ -1,6 +1,7 @@
 #include "render/irradiance_field.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/parallel.hpp"
@@ -145,7 +146,7 @@ std::vector<LeafIrradiance> IrradianceField::filled(const std::vector<LeafIrradi
       direct += lit * RgbSum(values[leaf.index()].direct), indirect += lit * RgbSum(values[leaf.index()].indirect);
       area += lit;
     }
-    if (area > 0) result[sites_[i].leaf.index()] = {Rgb(direct / area), Rgb(indirect / area)};
+    if (area > 0) result[sites_[i].leaf.index()] = {Rgb(direct / area), Rgb(indirect / area), 0.0f};
   });
   return result;
 }
@@ -164,7 +165,7 @@ std::vector<LeafIrradiance> IrradianceField::mended(const std::vector<LeafIrradi
     // What is hidden is taken to be dark, as far as the neighbours in sight bear that out.
     const auto mend = [&](const Rgb& E, const Rgb& limit) { return glm::max(E, glm::min(E / share, limit)); };
     LeafIrradiance& own = result[leaf.index()];
-    own = {mend(own.direct, most.direct), mend(own.indirect, most.indirect)};
+    own.direct = mend(own.direct, most.direct), own.indirect = mend(own.indirect, most.indirect);
   });
   return result;
 }
@@ -192,14 +193,15 @@ std::vector<LeafIrradiance> IrradianceField::quiet(const std::vector<LeafIrradia
     parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
       const ElementId leaf = sites_[i].leaf;
       const LeafIrradiance& own = before[leaf.index()];
-      const float total = gray(own.direct + own.indirect);
+      const float total = gray(own.direct + own.indirect), asked = noise * total;
       if (!(total > 0)) return;
       RgbSum sum(0.0);
       double weights = 0;
       for (std::uint32_t k = begin_[i]; k < torn_[i]; ++k) {
         const Site& other = sites_[neighbours_[k]];
         const LeafIrradiance& value = before[other.leaf.index()];
-        const float apart = maxChannel(glm::abs(value.indirect - own.indirect)) / (noise * total);
+        const float both = std::sqrt(0.5f * (own.noise * own.noise + value.noise * value.noise));
+        const float apart = maxChannel(glm::abs(value.indirect - own.indirect)) / std::max(asked, both);
         const double w = std::exp(-0.5 * apart * apart) / other.fineness;
         sum += w * RgbSum(value.indirect), weights += w;
       }
@@ -207,6 +209,19 @@ std::vector<LeafIrradiance> IrradianceField::quiet(const std::vector<LeafIrradia
     });
   }
   return result;
+}
+
+/// visit(p) for the corners of a flat leaf, for a grid of points of a curved one.
+template <class Visit>
+void IrradianceField::forEachCorner(ElementId leaf, const Visit& visit) const {
+  const PatchDomain& d = elements_.domain[leaf.index()];
+  if (elements_.at(leaf).flat) {
+    for (const Vec2& q : elements_.outline(leaf)) visit(Vec3f(elements_.frames[d.frame].at(q)));
+    return;
+  }
+  for (const float u : {0.0f, 0.5f, 1.0f})
+    for (const float v : {0.0f, 0.5f, 1.0f})
+      visit(pointOn(elements_, scene_, leaf, glm::mix(d.u0, d.u1, u), glm::mix(d.v0, d.v1, v)).position);
 }
 
 void IrradianceField::fit(std::vector<Linear>& result, Rgb LeafIrradiance::*quantity,
@@ -230,13 +245,11 @@ void IrradianceField::fit(std::vector<Linear>& result, Rgb LeafIrradiance::*quan
     linear.high = own + kLeeway * largest;
     fit.slopes(linear.slope);
     // Within the leaf itself the slope must not go further than to its neighbours.
-    if (!elements_.at(site.leaf).flat) return;
-    const PlaneFrame& f = elements_.frames[elements_.domain[site.leaf.index()].frame];
     Rgb reach(0.0f);
-    for (const Vec2& q : elements_.outline(site.leaf)) {
-      const Vec3f d = Vec3f(f.at(q)) - site.center;
+    forEachCorner(site.leaf, [&](const Vec3f& p) {
+      const Vec3f d = p - site.center;
       reach = glm::max(reach, glm::abs(d.x * linear.slope[0] + d.y * linear.slope[1] + d.z * linear.slope[2]));
-    }
+    });
     for (int c = 0; c < 3; ++c) {
       if (reach[c] <= 1.1f * largest[c]) continue;
       for (Rgb& s : linear.slope) s[c] *= 1.1f * largest[c] / reach[c];

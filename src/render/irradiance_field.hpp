@@ -12,8 +12,9 @@
 // that stands on a floor. All of that is decided once per pair of leaves, none of it per query.
 //
 // Leaves gather by rays of their own, so neighbours differ by chance, in colour too, which an eye sees as blotches.
-// What indirect light of joined leaves differs by less than the error that was asked for is taken for noise and
-// averaged (bilateral filter [Tomasi98]); larger differences stay. The lower the error, the less is averaged.
+// What indirect light of joined leaves differs by less than the error that was asked for, or than the rays of their own
+// rows vary, is taken for noise and averaged (bilateral filter [Tomasi98]); larger differences stay. The lower the
+// error, the less is averaged.
 //
 // Rejected: vertex interpolation (needs a conforming mesh), one moving least-squares fit per query (a solve each, and
 // fits that jump as leaves enter them).
@@ -72,6 +73,8 @@ class IrradianceField {
   /// With indirect light averaged as far as it differs by no more than noise.
   std::vector<LeafIrradiance> quiet(const std::vector<LeafIrradiance>&, float noise) const;
   float exposed(ElementId leaf) const;
+  template <class Visit>
+  void forEachCorner(ElementId leaf, const Visit&) const;
   void fit(std::vector<Linear>&, Rgb LeafIrradiance::*quantity, const std::vector<LeafIrradiance>&) const;
   Rgb blend(const std::vector<Linear>&, const LeafPoint&, const Vec3f& p) const;
 

@@ -16,10 +16,11 @@ class LinearFit {
     t_ = frame.tangent, b_ = frame.bitangent;
   }
 
-  /// A point at `offset`, where the function differs by `difference`. Near points count more, by 1 / distance^2.
+  /// A point at `offset`, where the function differs by `difference`. Near points count more, by 1 / distance^2: in
+  /// space, so that one behind the point, on a ball, says nothing of slopes.
   void add(const Vec3f& offset, const Rgb& difference) {
     const Vec3 d(offset);
-    const double x = glm::dot(d, t_), y = glm::dot(d, b_), squared = x * x + y * y;
+    const double x = glm::dot(d, t_), y = glm::dot(d, b_), squared = glm::dot(d, d);
     if (!flat_ || !(squared > 0)) return;
     const double w = 1.0 / squared;
     xx_ += w * x * x, xy_ += w * x * y, yy_ += w * y * y;

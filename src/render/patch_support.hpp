@@ -5,8 +5,8 @@
 //
 // Flat patches measure in the affine frame of their plane. Curved ones measure in their primitive's parameters, around
 // the axis by arc length at the height of the point, which closes the seam and brings all patches together at a pole.
-#include "hierarchy/element.hpp"
 #include "base/box_tree.hpp"
+#include "hierarchy/element.hpp"
 
 namespace deltalux {
 

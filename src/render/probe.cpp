@@ -19,8 +19,8 @@ namespace {
 constexpr double kOnSurface = 1e-3;  // of the scene's size: this near, a point lies on a surface
 constexpr double kFacing = 0.5;      // cosine from which a side faces the normal
 constexpr int kMaxLayers = 16;       // surfaces that are looked at around a point
-constexpr double kGatherRays = 10;   // over the links of a surface point, times the error that is asked for
-constexpr int kFewestGatherRays = 256, kMostGatherRays = 4096;
+constexpr double kGatherRays = 40;   // over the links of a surface point, times the error that is asked for
+constexpr int kFewestGatherRays = 1024, kMostGatherRays = 1 << 14;
 constexpr int kGatherBatch = 256;  // rays of one independent estimate in free space
 constexpr int kFirstBatches = 4;
 constexpr double kDirectShare =

@@ -10,7 +10,7 @@ constexpr float kNoise = 2.0f;  // of leaves, times the error that was asked for
 
 Reconstruction::Reconstruction(const Solution& s)
     : locator(s.elements, s.scene),
-      field(s.elements, s.scene, *s.tracer, meshIrradiance(s.elements, s.caustics),
+      field(s.elements, s.scene, *s.tracer, meshIrradiance(s.elements, s.caustics, s.transfers),
             kNoise * static_cast<float>(s.settings.error)),
       direct(s.scene, s.elements, s.links, *s.tracer),
       choices(direct, s.elements.size()) {}

@@ -11,7 +11,7 @@
 namespace deltalux {
 namespace {
 
-constexpr std::uint64_t kCount = 50000;
+constexpr std::uint64_t kCount = 100000;
 
 Engine solvedScene(const std::string& file) {
   SolveSettings settings;

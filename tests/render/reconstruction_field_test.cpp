@@ -58,6 +58,27 @@ TEST(IrradianceField, AveragesNoiseAndKeepsEdges) {
   EXPECT_LT(after, 0.2 * before);
 }
 
+/// Leaves whose own rays say that they vary by much are averaged as far as that; others that differ as much are not.
+TEST(IrradianceField, AveragesByTheNoiseOfEachLeaf) {
+  const auto errorWith = [](float known) {
+    MeshScene mesh({square(0, 0)});
+    mesh.splitIrregularly(4, 6, 1);
+    mesh.light([&](const Vec3f& c, ElementId e) { return Rgb(1.0f) + 0.8f * (noise(c, mesh, e) - 0.5f); });
+    for (LeafIrradiance& v : mesh.values) v.noise = known;
+    const IrradianceField field = mesh.field(0.01f);
+    const SideLocator locator(mesh.elements, mesh.scene);
+    Rng rng(3);
+    double squares = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 p(rng.uniform(), rng.uniform(), 0);
+      const LeafPoint at = locator.locate(locator.side(PrimitiveId(0), 0, true), p);
+      squares += std::pow(field.indirect(at, Vec3f(p)).x - 1, 2);
+    }
+    return squares;
+  };
+  EXPECT_LT(errorWith(0.25f), 0.2 * errorWith(0.0f));
+}
+
 TEST(IrradianceField, ReproducesLinearFieldsOnSlantedPolygonsWithHoles) {
   // A slanted wall with a window, its hole joined by a seam.
   const auto at = [](double x, double y) { return Vec3(x, y, 0.5 * x); };
@@ -160,6 +181,26 @@ TEST(IrradianceField, StaysWithinWhatTheLeavesDiffer) {
 }
 
 /// What all but a sliver of a leaf is worth nobody knows: it says nothing to the leaves around it.
+/// A ball of eight leaves, lit from one side: those behind a leaf, straight through the ball, tilt nothing.
+TEST(IrradianceField, IsSmoothOnABallOfFewLeaves) {
+  MeshScene mesh({{Sphere{{0, 0, 0}, 0.088, false}, MaterialId(0), ObjectId()}});
+  mesh.splitIrregularly(2, 2, 1);
+  mesh.light([](const Vec3f& c, ElementId) { return Rgb(c.y < 0 ? 0.4f : 0.0f); });
+  const FieldReader reader{mesh};
+  const auto at = [&](double x, double z) {
+    return reader.at(PrimitiveId(0), 0.088 * Vec3(x, -std::sqrt(1 - x * x - z * z), z)).x;
+  };
+  for (int i = -60; i <= 60; ++i) {
+    const double a = 0.01 * i;
+    for (const auto& [x, z] : {std::pair(a, 0.3), std::pair(0.3, a), std::pair(a, -0.5), std::pair(-0.5, a)}) {
+      EXPECT_GT(at(x, z), 0.3f);
+      EXPECT_LT(at(x, z), 0.82f);
+    }
+    EXPECT_NEAR(at(a, 0.3), at(a + 0.01, 0.3), 0.03);
+    EXPECT_NEAR(at(0.3, a), at(0.3, a + 0.01), 0.03);
+  }
+}
+
 TEST(IrradianceField, LeavesThatAreAllButCoveredTiltNothing) {
   MeshScene mesh({square(0, 0)});
   mesh.splitIrregularly(kLeast, kMost, 9);
