@@ -9,6 +9,7 @@
 #include "base/box_tree.hpp"
 #include "hierarchy/element.hpp"
 #include "hierarchy/input_level.hpp"
+#include "hierarchy/plane_points.hpp"
 #include "scene/edit/plan.hpp"
 #include "scene/stops_light.hpp"
 
@@ -28,20 +29,6 @@ constexpr float kCrossed = 0.5f;      // least share of a patch that a line has 
 struct Face {
   std::vector<Vec3> corners;
   Vec3 normal;
-};
-
-/// Plane coordinates of points of space.
-class PlanePoints {
- public:
-  explicit PlanePoints(const PlaneFrame& f) : origin_(f.origin) {
-    const Vec3 n = glm::cross(f.edgeU, f.edgeV);
-    const double squared = std::max(glm::dot(n, n), 1e-300);
-    dualU_ = glm::cross(f.edgeV, n) / squared, dualV_ = glm::cross(n, f.edgeU) / squared;
-  }
-  Vec2 of(const Vec3& p) const { return {glm::dot(p - origin_, dualU_), glm::dot(p - origin_, dualV_)}; }
-
- private:
-  Vec3 origin_, dualU_, dualV_;
 };
 
 BoxF around(std::span<const Vec3> points, double slack) {
@@ -82,9 +69,10 @@ class ContactLines::Search {
     std::array<std::vector<Line>, 2> lines;
     const auto plane = atRest(patch);
     if (!plane) return lines;
+    const PlanePoints points(*plane);
     const Vec3 up = elements_.at(patch).front ? plane->normal : -plane->normal;
     tree_.overlapping(around(cornersOf(elements_, *plane, patch), 1e-4),
-                      [&](std::uint32_t face) { addFoot(faces_[face], *plane, up, lines); });
+                      [&](std::uint32_t face) { addFoot(faces_[face], *plane, points, up, lines); });
     for (auto& across : lines) align(across);
     return lines;
   }
@@ -113,14 +101,13 @@ class ContactLines::Search {
   }
 
   /// Adds where a face meets the plane, if it rises from it to the side of `up`.
-  static void addFoot(const Face& face, const PlaneFrame& plane, const Vec3& up,
+  static void addFoot(const Face& face, const PlaneFrame& plane, const PlanePoints& points, const Vec3& up,
                       std::array<std::vector<Line>, 2>& lines) {
     if (std::abs(glm::dot(face.normal, up)) > kUpright) return;
     const auto heightOf = [&](const Vec3& p) { return glm::dot(p - plane.origin, up); };
     double height = 0;
     for (const Vec3& p : face.corners) height = std::max(height, heightOf(p));
     const double close = kGap * height;
-    const PlanePoints points(plane);
     Vec2 lower(kInfinity), upper(-kInfinity);
     for (std::size_t i = 0; i < face.corners.size(); ++i) {
       const Vec3 &a = face.corners[i], &b = face.corners[(i + 1) % face.corners.size()];
@@ -198,6 +185,10 @@ std::optional<float> ContactLines::across(const Range& r, float height) const {
     if (!nearest || std::abs(at - middle) < std::abs(*nearest - middle)) nearest = at;
   }
   return nearest;
+}
+
+std::size_t ContactLines::memoryBytes() const {
+  return lines_.capacity() * sizeof(lines_[0]) + end_.capacity() * sizeof(end_[0]);
 }
 
 }  // namespace deltalux

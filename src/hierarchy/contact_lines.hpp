@@ -30,6 +30,7 @@ class ContactLines {
   /// Where to split the rectangle: at the line nearest to its middle that crosses at least half of it, well inside, and
   /// whose wall rises by `height` or more [m]. Nothing where none does.
   std::optional<float> across(const Range&, float height) const;
+  std::size_t memoryBytes() const;
 
  private:
   struct Line {

@@ -56,7 +56,7 @@ std::size_t Elements::memoryBytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(topology) + bytes(geometry) + bytes(nodes) + bytes(domain) + bytes(moments) + bytes(light) +
          bytes(radiometry) + bytes(slot) + bytes(clusters) + bytes(key) + bytes(outlines) + bytes(frames) +
-         bytes(inputs) + sides.memoryBytes();
+         bytes(inputs) + sides.memoryBytes() + contacts.memoryBytes();
 }
 
 }  // namespace deltalux

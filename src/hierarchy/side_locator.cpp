@@ -4,25 +4,13 @@
 
 namespace deltalux {
 
-SideLocator::SideLocator(const Elements& elements, const Scene& scene) : elements_(elements), scene_(scene) {
-  for (const PlaneFrame& f : elements.frames) {
-    const Vec3 n = glm::cross(f.edgeU, f.edgeV);
-    const double squared = std::max(glm::dot(n, n), 1e-300);
-    dualU_.push_back(glm::cross(f.edgeV, n) / squared);
-    dualV_.push_back(glm::cross(n, f.edgeU) / squared);
-    origin_.push_back(f.origin);
-  }
-}
+SideLocator::SideLocator(const Elements& elements, const Scene& scene)
+    : elements_(elements), scene_(scene), planes_(elements.frames.begin(), elements.frames.end()) {}
 
 LeafPoint SideLocator::locate(ElementId side, const Vec3& p) const {
   const PatchDomain& d = elements_.domain[side.index()];
   LeafPoint result;
-  if (elements_.at(side).flat) {
-    const Vec3 from = p - origin_[d.frame];
-    result.uv = {glm::dot(from, dualU_[d.frame]), glm::dot(from, dualV_[d.frame])};
-  } else {
-    result.uv = parameterAt(scene_[d.primitive].shape, p, d.triangle);
-  }
+  result.uv = elements_.at(side).flat ? planes_[d.frame].of(p) : parameterAt(scene_[d.primitive].shape, p, d.triangle);
   result.leaf = leafAt(side, result.uv);
   return result;
 }

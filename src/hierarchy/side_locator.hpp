@@ -1,7 +1,7 @@
 #pragma once
 // From a point of a surface to the element that holds it: the input-level element of the surface's side, and down its
 // quadtree to the leaf. Cost: a handful of comparisons a level, no memory per query.
-#include "hierarchy/element.hpp"
+#include "hierarchy/plane_points.hpp"
 
 namespace deltalux {
 
@@ -28,7 +28,7 @@ class SideLocator {
  private:
   const Elements& elements_;
   const Scene& scene_;
-  std::vector<Vec3> dualU_, dualV_, origin_;  // per frame: p -> (dot(p - origin, dualU), dot(p - origin, dualV))
+  std::vector<PlanePoints> planes_;  // per frame
 };
 
 }  // namespace deltalux
