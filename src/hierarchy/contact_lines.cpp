@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/box_tree.hpp"
+#include "hierarchy/below.hpp"
 #include "hierarchy/element.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/plane_points.hpp"
@@ -40,13 +41,12 @@ BoxF around(std::span<const Vec3> points, double slack) {
 
 /// Input-level patches below the scene's root that have a plane.
 std::vector<ElementId> flatInputs(const Elements& elements) {
-  const auto rootOf = [&](ElementId e) {
-    while (elements.at(e).parent.valid()) e = elements.at(e).parent;
-    return e;
-  };
   std::vector<ElementId> flat;
-  for (const ElementId e : elements.inputs)
-    if (elements.isPatch(e) && elements.at(e).flat && rootOf(e) == elements.sceneRoot) flat.push_back(e);
+  if (!elements.sceneRoot.valid()) return flat;
+  forEachBelow(elements, elements.sceneRoot, [&](ElementId e) {
+    if (elements.isInputLevel(e) && elements.at(e).flat) flat.push_back(e);
+    return elements.isCluster(e);
+  });
   return flat;
 }
 

@@ -12,22 +12,25 @@ namespace {
 
 constexpr std::size_t kBlock = 8;  // a row takes a tenth of a millisecond or more, and updates make few
 
-/// Whether a leaf is so large that it may be split. `finer`: by which smaller leaves are, too.
-bool isLarge(const Elements& elements, ElementId leaf, const LeafTransferSettings& settings, double finer = 1) {
-  const ElementGeometry& g = elements.shape(leaf);
+/// The area that variation over a leaf is weighed against.
+double scaleAround(const ElementGeometry& g, const LeafTransferSettings& settings) {
   const double side = settings.scale * g.meanFreePath;
-  return finer * g.area >= settings.finest * settings.error * side * side;
+  return side * side;
+}
+
+/// Whether a leaf is so large that it may be split. `finer`: by which smaller leaves are, too.
+bool isLarge(const ElementGeometry& g, const LeafTransferSettings& settings, double finer = 1) {
+  return finer * g.area >= settings.finest * settings.error * scaleAround(g, settings);
 }
 
 /// Whether a variation of direct light over the leaf is more than its surroundings, where there is about as much light
 /// as `level`, can stand.
 bool exceeds(double variation, double level, const Elements& elements, ElementId leaf,
              const LeafTransferSettings& settings, double finer = 1) {
-  if (!isLarge(elements, leaf, settings, finer)) return false;
   const ElementGeometry& g = elements.shape(leaf);
-  const double side = settings.scale * g.meanFreePath;
+  if (!isLarge(g, settings, finer)) return false;
   const double tolerated = settings.variation * settings.error * level;
-  return variation * g.area > tolerated * std::max<double>(side * side, g.area);
+  return variation * g.area > tolerated * std::max<double>(scaleAround(g, settings), g.area);
 }
 
 double levelAround(const ElementLight& l, double direct) {
@@ -54,7 +57,7 @@ std::vector<ElementId> alongWalls(std::vector<ElementId> leaves, Elements& eleme
   std::vector<ElementId> whole;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const ElementId leaf = leaves[i];
-    if (!isLarge(elements, leaf, settings) || !wallsAcross(elements, scene, leaf) ||
+    if (!isLarge(elements.shape(leaf), settings) || !wallsAcross(elements, scene, leaf) ||
         !subdivide(elements, scene, leaf)) {
       whole.push_back(leaf);
       continue;
@@ -73,7 +76,8 @@ DirectRowsReport sampleDirectRows(std::vector<ElementId> leaves, Elements& eleme
   DirectRowsReport report;
   std::vector<DirectRow> rows;
   std::vector<char> splits;
-  for (leaves = alongWalls(std::move(leaves), elements, scene, settings, report.split); !leaves.empty();) {
+  while (!leaves.empty()) {
+    leaves = alongWalls(std::move(leaves), elements, scene, settings, report.split);
     rows.assign(leaves.size(), {}), splits.assign(leaves.size(), 0);
     {
       const DirectSampler sampler(scene, elements, links, tracer);
@@ -94,7 +98,7 @@ DirectRowsReport sampleDirectRows(std::vector<ElementId> leaves, Elements& eleme
       ++report.split;
       for (std::size_t c = 0; c < elements.at(leaves[i]).childCount; ++c) parts.push_back(elements.child(leaves[i], c));
     }
-    leaves = alongWalls(std::move(parts), elements, scene, settings, report.split);
+    leaves = std::move(parts);
   }
   return report;
 }

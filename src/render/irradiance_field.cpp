@@ -146,7 +146,7 @@ std::vector<LeafIrradiance> IrradianceField::filled(const std::vector<LeafIrradi
       direct += lit * RgbSum(values[leaf.index()].direct), indirect += lit * RgbSum(values[leaf.index()].indirect);
       area += lit;
     }
-    if (area > 0) result[sites_[i].leaf.index()] = {Rgb(direct / area), Rgb(indirect / area), 0.0f};
+    if (area > 0) result[sites_[i].leaf.index()] = {Rgb(direct / area), Rgb(indirect / area)};
   });
   return result;
 }

@@ -155,8 +155,7 @@ TEST(ContactLines, AreThoseOfTheSceneAtRestAlsoInAFile) {
   std::filesystem::remove(path);
   EXPECT_EQ(wallsOf(loaded.get()), wallsOf(moved));
 
-  Scene edited = moved.scene;
-  const Elements afresh = buildElements(edited, surfaceSides(edited)),
+  const Elements afresh = buildElements(moved.scene, surfaceSides(moved.scene)),
                  before = buildElements(screened(), surfaceSides(screened()));
   const auto floorOf = [](const Elements& e) { return wallsAcross(e, screened(), e.side(PrimitiveId(0u), 0, true)); };
   EXPECT_EQ(floorOf(afresh).u, floorOf(before).u);

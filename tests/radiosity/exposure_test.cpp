@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "support/solved.hpp"
 
 namespace deltalux {
@@ -11,16 +13,16 @@ namespace {
 using namespace test;
 
 constexpr Vec3 kMiddle(1.88, 1.44, 0), kHalf(0.35, 0.4, 0);  // of the block's foot
-constexpr double kTurned = 0.5;                              // [rad]
 
-Vec3 turned(const Vec3& p, double angle) {
-  const Vec3 d = p - kMiddle;
-  const double c = std::cos(angle), s = std::sin(angle);
-  return kMiddle + Vec3(c * d.x - s * d.y, s * d.x + c * d.y, d.z);
+/// About the block's middle.
+Mat4 turn(double radians) {
+  return glm::translate(Mat4(1.0), kMiddle) * glm::rotate(Mat4(1.0), radians, Vec3(0, 0, 1)) *
+         glm::translate(Mat4(1.0), -kMiddle);
 }
+constexpr double kTurned = 0.5;
 
 bool isBesideTheBlock(const Vec3& p) {
-  const Vec3 d = glm::abs(turned(p, -kTurned) - kMiddle);
+  const Vec3 d = glm::abs(Vec3(turn(-kTurned) * glm::dvec4(p, 1)) - kMiddle);
   return d.x > kHalf.x || d.y > kHalf.y;
 }
 
@@ -31,11 +33,8 @@ Scene roomWithABlock() {
   addBox(scene, grey, {0, 0, 0}, {4, 3, 2.5}, true);
   const std::size_t first = scene.primitives.size();
   addBox(scene, grey, kMiddle - kHalf, kMiddle + kHalf + Vec3(0, 0, 1.1), false);
-  for (std::size_t i = first; i < scene.primitives.size(); ++i) {
-    std::vector<Vec3> vertices = std::get<Polygon>(scene.primitives[i].shape).vertices;
-    for (Vec3& v : vertices) v = turned(v, kTurned);
-    scene.primitives[i].shape = *makePolygon(std::move(vertices));
-  }
+  for (std::size_t i = first; i < scene.primitives.size(); ++i)
+    scene.primitives[i].shape = *transformed(scene.primitives[i].shape, turn(kTurned));
   addPolygon(scene, addMaterial(scene, "lamp", lambert(0), Emission{Rgb(10.0f), false, {}}),
              {{1, 1, 2.4}, {1, 1.6, 2.4}, {1.6, 1.6, 2.4}, {1.6, 1, 2.4}});
   return scene;

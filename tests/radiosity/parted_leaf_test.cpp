@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <deltalux/engine.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "hierarchy/build.hpp"
 #include "solution/solution.hpp"
@@ -51,18 +52,17 @@ Scene shed(float sky, double angle) {
   const MaterialId grey = test::addMaterial(scene, "grey", test::lambert(0.7f));
   test::addPolygon(scene, grey, {{0, 0, 0}, {24, 0, 0}, {24, 24, 0}, {0, 24, 0}});
   const Vec3 a(10.3, 9.7, 0), b(14.6, 13.4, 2.5);
-  const Vec3 middle = 0.5 * (a + b);
-  const auto turned = [&](double x, double y, double z) {
-    const Vec2 d(x - middle.x, y - middle.y);
-    const double c = std::cos(angle), s = std::sin(angle);
-    return Vec3(middle.x + c * d.x - s * d.y, middle.y + s * d.x + c * d.y, z);
-  };
   const auto wall = [&](double x0, double y0, double x1, double y1) {
-    test::addPolygon(scene, grey, {turned(x0, y0, 0), turned(x1, y1, 0), turned(x1, y1, b.z), turned(x0, y0, b.z)});
+    test::addPolygon(scene, grey, {{x0, y0, 0}, {x1, y1, 0}, {x1, y1, b.z}, {x0, y0, b.z}});
   };
   wall(a.x, a.y, b.x, a.y), wall(b.x, a.y, b.x, b.y), wall(b.x, b.y, a.x, b.y), wall(a.x, b.y, a.x, a.y);
-  test::addPolygon(scene, grey,
-                   {turned(a.x, a.y, b.z), turned(b.x, a.y, b.z), turned(b.x, b.y, b.z), turned(a.x, b.y, b.z)});
+  test::addPolygon(scene, grey, {{a.x, a.y, b.z}, {b.x, a.y, b.z}, {b.x, b.y, b.z}, {a.x, b.y, b.z}});
+  const Vec3 middle = 0.5 * (a + b);
+  const Mat4 turn = glm::translate(Mat4(1.0), middle) * glm::rotate(Mat4(1.0), angle, Vec3(0, 0, 1)) *
+                    glm::translate(Mat4(1.0), -middle);
+  if (angle != 0)
+    for (std::size_t i = 1; i < scene.primitives.size(); ++i)
+      scene.primitives[i].shape = *transformed(scene.primitives[i].shape, turn);
   if (sky > 0) test::addLight(scene, DomeLight{{0, 0, 1}, kPi / 2, Rgb(sky), UniformSky{1.0}, {0, 0, 1}});
   test::addLight(scene, PointLight{{12, 11, 2}, Rgb(1.0f)});
   return scene;

@@ -47,7 +47,7 @@ struct MeshScene {
     for (std::size_t i = 0; i < elements.size(); ++i)
       if (elements.isReceivingLeaf(ElementId(i))) {
         const Rgb value = E(elements.geometry[i].center, ElementId(i));
-        values[i] = {value, value, 0.0f};
+        values[i] = {value, value};
       }
   }
 

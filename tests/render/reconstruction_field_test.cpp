@@ -180,7 +180,6 @@ TEST(IrradianceField, StaysWithinWhatTheLeavesDiffer) {
   EXPECT_LT(high, 1.5f);
 }
 
-/// What all but a sliver of a leaf is worth nobody knows: it says nothing to the leaves around it.
 /// A ball of eight leaves, lit from one side: those behind a leaf, straight through the ball, tilt nothing.
 TEST(IrradianceField, IsSmoothOnABallOfFewLeaves) {
   MeshScene mesh({{Sphere{{0, 0, 0}, 0.088, false}, MaterialId(0), ObjectId()}});
@@ -201,6 +200,7 @@ TEST(IrradianceField, IsSmoothOnABallOfFewLeaves) {
   }
 }
 
+/// What all but a sliver of a leaf is worth nobody knows: it says nothing to the leaves around it.
 TEST(IrradianceField, LeavesThatAreAllButCoveredTiltNothing) {
   MeshScene mesh({square(0, 0)});
   mesh.splitIrregularly(kLeast, kMost, 9);
