@@ -5,7 +5,7 @@
 //
 // Updates against solving, in one run, as CSV rows: one an edit (columns: kColumns). Times are wall seconds, and
 // processor seconds of all threads.
-//   replay  solves, then edits one by one. The last step, or every one with `each`, is held against a fresh solve of
+//   replay  solves, then edits one by one; an object is selected before it moves, which is timed by itself. The last step, or every one with `each`, is held against a fresh solve of
 //   the
 //           edited scene, whose time is then the one that updates are related to; with `unchecked` none is.
 //   far     the scene with a small box ten of its diagonals away, which moves by its own size.
@@ -35,7 +35,7 @@ constexpr const char* kColumns =
     "scene,edits,light,error,step,op,object,solve_s,update_s,solve_over_update,solve_cpu_s,update_cpu_s,links_visited,"
     "links_total,links_changed,leaves_examined,leaves_renewed,leaves_total,particles_retraced,particles_total,"
     "textures_rebuilt,links_s,rows_s,particles_s,textures_s,peak_mib,median_percent,p95_percent,max_percent,"
-    "particles_identical";
+    "particles_identical,select_s";
 
 constexpr const char* kTableColumns = "scene,measure,paper,ours,unit";
 
@@ -95,7 +95,7 @@ struct Heading {
 };
 
 void printRow(const Heading& h, std::size_t index, const StepReport& step, const SolveReport& now, Seconds solved,
-              Seconds update, const std::optional<CheckReport>& check) {
+              Seconds update, double selecting, const std::optional<CheckReport>& check) {
   fmt::print("{},{},{},{},{},{},{},", quoted(h.scene), quoted(h.edits), h.settings.diffuseOnly ? "diffuse" : "all",
              h.settings.error, index, step.op, quoted(step.object));
   fmt::print("{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},", solved.wall, update.wall, solved.wall / update.wall,
@@ -106,15 +106,27 @@ void printRow(const Heading& h, std::size_t index, const StepReport& step, const
   fmt::print("{:.4g},{:.4g},{:.4g},{:.4g},{:.0f},", step.times.visibility + step.times.refine, step.times.gather,
              step.times.particles, step.times.textures, static_cast<double>(peakResidentBytes()) / 1048576.0);
   if (check)
-    fmt::print("{:.3g},{:.3g},{:.3g},{}\n", 100 * check->medianRelDiff, 100 * check->p95RelDiff,
+    fmt::print("{:.3g},{:.3g},{:.3g},{},", 100 * check->medianRelDiff, 100 * check->p95RelDiff,
                100 * check->maxRelDiff, check->particlesIdentical ? "yes" : "no");
   else
-    fmt::print(",,,\n");
+    fmt::print(",,,,");
+  fmt::print("{:.4g}\n", selecting);
   std::fflush(stdout);
 }
 
+/// Selects what the edit moves, as one who drags it does, unless it is what was selected last. The seconds that takes.
+double selectFor(const Edit& edit, Engine& engine, std::string& selected) {
+  const auto* moved = std::get_if<TransformObject>(&edit);
+  if (!moved || moved->object == selected) return 0;
+  const Stopwatch watch;
+  engine.select(selected = moved->object);
+  return watch.wall();
+}
+
 void play(const Heading& heading, Solved solved, const std::vector<Edit>& edits, Checked checked) {
+  std::string selected;
   for (std::size_t i = 0; i < edits.size(); ++i) {
+    const double selecting = selectFor(edits[i], solved.engine, selected);
     const Stopwatch watch;
     solved.engine.apply(edits[i]);
     const StepReport step = solved.engine.update();
@@ -126,7 +138,7 @@ void play(const Heading& heading, Solved solved, const std::vector<Edit>& edits,
       check = compareSolutions(solved.engine.solution(), fresh.engine.solution());
       against = fresh.took;
     }
-    printRow(heading, i + 1, step, solved.engine.solution().report(), against, update, check);
+    printRow(heading, i + 1, step, solved.engine.solution().report(), against, update, selecting, check);
   }
 }
 
@@ -173,10 +185,8 @@ void far(const std::string& name, const std::string& file, const Options& o) {
 
 void copies(const std::string& name, const std::string& scene, const std::string& file, int k, const Options& o) {
   const std::vector<Edit> edits = editsOf(file, o.import);
-  Solved solved = solve(sideBySide(loadScene({scene}, o.import).scene, k), o.settings);
-  // As one who drags it does: what an object takes to be made ready for motion is not what its updates take.
-  if (const auto* moved = std::get_if<TransformObject>(&edits.front())) solved.engine.select(moved->object);
-  play({fmt::format("{} x {}", name, k), stemOf(file), o.settings}, std::move(solved), edits, Checked::None);
+  play({fmt::format("{} x {}", name, k), stemOf(file), o.settings},
+       solve(sideBySide(loadScene({scene}, o.import).scene, k), o.settings), edits, Checked::None);
 }
 
 /// What [GD01 7] says of its scenes; nothing of ours that it has no like of.
