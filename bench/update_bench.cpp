@@ -5,8 +5,8 @@
 //
 // Updates against solving, in one run, as CSV rows: one an edit (columns: kColumns). Times are wall seconds, and
 // processor seconds of all threads.
-//   replay  solves, then edits one by one; an object is selected before it moves, which is timed by itself. The last step, or every one with `each`, is held against a fresh solve of
-//   the
+//   replay  solves, then edits one by one; an object is selected before it moves, which is timed by itself. The last
+//   step, or every one with `each`, is held against a fresh solve of the
 //           edited scene, whose time is then the one that updates are related to; with `unchecked` none is.
 //   far     the scene with a small box ten of its diagonals away, which moves by its own size.
 //   copies  k copies of the scene side by side, the edits applied to the first: never checked.
@@ -106,8 +106,8 @@ void printRow(const Heading& h, std::size_t index, const StepReport& step, const
   fmt::print("{:.4g},{:.4g},{:.4g},{:.4g},{:.0f},", step.times.visibility + step.times.refine, step.times.gather,
              step.times.particles, step.times.textures, static_cast<double>(peakResidentBytes()) / 1048576.0);
   if (check)
-    fmt::print("{:.3g},{:.3g},{:.3g},{},", 100 * check->medianRelDiff, 100 * check->p95RelDiff,
-               100 * check->maxRelDiff, check->particlesIdentical ? "yes" : "no");
+    fmt::print("{:.3g},{:.3g},{:.3g},{},", 100 * check->medianRelDiff, 100 * check->p95RelDiff, 100 * check->maxRelDiff,
+               check->particlesIdentical ? "yes" : "no");
   else
     fmt::print(",,,,");
   fmt::print("{:.4g}\n", selecting);

@@ -1,6 +1,7 @@
 #include "caustics/adaptive_kernel.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "caustics/walls.hpp"
@@ -38,8 +39,9 @@ class Smoothing {
     HeatFlow(raster_, walls.bandwidth, &walls.openness).apply(first, 1.0);
     const double darkness = rule.error * (kMatters * medianOfFlux(raster_.areas(), first) + rule.darkest);
     const Borders openness = sharpWalls(raster_, first, darkness);
-    const Slots conductivity = chooseBandwidths(raster_, HeatFlow(raster_, {}, &openness), told, rule);
-    flow_.emplace(raster_, conductivity, &openness);
+    Bandwidths widths = chooseBandwidths(raster_, HeatFlow(raster_, {}, &openness), told, rule);
+    flow_.emplace(raster_, widths.conductivity, &openness);
+    noise_ = std::move(widths.noise);
   }
 
   /// By slot, of values by cell.
@@ -55,29 +57,28 @@ class Smoothing {
     return std::max(values[channel][raster_.slotOf(cell)], 0.0f);
   }
 
+  float noiseAt(std::uint32_t cell) const {
+    return noise_.empty() ? 0.0f : mean_ * std::sqrt(std::max(noise_[raster_.slotOf(cell)], 0.0f));
+  }
+
  private:
   CellRaster raster_;
   float mean_;
+  Slots noise_;  // variance, of the light whose mean is 1
   std::optional<HeatFlow> flow_;
 };
 
 }  // namespace
 
-std::vector<Rgb> reconstructAdaptive(const CellGrid& grid, const CellLight& light, const BandwidthRule& rule) {
+Reconstruction reconstructAdaptive(const CellGrid& grid, const CellLight& light, const BandwidthRule& rule) {
   const Smoothing smoothing(grid, light, rule);
   const std::vector<float> cells[] = {channelOf(light, 0), channelOf(light, 1), channelOf(light, 2)};
   const Channels E = smoothing.smoothed(cells);
-  std::vector<Rgb> result(grid.size());
-  for (std::uint32_t i = 0; i < grid.size(); ++i)
-    for (int c = 0; c < 3; ++c) result[i][c] = smoothing.at(E, static_cast<std::size_t>(c), i);
-  return result;
-}
-
-std::vector<float> reconstructGray(const CellGrid& grid, const CellLight& light, const BandwidthRule& rule) {
-  const Smoothing smoothing(grid, light, rule);
-  const Channels E = smoothing.smoothed(std::span(&light.gray, 1));
-  std::vector<float> result(grid.size());
-  for (std::uint32_t i = 0; i < grid.size(); ++i) result[i] = smoothing.at(E, 0, i);
+  Reconstruction result{std::vector<Rgb>(grid.size()), std::vector<float>(grid.size())};
+  for (std::uint32_t i = 0; i < grid.size(); ++i) {
+    for (int c = 0; c < 3; ++c) result.E[i][c] = smoothing.at(E, static_cast<std::size_t>(c), i);
+    result.noise[i] = smoothing.noiseAt(i);
+  }
   return result;
 }
 

@@ -14,10 +14,11 @@
 
 namespace deltalux {
 
-/// E of every cell [W/m2].
-std::vector<Rgb> reconstructAdaptive(const CellGrid&, const CellLight&, const BandwidthRule&);
+struct Reconstruction {
+  std::vector<Rgb> E;        // of every cell [W/m2]
+  std::vector<float> noise;  // standard deviation of its gray that is left [W/m2]
+};
 
-/// The same of its gray.
-std::vector<float> reconstructGray(const CellGrid&, const CellLight&, const BandwidthRule&);
+Reconstruction reconstructAdaptive(const CellGrid&, const CellLight&, const BandwidthRule&);
 
 }  // namespace deltalux

@@ -7,6 +7,7 @@
 #include "caustics/choice.hpp"
 #include "caustics/resolution.hpp"
 #include "caustics/surface_impacts.hpp"
+#include "caustics/veil.hpp"
 
 namespace deltalux {
 
@@ -41,15 +42,16 @@ bool resolve(const ChartSurface& surface, ChartPart& part, double perTexel, int 
   }
 }
 
-/// Makes do with as few texels as what is left asks for.
-void coarsen(const ChartSurface& surface, ChartPart& part) {
+/// Makes do with as few texels as what is left asks for. How often they were halved.
+int coarsen(const ChartSurface& surface, ChartPart& part) {
   const auto count = [&] { return double(part.texels.x) * part.texels.y; };
   const auto wanted = [&] {
     const Vec2 size = part.region.size();
     return std::max(size.x * size.y / texelArea(part, kCoarsePerTexel), double(kFirstTexels));
   };
-  while (count() >= 4 * wanted() && surface.halve(part)) {
-  }
+  int halvings = 0;
+  while (count() >= 4 * wanted() && surface.halve(part)) ++halvings;
+  return halvings;
 }
 
 bool fewLanded(std::span<const Impact> impacts) {
@@ -97,9 +99,9 @@ class AdaptiveTextures {
       if (parts_[c].impacts.empty()) continue;
       const ChartSurface surface(shape_, result_.charts, c);
       if (!resolved_[c]) resolve(surface, parts_[c], kCoarsePerTexel, kChoiceTexels, kCoarseTexels);
-      takeRegionsOut(surface, parts_[c]);
-      coarsen(surface, parts_[c]);
-      put(surface, parts_[c]);
+      const std::size_t first = result_.textures.size();
+      putAll(surface, parts_[c]);
+      keepFlux(std::span(result_.textures).subspan(first));
     }
     return std::move(result_);
   }
@@ -127,21 +129,35 @@ class AdaptiveTextures {
     return areas;
   }
 
-  void takeRegionsOut(const ChartSurface& surface, ChartPart& whole) {
+  /// Textures of all regions that deserve one, and of what is left.
+  void putAll(const ChartSurface& surface, ChartPart& whole) {
     const CellGrid grid = surface.grid(whole);
     const CellLight light = collect(grid, whole.impacts);
-    const std::vector<float> E = reconstructGray(grid, light, rule_);
+    const Reconstruction coarse = reconstructAdaptive(grid, light, rule_);
+    ChartPart all = whole;
+    std::vector<FadingBorder> borders;
+    std::vector<ChartPart> regions = takeRegionsOut(surface, whole, grid, coarse, borders);
+    const int halvings = coarsen(surface, whole);
+    if (regions.empty()) return put(surface, whole);
+    const Veil veil(surface, std::move(all), grid, coarse, borders, halvings);
+    for (std::size_t i = 0; i < regions.size(); ++i) putRegion(surface, regions[i], borders[i], veil);
+    result_.textures.push_back(veil.shownOn(whole));
+  }
+
+  std::vector<ChartPart> takeRegionsOut(const ChartSurface& surface, ChartPart& whole, const CellGrid& grid,
+                                        const Reconstruction& coarse, std::vector<FadingBorder>& borders) const {
+    const std::vector<float> E = grayOf(coarse.E);
     const double difference = kMatters * rule_.error * (medianOfFlux(grid.areas(), E) + rule_.background);
     const std::vector<TexelBox> boxes = markedBoxes(grid, cellsOffMedian(grid, E, difference), kMargin);
-    if (boxes.empty()) return;
     std::vector<std::uint32_t> particles(whole.areas.size(), 0);
     for (const ChartImpact& impact : whole.impacts) ++particles[grid.texelNear(impact.st)];
+    std::vector<ChartPart> regions;
     for (const TexelBox& box : boxes) {
       if (particlesIn(box, grid, particles) < kLeastParticles) continue;
-      ChartPart region = surface.takeOut(whole, grid, box, glm::ivec2(1));
-      resolve(surface, region, kFinePerTexel, kFirstTexels, kFineTexels);
-      put(surface, region);
+      regions.push_back(surface.takeOut(whole, grid, box, glm::ivec2(1)));
+      borders.emplace_back(grid, box, kMargin);
     }
+    return regions;
   }
 
   static std::size_t particlesIn(const TexelBox& box, const CellGrid& grid,
@@ -157,7 +173,28 @@ class AdaptiveTextures {
     const CellGrid grid = surface.grid(part);
     if (grid.size() == 0) return;
     const CellLight light = collect(grid, part.impacts);
-    result_.textures.push_back(surface.texture(part, grid, light, reconstructAdaptive(grid, light, rule_)));
+    result_.textures.push_back(surface.texture(part, grid, light, reconstructAdaptive(grid, light, rule_).E));
+  }
+
+  void putRegion(const ChartSurface& surface, ChartPart& region, const FadingBorder& border, const Veil& veil) {
+    resolve(surface, region, kFinePerTexel, kFirstTexels, kFineTexels);
+    const CellGrid grid = surface.grid(region);
+    if (grid.size() == 0) return;
+    const CellLight light = collect(grid, region.impacts);
+    Reconstruction reconstruction = reconstructAdaptive(grid, light, rule_);
+    veil.over(grid, border, rule_, reconstruction);
+    result_.textures.push_back(surface.texture(region, grid, light, reconstruction.E));
+  }
+
+  /// What went from one texture of a chart to another is theirs; together they show all particles.
+  static void keepFlux(std::span<CausticTexture> textures) {
+    RgbSum landed(0.0), shown(0.0);
+    for (const CausticTexture& t : textures) landed += t.flux, shown += t.integral();
+    Rgb factor(1.0f);
+    for (int c = 0; c < 3; ++c)
+      if (shown[c] > 0) factor[c] = static_cast<float>(landed[c] / shown[c]);
+    for (CausticTexture& t : textures)
+      for (Rgb& E : t.texels) E *= factor;
   }
 
   const Shape& shape_;

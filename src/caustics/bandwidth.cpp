@@ -48,6 +48,7 @@ class WidthSearch {
         allowed_(static_cast<float>(kQuiet * rule.error)),
         darkest_(static_cast<float>(rule.darkest)),
         log_(raster.slots(), static_cast<float>(std::log(kNarrowest))),
+        noise_(raster.slots(), 0.0f),
         around_(raster.slots(), -1.0f),
         open_(raster.slots(), 0.0f) {
     const double cut = kCut * raster.meanArea();
@@ -81,6 +82,8 @@ class WidthSearch {
 
   /// Logarithms of the widths in cells.
   Slots& logs() { return log_; }
+  /// Variances of E that these widths leave.
+  Slots& noise() { return noise_; }
 
  private:
   /// The width of the widest kernel that all narrower ones bear out. How many of the slots want a wider one.
@@ -102,7 +105,7 @@ class WidthSearch {
       }
     }
     float *__restrict const width = log_.data() + begin, *__restrict const around = around_.data() + begin,
-                           *__restrict const open = open_.data() + begin;
+                           *__restrict const open = open_.data() + begin, *__restrict const rest = noise_.data() + begin;
     const float own = overlaps.own, enough = kEnough * own, allowed = allowed_, darkest = darkest_;
     float left = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -112,6 +115,7 @@ class WidthSearch {
       const float tells = expected[i] >= enough ? squares[i] : -1.0f, known = around[i] < 0 ? tells : around[i];
       around[i] = going > 0 ? known : around[i];
       const float limit = allowed * (E[i] + darkest), noise = std::max(squares[i], known) * own;
+      rest[i] = going > 0 ? noise : rest[i];
       const float content = noise <= limit * limit ? 1.0f : 0.0f;
       open[i] = known < 0 ? going : (1 - content) * going;
     }
@@ -122,6 +126,7 @@ class WidthSearch {
   const CellRaster& raster_;
   float allowed_, darkest_;
   Slots log_;                     // by slot: logarithm of the width
+  Slots noise_;                   // by slot: variance of E at that width
   Slots around_;                  // by slot: density of squares; negative while nothing tells
   Slots open_;                    // by slot: 1 while it wants a wider kernel; not those cut by an outline
   std::vector<std::size_t> cut_;  // of those, which do
@@ -130,8 +135,8 @@ class WidthSearch {
 
 }  // namespace
 
-Slots chooseBandwidths(const CellRaster& raster, const HeatFlow& even, const Channels& light,
-                       const BandwidthRule& rule) {
+Bandwidths chooseBandwidths(const CellRaster& raster, const HeatFlow& even, const Channels& light,
+                            const BandwidthRule& rule) {
   ScaleSpace space(raster, even, light, kWidest, kFactor);
   WidthSearch search(raster, rule);
   while (space.widen() && !search.judge(space.levels())) {
@@ -142,7 +147,7 @@ Slots chooseBandwidths(const CellRaster& raster, const HeatFlow& even, const Cha
   even.apply(D, 0.5 * kBlend * kBlend * raster.meanArea());
   const auto half = static_cast<float>(0.5 * raster.meanArea());
   for (float& d : D) d = half * expOf(2 * d);
-  return D;
+  return {std::move(D), std::move(search.noise())};
 }
 
 }  // namespace deltalux

@@ -20,8 +20,12 @@ struct BandwidthRule {
   double darkest = 0;     // where there is little of it: nowhere is noise larger than what is allowed there
 };
 
-/// Half the variance of the kernel of every slot [unit^2]: the conductivity that HeatFlow takes for a time of 1.
+struct Bandwidths {
+  Slots conductivity;  // half the variance of the kernel of every slot [unit^2]: what HeatFlow takes for a time of 1
+  Slots noise;         // that is left: variance of E
+};
+
 /// `light`: as for blurredWalls, and so is the rule. `even`: flows with a conductivity of 1, between walls.
-Slots chooseBandwidths(const CellRaster&, const HeatFlow& even, const Channels& light, const BandwidthRule&);
+Bandwidths chooseBandwidths(const CellRaster&, const HeatFlow& even, const Channels& light, const BandwidthRule&);
 
 }  // namespace deltalux

@@ -17,11 +17,12 @@ struct CausticTexture {
   int width = 0, height = 0;
   bool closed = false, poleAtStart = false, poleAtEnd = false;  // how it continues beyond its rims
   std::vector<Rgb> texels;                                      // E [W/m2], row by row from the region's lower t
-  std::vector<float> areas;  // of the surface that each texel shows [unit^2]; 0: none
+  std::vector<float> areas;  // of the surface that each texel shows [unit^2]; 0: none, or another texture shows it:
+                             // its E then is what this one's light goes on with beyond the border
   RgbSum flux{0.0};          // of its particles
   std::uint64_t particles = 0;
 
-  /// E at a chart point of the region, bilinear between the texels that show surface. [W/m2]
+  /// E at a chart point of the region, bilinear between the texels that know. [W/m2]
   Rgb sample(const Vec2& st) const;
   /// Whether a chart point lies in the region, over texels that show surface. `turn`: the chart's width, when closed.
   bool shows(const Vec2& st, double turn) const;
@@ -45,8 +46,8 @@ struct SurfaceCaustics {
   RgbSum flux() const;
 };
 
-/// Checks that every texture's integral is its particles' flux within 0.5 %, and its numbers are sound. Throws
-/// std::logic_error with the first violation.
+/// Checks that every texture's numbers are sound, and that the integral of all of a side is its particles' flux within
+/// 0.5 %. Throws std::logic_error with the first violation.
 void validate(const CausticTexture&);
 void validate(const SurfaceCaustics&);
 
