@@ -134,14 +134,14 @@ class AdaptiveTextures {
     const CellGrid grid = surface.grid(whole);
     const CellLight light = collect(grid, whole.impacts);
     const Reconstruction coarse = reconstructAdaptive(grid, light, rule_);
-    ChartPart all = whole;
+    ChartPart all{whole.region, whole.texels, whole.areas, {}};
     std::vector<FadingBorder> borders;
     std::vector<ChartPart> regions = takeRegionsOut(surface, whole, grid, coarse, borders);
     const int halvings = coarsen(surface, whole);
     if (regions.empty()) return put(surface, whole);
     const Veil veil(surface, std::move(all), grid, coarse, borders, halvings);
     for (std::size_t i = 0; i < regions.size(); ++i) putRegion(surface, regions[i], borders[i], veil);
-    result_.textures.push_back(veil.shownOn(whole));
+    if (surface.grid(whole).size() > 0) result_.textures.push_back(veil.shownOn(whole));
   }
 
   std::vector<ChartPart> takeRegionsOut(const ChartSurface& surface, ChartPart& whole, const CellGrid& grid,

@@ -195,7 +195,21 @@ bool Engine::State::resolve(const LeafTransferSettings& settings, Progress* prog
   s.report.counts.raysVisibility += r.rays;
   s.sampledScale.clear();
   for (const Light& light : s.scene.lights) s.sampledScale.push_back(light.scale);
-  return settleRows(progress);
+  const bool settled = settleRows(progress);
+  settleCorners();
+  return settled;
+}
+
+/// Where light goes round for long in a corner that has little of it, what is unsettled of all light tells nothing. The
+/// first update would be left to settle that.
+void Engine::State::settleCorners() {
+  Solution& s = *solution;
+  const LightSettling::Parts parts{s.scene, s.transfers, *transfer};
+  settling.emplace(parts, s.elements);
+  LightChanges all;
+  all.rows = s.transfers.leaves();
+  settling->settle(parts, s.elements, all, kMissed * gray(directPower()), kMaxRowIterations,
+                   s.report.counts.iterations);
 }
 
 bool Engine::State::settleRows(Progress* progress) {

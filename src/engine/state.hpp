@@ -28,6 +28,7 @@ namespace deltalux {
 constexpr double kLastError = 20.0;    // of the links, relative to the target: the rest the leaves' own samples resolve
 constexpr double kSettledRows = 1e-4;  // unsettled power over rows, relative to emitted
 constexpr double kSettledWell = 1e-6;  // the same, where it shall be right in dark corners too
+constexpr double kMissed = 3e-5;       // power that leaves may fail to send after an update, relative to emitted
 constexpr int kMaxRowIterations = 1024;
 constexpr double kMostGaps = 1.5;  // size of particles with gaps, to that without
 
@@ -76,6 +77,7 @@ struct Engine::State {
   bool resolve(const LeafTransferSettings& settings, Progress* progress);
   /// Gathers over rows, from the light there is, until it no longer changes.
   bool settleRows(Progress* progress);
+  void settleCorners();
   RgbSum directPower() const;
   /// Sums that take a walk over everything, for who looks at the report.
   void count();

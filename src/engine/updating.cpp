@@ -12,12 +12,6 @@
 
 namespace deltalux {
 
-namespace {
-
-constexpr double kMissed = 3e-5;  // power that leaves may fail to send, relative to emitted
-
-}  // namespace
-
 StepReport Engine::State::update(Progress* progress) {
   const Clock time;
   StepReport step;
