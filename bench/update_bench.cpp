@@ -232,11 +232,9 @@ void table1(const std::string& name, const std::string& file, const std::string&
   table.row("particles", &Published::particles, static_cast<double>(counts.particles), "");
   table.row("caustic textures", &Published::textures, static_cast<double>(counts.causticTextures), "");
   table.row("mean side of caustic textures", &Published::textureSide, counts.causticTextureMeanSize, "texels");
-  if (const auto* moved = std::get_if<TransformObject>(&edits.front())) {
-    const Stopwatch watch;
-    solved.engine.select(moved->object);
-    table.row("selecting the object", nullptr, watch.wall(), "s");
-  }
+  std::string selected;
+  const double selecting = selectFor(edits.front(), solved.engine, selected);
+  if (!selected.empty()) table.row("selecting the object", nullptr, selecting, "s");
   const double octree = static_cast<double>(solved.engine.solution().report().memory.octree);
   table.row("memory of the octree (a bit a path)", &Published::octreeKb, 1e-3 * octree, "KB");
   double sum = 0, processor = 0, least = 1e30, most = 0, leastShare = 1e30, mostShare = 0;

@@ -141,7 +141,8 @@ class AdaptiveTextures {
     if (regions.empty()) return put(surface, whole);
     const Veil veil(surface, std::move(all), grid, coarse, borders, halvings);
     for (std::size_t i = 0; i < regions.size(); ++i) putRegion(surface, regions[i], borders[i], veil);
-    if (surface.grid(whole).size() > 0) result_.textures.push_back(veil.shownOn(whole));
+    const auto isSurface = [](float area) { return area > 0; };
+    if (std::any_of(whole.areas.begin(), whole.areas.end(), isSurface)) result_.textures.push_back(veil.shownOn(whole));
   }
 
   std::vector<ChartPart> takeRegionsOut(const ChartSurface& surface, ChartPart& whole, const CellGrid& grid,

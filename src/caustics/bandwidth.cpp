@@ -15,7 +15,6 @@ constexpr double kConfidence = 2.85;     // standard deviations of a difference 
                                          // kernels: 3 of those of ours
 constexpr double kLeastParticles = 4.0;  // that a kernel expects when it is asked
 constexpr float kEnough = 16;            // particles that tell how noisy they are
-constexpr double kQuiet = 0.5;           // of the target error: noise that a kernel need not grow to reduce
 constexpr double kCut = 0.9;             // of the mean area: less is cut by an outline
 constexpr double kFew = 0.02;            // of the cells: not worth another level
 constexpr double kBlend = 1.0;           // standard deviation in cells, of the blending of widths
@@ -45,7 +44,7 @@ class WidthSearch {
  public:
   WidthSearch(const CellRaster& raster, const BandwidthRule& rule)
       : raster_(raster),
-        allowed_(static_cast<float>(kQuiet * rule.error)),
+        allowed_(static_cast<float>(BandwidthRule::kQuiet * rule.error)),
         darkest_(static_cast<float>(rule.darkest)),
         log_(raster.slots(), static_cast<float>(std::log(kNarrowest))),
         noise_(raster.slots(), 0.0f),

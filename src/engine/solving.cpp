@@ -204,12 +204,10 @@ bool Engine::State::resolve(const LeafTransferSettings& settings, Progress* prog
 /// first update would be left to settle that.
 void Engine::State::settleCorners() {
   Solution& s = *solution;
-  const LightSettling::Parts parts{s.scene, s.transfers, *transfer};
-  settling.emplace(parts, s.elements);
+  settling.emplace(LightSettling::Parts{s.scene, s.transfers, *transfer}, s.elements);
   LightChanges all;
   all.rows = s.transfers.leaves();
-  settling->settle(parts, s.elements, all, kMissed * gray(directPower()), kMaxRowIterations,
-                   s.report.counts.iterations);
+  settleOver(all);
 }
 
 bool Engine::State::settleRows(Progress* progress) {

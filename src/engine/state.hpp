@@ -132,6 +132,8 @@ struct Engine::State {
   std::vector<ElementId> renewWaitingRows(StepReport& step);
   /// Hands on what has changed, where light was settled before; all light otherwise.
   void settleAfter(const LightChanges&, Progress* progress);
+  /// What leaves fail to reflect then [W, gray].
+  double settleOver(const LightChanges&);
   /// Nobody traces now, and who holds the solution holds the engine's tracer.
   RayTracer& tracer() { return *std::const_pointer_cast<RayTracer>(solution->tracer); }
 

@@ -213,14 +213,16 @@ std::vector<ElementId> Engine::State::renewWaitingRows(StepReport& step) {
 }
 
 void Engine::State::settleAfter(const LightChanges& changes, Progress* progress) {
-  Solution& s = *solution;
-  if (!settling) {
+  if (settling)
+    unsettled = RgbSum(settleOver(changes));
+  else
     settleRows(progress);
-    return;
-  }
-  const double missed = settling->settle({s.scene, s.transfers, *transfer}, s.elements, changes,
-                                         kMissed * gray(directPower()), kMaxRowIterations, s.report.counts.iterations);
-  unsettled = RgbSum(missed);
+}
+
+double Engine::State::settleOver(const LightChanges& changes) {
+  Solution& s = *solution;
+  return settling->settle({s.scene, s.transfers, *transfer}, s.elements, changes, kMissed * gray(directPower()),
+                          kMaxRowIterations, s.report.counts.iterations);
 }
 
 }  // namespace deltalux
