@@ -89,8 +89,9 @@ RefineReport rejudge(Links& links, Elements& elements, const Scene& scene, const
     changed.push_back(id);
   };
   const RefineReport report = descent.run();
+  // Split or averted by now, they have rows over them still, of where the lights were.
   for (const LinkId id : marked.lit)
-    if (links[id].state == LinkState::Active) descent.changed(id);
+    if (links[id].state != LinkState::Free) descent.changed(id);
   // What has grown is new to all that was there and may see it; its own elements are new themselves.
   const LinkJudge judge(elements, scene, tracer, settings);
   for (const LinkId root : links.roots)

@@ -1,6 +1,10 @@
 // Lights that edits move, dim and switch: rows follow them, and hold those that are off for now.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+
+#include "base/random.hpp"
 #include "support/furnished_room.hpp"
 #include "support/update_checks.hpp"
 
@@ -66,6 +70,41 @@ TEST(LightEdits, ACurvedLampMayComeCloseToASurfaceThatItLights) {
   std::size_t count = 0;
   const double expected = powerFrom(fresh.solution().get(), "globe", count);
   EXPECT_NEAR(powerFrom(engine.solution().get(), "globe", count) / expected, 1.0, 0.02);
+}
+
+/// Irradiance that a light brings to leaves, by their keys. [W/m^2, gray]
+std::map<std::uint64_t, float> irradianceFrom(const Solution& s, const std::string& light) {
+  std::map<std::uint64_t, float> E;
+  for (const LeafRow& row : s.transfers.rows()) {
+    float& sum = E[s.elements.key[row.leaf.index()]];
+    for (const LeafTransfer& t : row.direct.transfers)
+      if (s.scene[s.elements.light[t.leaf.index()]].name == light)
+        sum += gray(t.T * s.elements.radiometry[t.leaf.index()].B);
+  }
+  return E;
+}
+
+TEST(LightEdits, RowsFollowALampThatMovesTogetherWithThings) {
+  Engine engine = solvedRoom();
+  Rng rng(3);
+  for (int i = 0; i < 8; ++i) {
+    const auto some = [&] { return 0.5 * (rng.uniform() - 0.5); };
+    engine.apply(move("box", {some() - 0.3 * (i % 2), some(), 0.3 * (i % 2)}));
+    engine.apply(MoveLight{"spot", {some(), some(), some() * 0.5}});
+    engine.apply(AimLight{"spot", {some(), some(), -1}});
+    engine.update();
+    Engine fresh(engine.solution().scene(), diffuseOnly());
+    fresh.solve();
+    const auto is = irradianceFrom(engine.solution().get(), "spot");
+    double off = 0, all = 0;
+    for (const auto& [leaf, E] : irradianceFrom(fresh.solution().get(), "spot")) {
+      const auto at = is.find(leaf);
+      if (at == is.end()) continue;
+      off += std::abs(at->second - E), all += E;
+    }
+    ASSERT_GT(all, 0) << i;
+    EXPECT_LT(off / all, 0.005) << i;
+  }
 }
 
 TEST(LightEdits, AMovedLampLeavesTheRowsOfOthersAlone) {
