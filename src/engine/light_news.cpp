@@ -29,20 +29,23 @@ float dot(const std::array<std::uint8_t, N>& a, const std::array<float, N>& b) {
   return std::accumulate(parts.begin(), parts.end(), 0.0f);
 }
 
-/// Takes the largest of `amounts` until what is left is no more than `most`; take(index).
+/// What is of no account by itself, but may be together with others [W].
+struct Amount {
+  double power;
+  std::uint32_t of;
+};
+
+/// Takes the largest of the amounts until what is left is no more than `most`; take(amount).
 template <class Take>
-void takeLargest(const std::vector<double>& amounts, double sum, double most, const Take& take) {
+void takeLargest(std::vector<Amount> heap, double sum, double most, const Take& take) {
   if (!(sum > most)) return;
-  std::vector<std::uint32_t> heap;
-  for (std::size_t i = 0; i < amounts.size(); ++i)
-    if (amounts[i] > 0) heap.push_back(static_cast<std::uint32_t>(i));
-  const auto smaller = [&](std::uint32_t a, std::uint32_t b) {
-    return amounts[a] != amounts[b] ? amounts[a] < amounts[b] : a > b;
+  const auto smaller = [](const Amount& a, const Amount& b) {
+    return a.power != b.power ? a.power < b.power : a.of > b.of;
   };
   std::make_heap(heap.begin(), heap.end(), smaller);
   while (sum > most && !heap.empty()) {
     std::pop_heap(heap.begin(), heap.end(), smaller);
-    sum -= amounts[heap.back()];
+    sum -= heap.back().power;
     take(heap.back());
     heap.pop_back();
   }
@@ -53,7 +56,9 @@ void takeLargest(const std::vector<double>& amounts, double sum, double most, co
 /// Leaves that may send otherwise; and patches that were leaves when they were taken for senders.
 void LightSettling::listen(const Elements& elements, std::span<const ElementId> leaves) {
   const auto add = [&](ElementId e) {
-    if (!std::exchange(listed_[e.index()], 1)) unheard_.push_back(e);
+    Unheard& unheard = unheard_[regions_.of(e)];
+    unheard.summed = false;
+    if (!std::exchange(listed_[e.index()], 1)) unheard.patches.push_back(e);
   };
   for (const ElementId leaf : leaves) {
     add(leaf);
@@ -65,54 +70,83 @@ void LightSettling::listen(const Elements& elements, std::span<const ElementId> 
 }
 
 LightSettling::News LightSettling::publish(const Elements& elements, double tolerated) {
-  std::vector<double> change(kRegions, 0.0), squares(kRegions, 0.0);
   const auto difference = [&](ElementId e) { return elements.radiometry[e.index()].B - seen_[e.index()]; };
-  for (const ElementId e : unheard_) {
-    const double A = elements.shape(e).litArea(), dB = gray(glm::abs(difference(e)));
-    change[regions_.of(e)] += A * dB, squares[regions_.of(e)] += A * dB * dB;
-  }
-  News news;
-  news.withheld = std::accumulate(change.begin(), change.end(), 0.0);
-  const auto tell = [&](std::size_t r) {
-    news.regions |= SceneRegions::Set(1) << r;
-    news.change[r] = static_cast<float>(std::sqrt(squares[r] / std::max(area_[r], 1e-30)));
-    news.withheld -= change[r], change[r] = 0;
-  };
-  for (std::size_t r = 0; r < kRegions; ++r)
-    if (change[r] > kTold * power_[r]) tell(r);
-  takeLargest(change, news.withheld, kWithheld * tolerated, tell);
-  std::erase_if(unheard_, [&](ElementId e) {
-    if (!(news.regions & regions_.setOf(e))) return false;
-    if (elements.isLeaf(e)) power_[regions_.of(e)] += elements.shape(e).litArea() * gray(difference(e));
-    seen_[e.index()] = elements.radiometry[e.index()].B;
-    listed_[e.index()] = 0;
-    return true;
+  parallelFor(kRegions, 1, [&](std::size_t r) {
+    Unheard& u = unheard_[r];
+    if (std::exchange(u.summed, true)) return;
+    u.change = u.square = 0;
+    for (const ElementId e : u.patches) {
+      const double A = elements.shape(e).litArea(), dB = gray(glm::abs(difference(e)));
+      u.change += A * dB, u.square += A * dB * dB;
+    }
   });
+  News news;
+  for (const Unheard& u : unheard_) news.withheld += u.change;
+  const auto tell = [&](std::size_t r) {
+    Unheard& u = unheard_[r];
+    news.regions |= SceneRegions::Set(1) << r;
+    news.change[r] = static_cast<float>(std::sqrt(u.square / std::max(area_[r], 1e-30)));
+    news.withheld -= u.change;
+    for (const ElementId e : u.patches) {
+      if (elements.isLeaf(e)) power_[r] += elements.shape(e).litArea() * gray(difference(e));
+      seen_[e.index()] = elements.radiometry[e.index()].B;
+      listed_[e.index()] = 0;
+    }
+    u = {};
+  };
+  std::vector<Amount> small;
+  for (std::uint32_t r = 0; r < kRegions; ++r)
+    if (unheard_[r].change > kTold * power_[r])
+      tell(r);
+    else if (unheard_[r].change > 0)
+      small.push_back({unheard_[r].change, r});
+  takeLargest(std::move(small), news.withheld, kWithheld * tolerated, [&](const Amount& a) { tell(a.of); });
   return news;
 }
 
 LightSettling::Work LightSettling::readersOf(const News& news, const Parts& parts, const Elements& elements,
                                              double tolerated, double& missed) {
-  std::vector<char>& matters = matters_;
-  std::vector<double>& amount = amount_;  // that is not reflected
-  matters.assign(elements.size(), 0), amount.assign(elements.size(), 0.0);
   const double area = std::accumulate(area_.begin(), area_.end(), 1e-30);
   const auto dark = static_cast<float>(kDark * std::accumulate(power_.begin(), power_.end(), 0.0) / area);
-  parallelFor(elements.size(), 1024, [&](std::size_t e) {
-    if (!parts.rows.find(ElementId(e))) return;
-    if (from_[e] & news.regions) misses_[e] += dot(factors_[e], news.change) / 255;
-    if (!(misses_[e] > 0)) return;
-    const ElementLight& light = elements.radiometry[e];
-    matters[e] = misses_[e] > kMatters * (dark + gray(light.direct + light.indirect + light.particle));
-    if (!matters[e])
-      amount[e] = double(elements.geometry[e].litArea()) * double(gray(light.rho + light.tau) * misses_[e]);
+  std::vector<std::size_t> blocks;  // whose rows hear of it, or miss something
+  for (std::size_t b = 0; b < blocksFrom_.size(); ++b)
+    if ((blocksFrom_[b] & news.regions) || blocksMiss_[b]) blocks.push_back(b);
+  struct Rows {
+    std::vector<ElementId> gathered;
+    std::vector<Amount> others;  // that is not reflected
+  };
+  std::vector<Rows> found(blocks.size());
+  parallelFor(blocks.size(), 1, [&](std::size_t k) {
+    char& miss = blocksMiss_[blocks[k]] = 0;
+    const std::size_t begin = blocks[k] * kBlock, end = std::min(begin + kBlock, elements.size());
+    for (std::size_t e = begin; e < end; ++e) {
+      if (!parts.rows.find(ElementId(e))) continue;
+      if (from_[e] & news.regions) misses_[e] += dot(factors_[e], news.change) / 255;
+      if (!(misses_[e] > 0)) continue;
+      miss = 1;
+      const ElementLight& light = elements.radiometry[e];
+      if (misses_[e] > kMatters * (dark + gray(light.direct + light.indirect + light.particle)))
+        found[k].gathered.emplace_back(e);
+      else
+        found[k].others.push_back({double(elements.geometry[e].litArea()) * gray(light.rho + light.tau) * misses_[e],
+                                   static_cast<std::uint32_t>(e)});
+    }
   });
-  missed = std::accumulate(amount.begin(), amount.end(), 0.0);
-  if (missed > tolerated)
-    takeLargest(amount, missed, kLeft * tolerated, [&](std::size_t e) { matters[e] = 1, missed -= amount[e]; });
   Work work;
-  for (std::size_t e = 0; e < matters.size(); ++e)
-    if (matters[e]) work.rows.emplace_back(e);
+  std::vector<Amount> others;
+  missed = 0;
+  for (const Rows& rows : found) {
+    work.rows.insert(work.rows.end(), rows.gathered.begin(), rows.gathered.end());
+    others.insert(others.end(), rows.others.begin(), rows.others.end());
+  }
+  for (const Amount& a : others) missed += a.power;
+  if (missed > tolerated) {
+    takeLargest(std::move(others), missed, kLeft * tolerated, [&](const Amount& a) {
+      work.rows.emplace_back(a.of);
+      missed -= a.power;
+    });
+    std::sort(work.rows.begin(), work.rows.end());
+  }
   if (static_cast<double>(work.rows.size()) > kMost * static_cast<double>(parts.rows.rows().size())) {
     work.rows = parts.rows.leaves();
     std::sort(work.rows.begin(), work.rows.end());

@@ -57,12 +57,19 @@ void LightSettling::follow(const Elements& elements) {
   for (std::size_t i = known; i < size; ++i) seen_[i] = elements.radiometry[i].B;
   resizeWithRoom(from_, size), resizeWithRoom(factors_, size), resizeWithRoom(misses_, size);
   resizeWithRoom(particlesFrom_, size), resizeWithRoom(read_, size), resizeWithRoom(listed_, size);
+  blocksFrom_.resize((size + kBlock - 1) / kBlock, 0), blocksMiss_.resize(blocksFrom_.size(), 0);
 }
 
 /// By many threads at once, most of which find it marked: then nothing is written that others read.
 void LightSettling::markRead(ElementId sender) {
   const std::atomic_ref read(read_[sender.index()]);
   if (!read.load(std::memory_order_relaxed)) read.store(1, std::memory_order_relaxed);
+}
+
+/// By many threads at once, as markRead().
+void LightSettling::addToBlock(std::size_t block, SceneRegions::Set regions) {
+  const std::atomic_ref from(blocksFrom_[block]);
+  if (regions & ~from.load(std::memory_order_relaxed)) from.fetch_or(regions, std::memory_order_relaxed);
 }
 
 void LightSettling::learn(const LeafRow& row) {
@@ -75,6 +82,7 @@ void LightSettling::learn(const LeafRow& row) {
   }
   const std::size_t e = row.leaf.index();
   from_[e] = regions;
+  addToBlock(e / kBlock, regions);
   for (int r = 0; r < kRegions; ++r)
     factors_[e][r] = static_cast<std::uint8_t>(std::min(255.0f, std::ceil(255 * factor[r])));
 }

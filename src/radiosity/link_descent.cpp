@@ -135,8 +135,9 @@ bool LinkDescent::settle(const Task& task, const Verdict& v, Block& block) {
   const Link& link = links_[task.link];
   const bool anew = task.mark > LinkMark::Path, interior = link.state == LinkState::Interior;
   const bool same = anew && sameTransfer(link, v.link);
-  // A link collapses for what a move has changed, not for light that has settled since it was refined.
-  if (interior && (!anew || same || v.split != Split::None || !v.refined)) {
+  // A link collapses for what a move has changed, not for light that has settled since it was refined. One that shows
+  // nothing any more stays refined for when what hides it moves on: until then that costs no more than its place.
+  if (interior && (!anew || same || v.split != Split::None || !v.refined || v.link.unseen())) {
     if (anew && !same) links_.judged(task.link, v.link);
     descend(task, v, block.next, false);
     return true;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kSameTransfer = 0.05f;  // relative difference of kernels that is no news: rows know their own
 constexpr float kSameKernel = 2.0f;     // factors within which rays are still well shared out
-constexpr float kSameOpenness = 6.0f;
+constexpr float kMoreOpen = 6.0f;       // the same of openness, upwards
 
 }  // namespace
 
@@ -32,7 +32,8 @@ bool samePlan(const Link& before, const Link& after) {
   const auto alike = [](float a, float b, float factor) { return a <= factor * b && b <= factor * a; };
   if (!alike(before.K, after.K, kSameKernel)) return false;
   if (before.fromLight) return true;  // every light in sight gets rays
-  return alike(openness(before), openness(after), kSameOpenness);
+  // Where less passes, some are spent in vain: no noise comes of it.
+  return openness(after) <= kMoreOpen * openness(before);
 }
 
 }  // namespace deltalux

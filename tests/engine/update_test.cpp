@@ -5,6 +5,7 @@
 #include "base/random.hpp"
 #include "hierarchy/side_locator.hpp"
 #include "radiosity/row_terms.hpp"
+#include "support/furnished_room.hpp"
 #include "support/settled.hpp"
 
 namespace deltalux {
@@ -254,6 +255,25 @@ TEST(Update, OutAndBackIsWhereItWas) {
   const test::Spread between = difference(engine, before);
   EXPECT_LT(between.median, 0.02);
   EXPECT_LT(between.p95, 0.12);
+}
+
+TEST(Update, WhatIsHiddenForAWhileStaysRefined) {
+  Engine engine = test::solved(test::furnishedRoom(), 0.05);
+  int kept = 0;
+  for (int i = 0; i < 4; ++i) {
+    const std::vector<Link> before = engine.solution().get().links.all;
+    engine.apply(moveBox({-0.3, 0.1, 0}));
+    engine.update();
+    const Links& links = engine.solution().get().links;
+    for (std::size_t id = 0; id < before.size(); ++id) {
+      const Link &was = before[id], &is = links.all[id];
+      const bool same = was.state == LinkState::Interior && was.receiver == is.receiver && was.sender == is.sender;
+      if (!same || was.unseen() || !is.unseen()) continue;
+      EXPECT_EQ(is.state, LinkState::Interior) << id;
+      ++kept;
+    }
+  }
+  EXPECT_GT(kept, 0);
 }
 
 TEST(Update, DimmingTracesNoRayAndScalesTheLight) {
