@@ -7,8 +7,8 @@
 // taken to miss so much of it as its factor says: it is gathered when what it misses, summed since it last was, matters
 // beside its light, or when all rows together miss more than may be, those that miss the most first. So light that
 // changes a little everywhere is gathered where it changes much, and small changes add up until they are heard.
-// Cost: one look a pass at each row that has factors towards what changed, half a microsecond a row that is gathered;
-// 90 bytes an element.
+// Cost: one look a pass at each row of blocks that have factors towards what changed, half a microsecond a row that is
+// gathered; 98 bytes an element.
 #include <array>
 
 #include "engine/scene_regions.hpp"
@@ -85,6 +85,7 @@ class LightSettling {
   std::vector<Rgb> seen_;                         // radiosity that is gathered
   RowSurplus::Pools pools_;                       // of rows that gather too much, as their neighbours have heard
   std::vector<char> listed_;                      // in unheard_
+
   // By blocks of elements one after another: what their rows have in common.
   static constexpr std::size_t kBlock = 1024;
   std::vector<SceneRegions::Set> blocksFrom_;  // regions that some of them read, or once did

@@ -29,10 +29,9 @@ bool samePlan(const Link& before, const Link& after) {
   if (before.visibility == Visibility::Clear && after.visibility != Visibility::Clear) return false;
   if (!after.carries()) return true;
   if (!before.carries() || before.visibility != after.visibility) return false;
-  const auto alike = [](float a, float b, float factor) { return a <= factor * b && b <= factor * a; };
-  if (!alike(before.K, after.K, kSameKernel)) return false;
+  if (!(after.K <= kSameKernel * before.K && before.K <= kSameKernel * after.K)) return false;
   if (before.fromLight) return true;  // every light in sight gets rays
-  // Where less passes, some are spent in vain: no noise comes of it.
+  // Where less passes, some rays are spent in vain: no noise comes of it.
   return openness(after) <= kMoreOpen * openness(before);
 }
 
