@@ -6,7 +6,7 @@
 #include "hierarchy/element.hpp"
 #include "hierarchy/input_level.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 /// One side of an input-level surface, and what is known of it before any link exists.
 struct SurfaceSide {
@@ -46,4 +46,4 @@ std::vector<ElementId> elementsOf(const Elements&, std::span<const SurfaceSide>)
 /// the order of surfaceSides(), at least one.
 ElementId growElements(Elements&, const Scene&, const std::vector<SurfaceSide>&);
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

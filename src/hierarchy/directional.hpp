@@ -7,7 +7,7 @@
 #include <deltalux/math.hpp>
 #include <deltalux/units.hpp>
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 inline constexpr int kHarmonics = 9;
 inline constexpr float kConstantHarmonic = 0.28209479f;
@@ -60,4 +60,4 @@ struct DirectionalRgb {
   }
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 /// Signed area, positive counter-clockwise.
 double outlineArea(std::span<const Vec2>);
@@ -18,4 +18,4 @@ bool outlineFills(std::span<const Vec2>, double area);
 /// The part with coordinate `axis` <= limit (below) or >= limit. [Sutherland & Hodgman 1974]
 std::vector<Vec2> clipOutline(std::span<const Vec2>, int axis, double limit, bool below);
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -10,17 +10,17 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// Runs over the whole hierarchy. Returns the power by which leaf radiosities changed: sum of A |dB| per channel [W in
 /// unit^2 as area].
-RgbSum pushPull(Elements&);
+RgbSum pushPull(hierarchy::Elements&);
 
 /// The upward half alone: from the irradiances that the leaves have, everything above. Returns as pushPull.
-RgbSum pull(Elements&);
+RgbSum pull(hierarchy::Elements&);
 /// The same of these leaves, what lies on their other sides and what stands above them; all else is as it was.
-RgbSum pull(Elements&, std::span<const ElementId> leaves);
+RgbSum pull(hierarchy::Elements&, std::span<const hierarchy::ElementId> leaves);
 /// Adds the leaves that light on these shines through to.
-void addOtherSides(const Elements&, std::vector<ElementId>& leaves);
+void addOtherSides(const hierarchy::Elements&, std::vector<hierarchy::ElementId>& leaves);
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

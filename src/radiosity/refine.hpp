@@ -13,7 +13,7 @@
 #include "radiosity/oracle.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 struct RefineReport {
   std::uint64_t judged = 0, created = 0, split = 0, collapsed = 0, rays = 0, provenClear = 0, provenBlocked = 0;
@@ -21,18 +21,18 @@ struct RefineReport {
 };
 
 /// Makes the root links of `elements` if there are none yet.
-void makeRootLinks(Links&, const Elements&);
+void makeRootLinks(hierarchy::Links&, const hierarchy::Elements&);
 /// Makes the root links between what has grown and everything, itself included.
-void addRootLinks(Links&, const Elements&, ElementId grown);
+void addRootLinks(hierarchy::Links&, const hierarchy::Elements&, hierarchy::ElementId grown);
 
 /// Judges the marked links anew after a move: active ones whose ends or visibility changed, interior ones that may no
 /// longer need to be refined, which collapse; and refines root links that were made since the marks were. Sets
 /// `marks.changes` to Changed where a link is another than before, and returns the topmost of those in `changed`.
-RefineReport rejudge(Links&, Elements&, const Scene&, const RayTracer&, const OracleSettings&, LinkMarks& marks,
-                     std::vector<LinkId>& changed);
+RefineReport rejudge(hierarchy::Links&, hierarchy::Elements&, const Scene&, const tracing::RayTracer&,
+                     const OracleSettings&, LinkMarks& marks, std::vector<hierarchy::LinkId>& changed);
 
 /// `stop` is asked between levels; true ends refinement with a consistent tree.
-RefineReport refine(Links&, Elements&, const Scene&, const RayTracer&, const OracleSettings&,
-                    const std::function<bool()>& stop = {});
+RefineReport refine(hierarchy::Links&, hierarchy::Elements&, const Scene&, const tracing::RayTracer&,
+                    const OracleSettings&, const std::function<bool()>& stop = {});
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

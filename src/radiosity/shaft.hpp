@@ -5,11 +5,11 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 class Shaft {
  public:
-  Shaft(const ElementGeometry& a, const ElementGeometry& b);
+  Shaft(const hierarchy::ElementGeometry& a, const hierarchy::ElementGeometry& b);
 
   /// Whether the box has a point in the hull (conservative: never false when it has).
   bool meets(const Vec3f& lower, const Vec3f& upper) const;
@@ -25,4 +25,4 @@ class Shaft {
   Lanes offset_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

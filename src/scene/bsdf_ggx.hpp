@@ -5,7 +5,7 @@
 
 #include "base/unit_circle.hpp"
 
-namespace deltalux::ggx {
+namespace deltalux::scene::ggx {
 
 /// Smith's Lambda: G1 = 1 / (1 + Lambda).
 inline double lambda(double alpha, const Vec3& w) {
@@ -42,4 +42,4 @@ inline Vec3 sample(double alpha, const Vec3& wo, const Vec2& u) {
   return 2.0 * glm::dot(wo, h) * h - wo;
 }
 
-}  // namespace deltalux::ggx
+}  // namespace deltalux::scene::ggx

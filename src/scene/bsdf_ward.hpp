@@ -6,7 +6,7 @@
 
 #include "base/unit_circle.hpp"
 
-namespace deltalux::ward {
+namespace deltalux::scene::ward {
 
 /// f(wo, wi) for unit reflectance [1/sr]; both in the upper hemisphere.
 inline double evaluate(double alpha, const Vec3& wo, const Vec3& wi) {
@@ -34,4 +34,4 @@ inline Vec3 sample(double alpha, const Vec3& wo, const Vec2& u) {
   return 2.0 * glm::dot(wo, h) * h - wo;
 }
 
-}  // namespace deltalux::ward
+}  // namespace deltalux::scene::ward

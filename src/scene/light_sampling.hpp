@@ -15,7 +15,7 @@
 
 #include "scene/light_sampling_dome.hpp"
 
-namespace deltalux {
+namespace deltalux::scene {
 
 struct LightSample {
   Vec3 direction;       // unit, from the point to the light
@@ -97,4 +97,4 @@ class LightSampler {
   std::vector<LightId> atInfinity_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

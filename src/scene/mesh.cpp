@@ -99,6 +99,10 @@ std::optional<Mesh> makeMesh(std::vector<Vec3> positions, std::vector<std::array
   return m;
 }
 
+}  // namespace deltalux
+
+namespace deltalux::scene {
+
 namespace kinds {
 
 double area(const Mesh& m) { return m.cumulativeArea.empty() ? 0.0 : m.cumulativeArea.back(); }
@@ -160,4 +164,4 @@ std::optional<Shape> transformed(const Mesh& m, const ShapeMap& map) {
 
 }  // namespace kinds
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -8,10 +8,10 @@
 // functions, no state.
 #include <deltalux/light.hpp>
 
-namespace deltalux {
+namespace deltalux::scene {
 
 /// Radiance from the unit direction `towards`; `up` is the zenith [W/(sr m2)].
 double radiance(const RadianceSky&, const Vec3& towards, const Vec3& up);
 double radiance(const CieSky&, const Vec3& towards, const Vec3& up);
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -14,10 +14,10 @@
 #include <span>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::scene {
 
 /// Counter-clockwise triangles, as indices into `outline`, which is counter-clockwise. Triangles without area are left
 /// out; vertices inside straight edges are used where possible, so that neighbouring triangles share whole edges.
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec2> outline);
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -7,7 +7,7 @@
 // Improvements for Ray/Sphere Intersection]
 #include <deltalux/shape.hpp>
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 /// Parameters of the points where a line meets a surface, ascending.
 struct Crossings {
@@ -68,4 +68,4 @@ struct ThinTriangleSurface {
   Vec3 front;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

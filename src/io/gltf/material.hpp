@@ -20,7 +20,7 @@
 
 #include "io/gltf/document.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Where a mesh finds the coordinates of its texture.
 struct TextureUse {
@@ -40,4 +40,4 @@ struct GltfMaterials {
 GltfMaterials addMaterials(const GltfDocument&, double luminousEfficacy, Scene&,
                            std::map<std::string, std::size_t>& ignored);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <deltalux/error.hpp>
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -187,4 +187,4 @@ Photometry completePhotometry(IesRecord& record, const std::string& name) {
   return photometry;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

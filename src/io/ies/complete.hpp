@@ -17,10 +17,10 @@
 
 #include "io/ies/parse.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Throws InputError when the angles are none that the standard knows; `name` is the file in messages. Appends to
 /// `record.warnings`.
 Photometry completePhotometry(IesRecord& record, const std::string& name);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -8,7 +8,7 @@
 
 #include "io/image/formats.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 using Rgbe = std::array<std::uint8_t, 4>;
@@ -195,4 +195,4 @@ class Decoder {
 
 Image decodeHdr(std::string_view bytes, const std::string& file) { return Decoder(bytes, file).decode(); }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -16,7 +16,7 @@
 
 #include "io/obj/check.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Appends the materials of every file that `survey` names, and the textures that they use. Files and textures that are
 /// not there are counted in `ignored`. Throws InputError when a file leads out of `folder` or holds impossible values.
@@ -24,4 +24,4 @@ std::map<std::string, MaterialId> addObjMaterials(const ObjSurvey& survey, const
                                                   const std::filesystem::path& folder, Scene&,
                                                   std::map<std::string, std::size_t>& ignored);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -3,7 +3,7 @@
 
 #include "io/radiance/rad_object.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// What a supported material does. `alternate` is the surface that a mirror or illum names instead of its own, if any.
 /// Throws InputError for colours and fractions that no material has.
@@ -14,4 +14,4 @@ namespace deltalux::radiance {
 /// part. [Radiance reference manual, "Materials"; shared decisions in material.hpp]
 Material makeMaterial(const RadObject&, const Material* alternate);
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -5,7 +5,7 @@
 #include <deltalux/math.hpp>
 #include <optional>
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// Angles in radians; longitudes west of Greenwich are positive, as gensky takes them.
 struct Site {
@@ -28,4 +28,4 @@ SunAngles sunAngles(const SunTime&, const Site&);
 /// Unit direction to the sun: x east, y north, z up.
 Vec3 sunDirection(const SunAngles&);
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance
