@@ -73,7 +73,7 @@ struct Engine::State {
   /// Of the light in the end, as updates judge it.
   void makeTextures();
   void countTextures();
-  /// Gathers until the light no longer changes. [algorithm 3]
+  /// Gathers until the light no longer changes.
   bool settle(Progress* progress);
   /// There is no place in the trees for what was not there.
   void solveAfresh(Progress* progress);

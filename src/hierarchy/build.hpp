@@ -1,7 +1,7 @@
 #pragma once
 // Builds the element hierarchy over the sides of a scene's surfaces that light can reach: a bounding-volume hierarchy
 // of clusters whose large surfaces stay high, so that a wall does not widen every cluster along it (attach a surface to
-// the lowest cluster that fits it [Christensen 1995, 6.7]); the area emitters in a tree of their own.
+// the lowest cluster that fits it [Christensen95 6.7]); the area emitters in a tree of their own.
 // Cost: O(n log n) over input-level surfaces; meshes take part by triangle, so clusters within a mesh do the work.
 #include "hierarchy/element.hpp"
 #include "hierarchy/input_level.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Points of a rectangle uniform in the solid angle under which another point sees it: a sender next to a mirror or a
 // floor then has bounded weights, however close it is.
-// [UFK13: Urena, Fajardo, King 2013, "An Area-Preserving Parametrization for Spherical Rectangles"]
+// [UFK13]
 #include <algorithm>
 #include <deltalux/math.hpp>
 

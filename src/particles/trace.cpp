@@ -194,7 +194,7 @@ class Tracing {
     }
   }
 
-  /// Russian roulette on what the path carries relative to what it began with; colours are kept. [algorithm 4]
+  /// Russian roulette on what the path carries relative to what it began with; colours are kept.
   bool survives(Walker& w, double u) const {
     constexpr int kPatience = 8;
     constexpr double kWorth = 0.25;        // share of it that is still followed without a question

@@ -1,8 +1,8 @@
 #pragma once
 // Particles as one more sparse transfer: E(receiver) = sum of T B(sender), senders being leaf patches and lights. Made
 // once a mesh; every iteration then costs a multiplication per pair of sender and receiver that particles connect, and
-// no ray. The one writer of ElementLight::particle. [GD01 2.1, "placed at an appropriate level in the hierarchy"; at
-// which: spread_levels.hpp]
+// no ray. The one writer of ElementLight::particle. [GD01 2.1, "placed at an appropriate level in the hierarchy"]; at
+// which: spread_levels.hpp
 //
 // Retraced paths, and those whose ends lie on patches that were split, are taken out and put in one by one; levels are
 // chosen anew, and light is written, surface by surface, so that settling need only look at surfaces where particles or

@@ -3,7 +3,7 @@
 // receiver gets from its whole sender; here rays are shared among the links that cover the place in proportion to what
 // they may bring, and each finds its way down from its link's sender to one leaf, by the same measure at every level.
 // So what a sender hides of itself where it is bright, and what stands just here, is seen without finer links (final
-// gathering [Reichert 1992; LTG93], with the links as its importance function).
+// gathering [Reichert92; LTG93], with the links as its importance function).
 //
 //   E = sum over rays T B(leaf),   T = K V / (n p)              between flat leaves
 //                                  T = A w V / (n p)            where one is curved, or covered in part

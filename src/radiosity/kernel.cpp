@@ -51,7 +51,7 @@ const SpotCone* spotOf(const hierarchy::Elements& elements, const Scene& scene, 
   return emission && emission->spot ? &*emission->spot : nullptr;
 }
 
-/// Radiance's rule inside the cone: the inverse square counts from a focus behind the source. [conventions.md]
+/// Radiance's rule inside the cone: the inverse square counts from a focus behind the source. [Radiance, spotlight]
 double spotFactor(const SpotCone& spot, const Vec3f& toReceiver, float distance) {
   const double focal = glm::length(spot.direction);
   const double cosine = focal > 0 ? glm::dot(Vec3(toReceiver), spot.direction) / focal : 1.0;

@@ -1,6 +1,6 @@
 #pragma once
-// The unoccluded transfer K of a link, and how much it varies over both ends, from the same evaluations [Sillion 1995,
-// II.C; Bekaert & Willems 1996]. What K multiplies depends on the kind of sender:
+// The unoccluded transfer K of a link, and how much it varies over both ends, from the same evaluations [SIL95 II.C;
+// BW96]. What K multiplies depends on the kind of sender:
 //
 //   patch     radiosity B [W/m2]       K = form factor from receiver to sender
 //   cluster   intensity I(w) [W/sr]    K = mean of cos / d^2

@@ -4,7 +4,7 @@
 //     budget(r) = share * error * tolerance(r) * max(A_r, A_0(r)),   A_0 = (scale * mean free path)^2
 //
 // where tolerance(r) is the irradiance that r has now (a mean that favours dark parts) and A_0 the area that matters to
-// the light of r's surroundings: light varies over distances like those to other surfaces [as in Ward & Heckbert 1992],
+// the light of r's surroundings: light varies over distances like those to other surfaces [WH92],
 // so an error on less than A_0 weighs only as much as its share of A_0. Nothing here depends on the scene's size, and
 // shadow edges end at patches of about error * A_0.
 //

@@ -1,7 +1,7 @@
 #pragma once
 // Push-pull: irradiance gathered at all levels is pushed down to the leaf patches, reflected there (B = rho E + tau E
 // of the other side), and averaged by area on the way up; clusters sum what their surfaces send as a function of
-// direction [GD01 2.1; Sillion 1995]. The one writer of B, tolerance and cluster intensities; of direct and indirect
+// direction [GD01 2.1; SIL95]. The one writer of B, tolerance and cluster intensities; of direct and indirect
 // while links are refined, and above the leaves once rows of transfers fill those (leaf_transfers.hpp). Means are over
 // the exposed parts of leaves (exposure.hpp). Cost: linear in elements; parents stand before their children, so both
 // ways are plain loops; or in what a change has touched.

@@ -1,7 +1,7 @@
 #pragma once
 // Refinement: descends the link tree from its roots (one self-link of the whole scene, and one link from every light),
 // level by level, with the blocker lists handed from parent to child; accepts links whose error is within the budget
-// and splits an end of the others [GD01 2.1; Sillion 1995 III.B; Haines & Wallace 1991].
+// and splits an end of the others [GD01 2.1; SIL95 III.B; HW91].
 //
 // How it goes down, level by level, on how many threads ever: link_descent.hpp. Links accepted earlier are judged again
 // with today's radiosities: refining an already refined tree with a smaller error continues it (multigridding).

@@ -20,7 +20,7 @@ struct SampleKey {
 };
 
 /// A four-dimensional sequence shifted by the key: stratified for any prefix (additive recurrence with the powers of
-/// the generalised golden ratio [Roberts 2018]), and over the first places of a group.
+/// the generalised golden ratio [Roberts18]), and over the first places of a group.
 class Stratified4 {
  public:
   explicit Stratified4(SampleKey);

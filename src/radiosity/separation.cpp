@@ -12,7 +12,7 @@ namespace {
 constexpr double kRounding = 0x1p-23;
 
 bool segmentMeetsRectangle(const Vec2& a, const Vec2& b, const Vec2& lower, const Vec2& upper) {
-  // Clip the segment against the rectangle [Liang & Barsky 1984].
+  // Clip the segment against the rectangle [LB84].
   double t0 = 0, t1 = 1;
   const Vec2 d = b - a;
   for (int axis = 0; axis < 2; ++axis) {

@@ -1,5 +1,5 @@
 #pragma once
-// Shafts [Haines & Wallace 1991]: the convex hull of the boxes of two elements, tested against boxes of blockers. Never
+// Shafts [HW91]: the convex hull of the boxes of two elements, tested against boxes of blockers. Never
 // stored: rebuilt from the two boxes on the way down the link tree. [GD01 5]
 #include <array>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Irradiance at any point of a surface side, reconstructed from one value a leaf patch: every leaf carries a linear
 // function fitted to the leaves around it, and a point blends the functions of all leaves whose supports hold it
-// (Shepard's method with local linear fits [Franke & Nielson 1980; Renka 1988]), finer leaves counting more.
+// (Shepard's method with local linear fits [FN80; Renka88]), finer leaves counting more.
 //
 //   E(p) = sum_i w_i(p) (E_i + g_i . (p - c_i)) / sum_i w_i(p),  w_i = k_i(p) / A_i
 //

@@ -19,7 +19,7 @@ constexpr double kLift = 0.02;       // of the radius, for looking along the sur
 constexpr int kDisc = 128;
 constexpr int kPasses = 3;  // with what is known at the point ever closer
 
-/// Points of the unit disc, even in area. [Vogel 1979]
+/// Points of the unit disc, even in area. [Vogel79]
 const std::array<Vec2, kDisc>& disc() {
   static const std::array<Vec2, kDisc> points = [] {
     std::array<Vec2, kDisc> p;

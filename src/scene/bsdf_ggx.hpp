@@ -1,6 +1,6 @@
 #pragma once
 // GGX with Smith's height-correlated masking, sampled by visible normals.
-// [Walter et al. 2007; Heitz 2014; DB23: Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"]
+// [WMLT07; Heitz14; DB23]
 #include <deltalux/math.hpp>
 
 #include "base/unit_circle.hpp"

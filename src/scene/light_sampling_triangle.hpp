@@ -1,6 +1,6 @@
 #pragma once
 // Triangles seen from a point: their solid angle, and directions uniform in it.
-// [OS83: van Oosterom and Strackee 1983; Arvo95: Arvo 1995, "Stratified Sampling of Spherical Triangles"]
+// [OS83; Arvo95]
 #include <algorithm>
 #include <deltalux/math.hpp>
 

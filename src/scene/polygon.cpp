@@ -30,7 +30,7 @@ void dropRepeatedVertices(std::vector<Vec3>& vertices) {
   while (vertices.size() > 1 && same(vertices.front(), vertices.back())) vertices.pop_back();
 }
 
-/// Area times normal, from coordinates relative to the first vertex. [Newell; Sutherland, Sproull, Schumacker 1974]
+/// Area times normal, from coordinates relative to the first vertex. [SSS74]
 Vec3 newellVector(const std::vector<Vec3>& vertices) {
   Vec3 sum(0);
   for (std::size_t i = 1; i + 1 < vertices.size(); ++i)

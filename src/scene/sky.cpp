@@ -20,7 +20,7 @@ double clearSky(const RadianceSky& sky, double cosZenith, double cosSun) {
 
 double overcastSky(const RadianceSky& sky, double cosZenith) { return sky.zenith * (1 + 2 * cosZenith) / 3; }
 
-/// [Matsuura 1987], as skybright.cal has it.
+/// [Matsuura87], as skybright.cal has it.
 double intermediateSky(const RadianceSky& sky, double cosZenith, double cosSun, double cosSunZenith) {
   const double eta = angleOf(cosZenith), sunZenith = angleOf(cosSunZenith);
   const double zenithPart = (1.35 * std::sin(5.631 - 3.59 * eta) + 3.12) * std::sin(4.396 - 2.6 * sunZenith);

@@ -4,7 +4,7 @@
 // radiance(RadianceSky): the functions that gensky's output names, skybr of skybright.cal [Radiance, gensky(1)]: CIE
 // clear sky (Kittler 1967, CIE 22), CIE overcast sky (Moon & Spencer 1942), uniform sky, and Matsuura's intermediate
 // sky; ground and sky are blended across the horizon with the weights (1.01 +- cos)^10. radiance(CieSky): the standard
-// general sky [ISO 15469:2004, Darula & Kittler 2002]; below the horizon the ground. Cost: a handful of transcendental
+// general sky [ISO 15469:2004; DK02]; below the horizon the ground. Cost: a handful of transcendental
 // functions, no state.
 #include <deltalux/light.hpp>
 

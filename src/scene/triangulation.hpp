@@ -1,7 +1,6 @@
 #pragma once
 // Ear clipping of weakly simple polygons: concave ones, and those whose holes are joined to the outline by seams (an
-// edge walked there and back), with repeated and collinear vertices. [Meisters 1975; Eberly, Triangulation by Ear
-// Clipping]
+// edge walked there and back), with repeated and collinear vertices. [Meisters75; Eberly02]
 //
 // A corner is an ear when no edge of what is left of the polygon enters the open triangle over it. Asking edges rather
 // than vertices needs no special case for the vertices that seams repeat. Outlines that cross themselves still end,

@@ -40,7 +40,7 @@ std::vector<Vec3> aboveHorizon(const OraclePatch& polygon, const Vec3& x, const 
   return kept;
 }
 
-/// Form factor from the point x to the whole polygon. [Lambert 1760]
+/// Form factor from the point x to the whole polygon. [Lambert1760]
 double pointFactor(const Vec3& x, const Vec3& n, const OraclePatch& to) {
   if (glm::dot(to.normal, x - to.corners[0]) <= 1e-12) return 0;
   const std::vector<Vec3> corners = aboveHorizon(to, x, n);

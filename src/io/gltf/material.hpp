@@ -1,5 +1,5 @@
 #pragma once
-// Materials of glTF as deltalux materials. [glTF 2.0, 3.9; appendix B; KHR_materials_*]
+// Materials of glTF as deltalux materials. [glTF 2.0, 3.9 and appendix B; KHR_materials_*]
 //
 // With base colour b, metalness m, roughness r, ior n:
 //   F0      = min(((n-1)/(n+1))^2 specularColor, 1) specular                       [KHR_materials_ior, _specular]

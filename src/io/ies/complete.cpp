@@ -123,7 +123,7 @@ double interpolate(const IesRecord& record, double vertical, double horizontal) 
   return (1 - fh) * here + fh * next;
 }
 
-// The angles of types A and B, vertical first, for a direction given by type C angles. [LM-63-2002; EXT_lights_ies]
+// The angles of types A and B, vertical first, for a direction given by type C angles. [LM-63, 2002; EXT_lights_ies]
 std::pair<double, double> anglesOf(PhotometricType type, double vertical, double horizontal) {
   const double sine = std::sin(vertical * kDegree);
   const double x = sine * std::cos(horizontal * kDegree);

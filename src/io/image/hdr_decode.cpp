@@ -1,5 +1,5 @@
 // Radiance RGBE: header lines, a resolution line that also gives the orientation, scanlines flat or in the old or new
-// run lengths. Hostile bytes end in an InputError. [Radiance, "The RADIANCE Picture File Format"; color.c]
+// run lengths. Hostile bytes end in an InputError. [Radiance, "The RADIANCE Picture File Format"; Radiance, color.c]
 #include <algorithm>
 #include <array>
 #include <charconv>

@@ -1,7 +1,7 @@
 #pragma once
 // Where the sun stands. Solar declination and equation of time by the approximations of the IES Lighting Handbook (1984
-// Reference Volume, 7), which gensky uses; with a year, by the Astronomical Almanac's low-precision formulas [Michalsky
-// 1988].
+// Reference Volume, 7), which gensky uses; with a year, by the Astronomical Almanac's low-precision formulas
+// [Michalsky88].
 #include <deltalux/math.hpp>
 #include <optional>
 

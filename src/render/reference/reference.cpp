@@ -41,7 +41,7 @@ double tableBudget(const ReferenceSettings& settings, std::size_t estimates) {
   return std::clamp(std::min(fromSamples, fromSeconds), 5e4, kMost);
 }
 
-/// Mean and spread of batch means per channel. [Welford 1962]
+/// Mean and spread of batch means per channel. [Welford62]
 struct BatchMoments {
   std::uint64_t count = 0;
   RgbSum mean{0}, squares{0};
