@@ -48,28 +48,28 @@ Engine solved(const std::string& file, double error, bool textures) {
   return engine;
 }
 
-const SurfaceCaustics& texturesOf(const Solution& s, const std::string& object) {
+const caustics::SurfaceCaustics& texturesOf(const Solution& s, const std::string& object) {
   const std::vector<ObjectId> found = findObjects(s.scene, object);
   if (found.empty()) throw std::runtime_error("no object named " + object);
   const std::vector<PrimitiveId> primitives = primitivesOf(s.scene, found.front());
-  const SurfaceCaustics* textures = primitives.empty() ? nullptr : s.caustics.of(primitives.front(), true);
+  const caustics::SurfaceCaustics* textures = primitives.empty() ? nullptr : s.caustics.of(primitives.front(), true);
   if (!textures) throw std::runtime_error("no caustic texture on " + object);
-  if (!std::holds_alternative<PlaneChart>(textures->charts.all[0].map))
+  if (!std::holds_alternative<caustics::PlaneChart>(textures->charts.all[0].map))
     throw std::runtime_error(object + " is not flat");
   return *textures;
 }
 
-const CausticTexture& busiest(const SurfaceCaustics& s) {
+const caustics::CausticTexture& busiest(const caustics::SurfaceCaustics& s) {
   return *std::max_element(s.textures.begin(), s.textures.end(),
                            [](const auto& a, const auto& b) { return a.particles < b.particles; });
 }
 
 /// Square pixels over a plane chart's rectangle, row by row from the top.
 struct Raster {
-  Region region;
+  caustics::Region region;
   int width, height;
 
-  explicit Raster(const Region& r) : region(r) {
+  explicit Raster(const caustics::Region& r) : region(r) {
     const double pixel = std::sqrt(r.size().x * r.size().y / kPixels);
     width = std::max(1, static_cast<int>(r.size().x / pixel)),
     height = std::max(1, static_cast<int>(r.size().y / pixel));
@@ -83,8 +83,8 @@ struct Raster {
   }
 };
 
-Vec3 onPlane(const Chart& chart, const Vec2& st) {
-  const PlaneChart& plane = std::get<PlaneChart>(chart.map);
+Vec3 onPlane(const caustics::Chart& chart, const Vec2& st) {
+  const caustics::PlaneChart& plane = std::get<caustics::PlaneChart>(chart.map);
   return plane.origin + st.x * plane.alongS + st.y * plane.alongT;
 }
 
@@ -150,25 +150,25 @@ class MeshLight {
   }
 
  private:
-  static std::vector<LeafIrradiance> particlesOf(const Elements& elements) {
-    std::vector<LeafIrradiance> values(elements.size());
+  static std::vector<rendering::LeafIrradiance> particlesOf(const hierarchy::Elements& elements) {
+    std::vector<rendering::LeafIrradiance> values(elements.size());
     for (std::size_t i = 0; i < values.size(); ++i) values[i].indirect = elements.radiometry[i].particle;
     return values;
   }
-  LeafPoint leafAt(PrimitiveId primitive, const Vec3& p) const {
+  hierarchy::LeafPoint leafAt(PrimitiveId primitive, const Vec3& p) const {
     return locator_.locate(locator_.side(primitive, 0, true), p);
   }
 
   const Solution& solution_;
-  SideLocator locator_;
-  IrradianceField field_;
+  hierarchy::SideLocator locator_;
+  rendering::IrradianceField field_;
 };
 
 void drawReconstruction(const std::string& name, const std::string& file, const std::string& object, double error,
                         std::uint64_t samples, const std::string& folder) {
   const Engine engine = solved(file, error, true), onMesh = solved(file, error, false);
   const Solution& s = engine.solution().get();
-  const SurfaceCaustics& textures = texturesOf(s, object);
+  const caustics::SurfaceCaustics& textures = texturesOf(s, object);
   const Raster raster(busiest(textures).region);
   std::vector<ProbePoint> points;
   const Vec3 normal = pointAt(s.scene[textures.primitive].shape, {0.5, 0.5}).normal;
@@ -190,7 +190,7 @@ void drawReconstruction(const std::string& name, const std::string& file, const 
     const std::size_t pixel = i / (kPoints * kPoints);
     const Vec3& p = points[i].position;
     const RgbSum all = probed[i].irradiance;
-    const RgbSum other = all - RgbSum(*causticLight(s.caustics, s.scene, textures.primitive, 0, true, p));
+    const RgbSum other = all - RgbSum(*rendering::causticLight(s.caustics, s.scene, textures.primitive, 0, true, p));
     truth.add(pixel, reference[i].irradiance, gray(reference[i].standardError));
     texture.add(pixel, all);
     flat.add(pixel, other + mesh.flat(textures.primitive, p));
@@ -206,8 +206,8 @@ void drawReconstruction(const std::string& name, const std::string& file, const 
 }
 
 /// A part of the chart; `outlined`: with the outlines of the textures' regions in white.
-Image drawn(const SurfaceCaustics& s, const Shape& shape, const Region& part, bool outlined) {
-  const Chart& chart = s.charts.all[0];
+Image drawn(const caustics::SurfaceCaustics& s, const Shape& shape, const caustics::Region& part, bool outlined) {
+  const caustics::Chart& chart = s.charts.all[0];
   const Raster raster(part);
   std::vector<RgbSum> E;
   for (std::size_t i = 0; i < raster.count(); ++i) {
@@ -219,16 +219,16 @@ Image drawn(const SurfaceCaustics& s, const Shape& shape, const Region& part, bo
   Image image = imageOf(raster, E);
   const Vec2 pixel = raster.region.size() / Vec2(raster.width, raster.height);
   for (std::size_t i = 0; outlined && i < raster.count(); ++i)
-    for (const CausticTexture& t : s.textures) {
+    for (const caustics::CausticTexture& t : s.textures) {
       const Vec2 d = glm::min(glm::abs(raster.at(i) - t.region.lower), glm::abs(raster.at(i) - t.region.upper)) / pixel;
       if (t.region.contains(raster.at(i)) && std::min(d.x, d.y) < 1) image.pixels[i] = Rgb(1e6f);
     }
   return image;
 }
 
-std::size_t texelsOf(const SurfaceCaustics& s) {
+std::size_t texelsOf(const caustics::SurfaceCaustics& s) {
   std::size_t sum = 0;
-  for (const CausticTexture& t : s.textures) sum += t.texels.size();
+  for (const caustics::CausticTexture& t : s.textures) sum += t.texels.size();
   return sum;
 }
 
@@ -236,18 +236,18 @@ void drawRestriction(const std::string& name, const std::string& file, const std
                      const std::string& folder) {
   const Engine engine = solved(file, error, true);
   const Solution& s = engine.solution().get();
-  const SurfaceCaustics& restricted = texturesOf(s, object);
+  const caustics::SurfaceCaustics& restricted = texturesOf(s, object);
   const Shape& shape = s.scene[restricted.primitive].shape;
-  std::vector<Impact> landed;
-  for (const Impact& impact : impacts(s.particles, s.elements, s.scene))
+  std::vector<particles::Impact> landed;
+  for (const particles::Impact& impact : particles::impacts(s.particles, s.elements, s.scene))
     if (impact.primitive == restricted.primitive && impact.front) landed.push_back(impact);
   const std::size_t side = 2 * restricted.primitive.index();
-  SurfaceSides asked(2 * s.scene.primitives.size(), false);
+  caustics::SurfaceSides asked(2 * s.scene.primitives.size(), false);
   asked[side] = true;
-  const OtherLight other = otherLight(s.scene, s.elements, asked);
-  const SurfaceCaustics whole = makeUnrestrictedTextures(shape, landed, {error, other.mean[side], other.darkest[side]},
-                                                         static_cast<int>(texelsOf(restricted)));
-  const Region all{Vec2(0), restricted.charts.all[0].size}, part = busiest(restricted).region;
+  const caustics::OtherLight other = caustics::otherLight(s.scene, s.elements, asked);
+  const caustics::SurfaceCaustics whole = caustics::makeUnrestrictedTextures(
+      shape, landed, {error, other.mean[side], other.darkest[side]}, static_cast<int>(texelsOf(restricted)));
+  const caustics::Region all{Vec2(0), restricted.charts.all[0].size}, part = busiest(restricted).region;
   const Image close = drawn(restricted, shape, part, false);
   saveSheet(
       fmt::format("{}/{}-restriction.png", folder, name),

@@ -48,7 +48,7 @@ Engine solved(const std::string& file, double error, std::uint64_t particles, st
 /// The front of the first primitive of an object, and what landed there.
 struct Landed {
   Shape shape;
-  std::vector<Impact> impacts;
+  std::vector<particles::Impact> impacts;
 };
 
 Landed landedOn(const Solution& s, const std::string& object) {
@@ -57,7 +57,7 @@ Landed landedOn(const Solution& s, const std::string& object) {
   const std::vector<PrimitiveId> primitives = primitivesOf(s.scene, found.front());
   if (primitives.empty()) throw std::runtime_error("an object without surfaces: " + object);
   Landed landed{s.scene[primitives.front()].shape, {}};
-  for (const Impact& impact : impacts(s.particles, s.elements, s.scene))
+  for (const particles::Impact& impact : particles::impacts(s.particles, s.elements, s.scene))
     if (impact.primitive == primitives.front() && impact.front) landed.impacts.push_back(impact);
   return landed;
 }
@@ -70,7 +70,7 @@ struct Truth {
 
   explicit Truth(const Landed& landed) : E(kTruthTexels * kTruthTexels, 0.0), variance(E.size(), 0.0) {
     const double texel = area(landed.shape) / static_cast<double>(E.size());
-    for (const Impact& impact : landed.impacts) {
+    for (const particles::Impact& impact : landed.impacts) {
       const int x = std::min(static_cast<int>(impact.uv.x * kTruthTexels), kTruthTexels - 1);
       const int y = std::min(static_cast<int>(impact.uv.y * kTruthTexels), kTruthTexels - 1);
       const double g = gray(impact.flux) / texel;
@@ -79,7 +79,7 @@ struct Truth {
   }
 
   /// Relative root mean square difference of the textures' mean over each texel.
-  double difference(const SurfaceCaustics& s, const Shape& shape) const {
+  double difference(const caustics::SurfaceCaustics& s, const Shape& shape) const {
     constexpr int samples = 4;
     double squares = 0, mean = 0;
     for (int y = 0; y < kTruthTexels; ++y)
@@ -98,17 +98,17 @@ struct Truth {
   }
 };
 
-std::size_t texelsOf(const SurfaceCaustics& s) {
+std::size_t texelsOf(const caustics::SurfaceCaustics& s) {
   std::size_t sum = 0;
-  for (const CausticTexture& t : s.textures) sum += t.texels.size();
+  for (const caustics::CausticTexture& t : s.textures) sum += t.texels.size();
   return sum;
 }
 
 void growParticles(const std::string& name, const std::string& file, const std::string& object, double error,
                    std::uint64_t least, std::uint64_t most) {
   const Truth truth(landedOn(solved(file, error, 16 * most, 2).solution().get(), object));
-  const auto measure = [&](std::uint64_t n, const char* way, double seconds, const std::optional<SurfaceCaustics>& s,
-                           const Shape& shape) {
+  const auto measure = [&](std::uint64_t n, const char* way, double seconds,
+                           const std::optional<caustics::SurfaceCaustics>& s, const Shape& shape) {
     if (!s) return;
     row(name, error, n, fmt::format("{}: difference", way).c_str(), truth.difference(*s, shape), "");
     row(name, error, n, fmt::format("{}: texels", way).c_str(), static_cast<double>(texelsOf(*s)), "");
@@ -118,9 +118,9 @@ void growParticles(const std::string& name, const std::string& file, const std::
     const Landed landed = landedOn(solved(file, error, n, 1).solution().get(), object);
     row(name, error, n, "impacts", static_cast<double>(landed.impacts.size()), "");
     const double begin = cpuSeconds();
-    const auto ours = makeCausticTextures(landed.shape, landed.impacts, {error, 0});
+    const auto ours = caustics::makeCausticTextures(landed.shape, landed.impacts, {error, 0});
     const double middle = cpuSeconds();
-    const auto papers = makePaperTextures(landed.shape, landed.impacts);
+    const auto papers = caustics::makePaperTextures(landed.shape, landed.impacts);
     measure(n, "adaptive", middle - begin, ours, landed.shape);
     measure(n, "paper", cpuSeconds() - middle, papers, landed.shape);
   }
@@ -131,7 +131,7 @@ void measureSolve(const std::string& name, const std::string& file, double error
   const SolveReport& report = engine.solution().report();
   const std::uint64_t n = report.counts.particles;
   std::size_t texels = 0;
-  for (const SurfaceCaustics& s : engine.solution().get().caustics.surfaces) texels += texelsOf(s);
+  for (const caustics::SurfaceCaustics& s : engine.solution().get().caustics.surfaces) texels += texelsOf(s);
   row(name, error, n, "textures", static_cast<double>(report.counts.causticTextures), "");
   row(name, error, n, "mean size", report.counts.causticTextureMeanSize, "texels a side");
   row(name, error, n, "texels", static_cast<double>(texels), "");

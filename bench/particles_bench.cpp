@@ -27,15 +27,15 @@ constexpr int kRounds = 3;
 constexpr std::size_t kBlock = 1024;
 
 /// The segments of all paths as rays.
-std::vector<Ray> raysOf(const Particles& p) {
-  std::vector<Ray> rays;
+std::vector<tracing::Ray> raysOf(const particles::Particles& p) {
+  std::vector<tracing::Ray> rays;
   for (std::size_t i = 0; i < p.paths(); ++i) {
     const auto path = p.verticesOf(i);
     for (std::size_t v = 0; v + 1 < path.size(); ++v) {
       const Vec3f d = path[v + 1] - path[v];
       const float length = glm::length(d);
       if (!(length > 0)) continue;
-      Ray ray;
+      tracing::Ray ray;
       ray.direction = d / length;
       ray.origin = path[v] + 1e-5f * length * ray.direction;
       rays.push_back(ray);
@@ -44,8 +44,8 @@ std::vector<Ray> raysOf(const Particles& p) {
   return rays;
 }
 
-double rawSeconds(const RayTracer& tracer, const std::vector<Ray>& rays) {
-  std::vector<Hit> hits(rays.size());
+double rawSeconds(const tracing::RayTracer& tracer, const std::vector<tracing::Ray>& rays) {
+  std::vector<tracing::Hit> hits(rays.size());
   const double start = bench::processorSeconds();
   parallelBlocks(rays.size(), kBlock, [&](std::size_t begin, std::size_t end) {
     tracer.closestHits(std::span(rays).subspan(begin, end - begin), std::span(hits).subspan(begin, end - begin));
@@ -54,17 +54,17 @@ double rawSeconds(const RayTracer& tracer, const std::vector<Ray>& rays) {
 }
 
 /// Flux of first impacts, beyond x = 0.06, of paths from a sun over a Mirror.
-RgbSum mirrorFlux(const Particles& p, const Scene& scene, const RayTracer& tracer) {
+RgbSum mirrorFlux(const particles::Particles& p, const Scene& scene, const tracing::RayTracer& tracer) {
   RgbSum sum(0.0);
   for (std::size_t i = 0; i < p.paths(); ++i) {
-    if (p.senderCells[p.sender[i]].kind != SenderKind::Sun || p.range[i].impacts == 0) continue;
+    if (p.senderCells[p.sender[i]].kind != particles::SenderKind::Sun || p.range[i].impacts == 0) continue;
     const auto v = p.verticesOf(i);
     const Vec3f from = v[0], to = v[1];
-    Ray ray;
+    tracing::Ray ray;
     ray.direction = glm::normalize(from - to);
     ray.origin = to + 0.01f * ray.direction;
     ray.direction = -ray.direction;
-    const Hit hit = tracer.closestHit(ray);
+    const tracing::Hit hit = tracer.closestHit(ray);
     if (!hit || !std::holds_alternative<Mirror>(scene.materialOf(hit.primitive).surface)) continue;
     const std::uint32_t first = p.firstImpact(i);
     if (std::abs(v[2].x) < 0.06f) sum += double(p.links[p.link[i]].scale) * RgbSum(p.throughput[first]);
@@ -87,7 +87,7 @@ RgbSum expectedFlux(const char* file) {
 }
 
 /// Of as many impacts of one flux, how many would make the same relative variance of their sum.
-double effectiveShare(const Particles& p) {
+double effectiveShare(const particles::Particles& p) {
   double sum = 0, squares = 0;
   for (std::size_t path = 0; path < p.paths(); ++path)
     for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
@@ -100,21 +100,21 @@ double effectiveShare(const Particles& p) {
 void run(int argc, char** argv) {
   Scene scene = loadScene({argv[2]}).scene;
   addAreaLights(scene);
-  const auto tracer = makeEmbreeTracer(scene);
-  ParticleSettings settings;
+  const auto tracer = tracing::makeEmbreeTracer(scene);
+  particles::ParticleSettings settings;
   settings.count = std::strtoull(argv[3], nullptr, 10);
   const auto row = [&](const char* measure, double value, const char* unit) {
     fmt::print("{},{},{},{:.6g},{}\n", argv[1], settings.count, measure, value, unit);
   };
   double seconds = 1e30, wall = 1e30, raw = 1e30;
-  Particles p;
+  particles::Particles p;
   std::size_t segments = 0;
   for (int round = 0; round < kRounds; ++round) {
     p = {};  // not what it takes to free it
     const bench::Stopwatch watch;
-    p = traceParticles(scene, *tracer, settings);
+    p = particles::traceParticles(scene, *tracer, settings);
     seconds = std::min(seconds, watch.processor()), wall = std::min(wall, watch.wall());
-    const std::vector<Ray> rays = raysOf(p);
+    const std::vector<tracing::Ray> rays = raysOf(p);
     segments = rays.size();
     raw = std::min(raw, rawSeconds(*tracer, rays));
   }
@@ -134,7 +134,7 @@ void run(int argc, char** argv) {
   row("ratio", seconds / rawOfAll, "");
   row("memory", static_cast<double>(p.memoryBytes()) / 1048576.0, "MiB");
   row("ended by the depth limit", static_cast<double>(p.cut()), "");
-  const ParticleLedger ledger = p.ledger();
+  const particles::ParticleLedger ledger = p.ledger();
   row("ledger residue of the flux in it", 100 * ledger.residue() / (ledger.entered + ledger.passed), "%");
   if (argc > 4) {
     const RgbSum expected = expectedFlux(argv[4]), found = mirrorFlux(p, scene, *tracer);

@@ -33,27 +33,27 @@ Vec3 randomDirection(Rng& rng) {
 }
 
 /// A ray that leaves the surface diffusely, to the side of `normal`.
-Ray diffuseRay(const Vec3f& from, const Vec3f& normal, Rng& rng) {
-  Ray ray;
+tracing::Ray diffuseRay(const Vec3f& from, const Vec3f& normal, Rng& rng) {
+  tracing::Ray ray;
   ray.direction = Vec3f(glm::normalize(Vec3(normal) + 0.999999 * randomDirection(rng)));
-  ray.origin = offsetOrigin(from, normal, ray.direction);
+  ray.origin = tracing::offsetOrigin(from, normal, ray.direction);
   return ray;
 }
 
-std::vector<Ray> diffusePaths(const Scene& scene, const RayTracer& tracer, std::size_t count) {
+std::vector<tracing::Ray> diffusePaths(const Scene& scene, const tracing::RayTracer& tracer, std::size_t count) {
   std::vector<double> areas;
   double total = 0;
   for (const Primitive& p : scene.primitives) areas.push_back(total += area(p.shape));
   Rng rng(1);
-  std::vector<Ray> rays;
+  std::vector<tracing::Ray> rays;
   while (rays.size() < count) {
     const auto chosen = std::lower_bound(areas.begin(), areas.end(), rng.uniform() * total) - areas.begin();
     const SurfacePoint p =
         samplePoint(scene.primitives[static_cast<std::size_t>(chosen)].shape, {rng.uniform(), rng.uniform()});
-    Ray ray = diffuseRay(Vec3f(p.position), Vec3f(rng.uniform() < 0.5 ? p.normal : -p.normal), rng);
+    tracing::Ray ray = diffuseRay(Vec3f(p.position), Vec3f(rng.uniform() < 0.5 ? p.normal : -p.normal), rng);
     for (int segment = 0; segment < 6; ++segment) {
       rays.push_back(ray);
-      const Hit hit = tracer.closestHit(ray);
+      const tracing::Hit hit = tracer.closestHit(ray);
       if (!hit) break;
       ray = diffuseRay(hit.position, hit.front ? hit.normal : -hit.normal, rng);
     }
@@ -92,9 +92,9 @@ struct Triangles {
   }
 };
 
-EmbreeScene plainScene(RTCDevice device, const Triangles& triangles) {
-  EmbreeScene scene(rtcNewScene(device));
-  const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+tracing::EmbreeScene plainScene(RTCDevice device, const Triangles& triangles) {
+  tracing::EmbreeScene scene(rtcNewScene(device));
+  const tracing::EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
   std::copy(triangles.vertices.begin(), triangles.vertices.end(),
             static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                         sizeof(Vec3f), triangles.vertices.size())));
@@ -105,7 +105,7 @@ EmbreeScene plainScene(RTCDevice device, const Triangles& triangles) {
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometry(scene.get(), geometry.get());
   rtcCommitScene(scene.get());
-  throwEmbreeError(device);
+  tracing::throwEmbreeError(device);
   return scene;
 }
 
@@ -115,9 +115,9 @@ struct PlainHit {
   unsigned triangle;
 };
 
-void plainLoop(RTCScene scene, const std::vector<Ray>& rays, std::vector<PlainHit>& hits) {
+void plainLoop(RTCScene scene, const std::vector<tracing::Ray>& rays, std::vector<PlainHit>& hits) {
   parallelFor(rays.size(), kBlock, [&](std::size_t i) {
-    const Ray& ray = rays[i];
+    const tracing::Ray& ray = rays[i];
     RTCRayHit found;
     found.ray = {ray.origin.x,
                  ray.origin.y,
@@ -153,26 +153,26 @@ double secondsOf(const std::function<void()>& work) {
 
 void run(const std::vector<std::filesystem::path>& files) {
   const Scene scene = loadScene(files).scene;
-  std::unique_ptr<RayTracer> tracer;
-  const double built = secondsOf([&] { tracer = makeEmbreeTracer(scene); });
-  const std::vector<Ray> rays = diffusePaths(scene, *tracer, kRays);
+  std::unique_ptr<tracing::RayTracer> tracer;
+  const double built = secondsOf([&] { tracer = tracing::makeEmbreeTracer(scene); });
+  const std::vector<tracing::Ray> rays = diffusePaths(scene, *tracer, kRays);
 
   // A twin with a movable thing: the hundred primitives around the one in the middle of the scene's list.
-  const auto grouped = makeEmbreeTracer(scene);
+  const auto grouped = tracing::makeEmbreeTracer(scene);
   std::vector<PrimitiveId> movable;
   for (std::size_t i = 0; i < scene.primitives.size(); ++i) movable.emplace_back(i);
   const Vec3 center = bounds(scene.primitives[movable.size() / 2].shape).center();
   const auto distance = [&](PrimitiveId id) { return glm::distance(bounds(scene[id].shape).center(), center); };
   std::sort(movable.begin(), movable.end(), [&](PrimitiveId x, PrimitiveId y) { return distance(x) < distance(y); });
   movable.resize(std::min<std::size_t>(100, movable.size()));
-  const GroupId group = grouped->separate(movable);
+  const tracing::GroupId group = grouped->separate(movable);
 
   Triangles triangles;
   for (const Primitive& p : scene.primitives) triangles.add(p.shape);
-  const EmbreeDevice device = makeEmbreeDevice();
-  const EmbreeScene plain = plainScene(device.get(), triangles);
+  const tracing::EmbreeDevice device = tracing::makeEmbreeDevice();
+  const tracing::EmbreeScene plain = plainScene(device.get(), triangles);
 
-  std::vector<Hit> hits(kRays);
+  std::vector<tracing::Hit> hits(kRays);
   std::vector<PlainHit> plainHits(kRays);
   std::vector<Rgb> passed(kRays);
   const std::string name = files.front().stem().string();

@@ -7,8 +7,8 @@
 namespace {
 void read(std::string_view bytes) {
   try {
-    const deltalux::SolutionView solution = deltalux::readSolution(bytes, "fuzz.dlx");
-    deltalux::writeSolution(solution, [](std::string_view) {});
+    const deltalux::SolutionView solution = deltalux::io::readSolution(bytes, "fuzz.dlx");
+    deltalux::io::writeSolution(solution, [](std::string_view) {});
   } catch (const deltalux::InputError&) {
   }
 }

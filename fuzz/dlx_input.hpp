@@ -38,9 +38,9 @@ inline const std::vector<StoredSection>& smallSolution() {
     Engine engine(smallRoom(), settings);
     engine.solve();
     std::string bytes;
-    writeSolution(engine.solution(), [&](std::string_view block) { bytes += block; });
+    io::writeSolution(engine.solution(), [&](std::string_view block) { bytes += block; });
     std::vector<StoredSection> stored;
-    for (const Section& s : openContainer(bytes, "small.dlx"))
+    for (const io::Section& s : io::openContainer(bytes, "small.dlx"))
       stored.push_back({std::string(s.tag), std::string(s.payload)});
     return stored;
   }();
@@ -49,10 +49,10 @@ inline const std::vector<StoredSection>& smallSolution() {
 
 inline std::string sealed(const std::vector<StoredSection>& sections) {
   std::string bytes;
-  const ByteSink sink = [&](std::string_view block) { bytes += block; };
+  const io::ByteSink sink = [&](std::string_view block) { bytes += block; };
   std::vector<std::uint64_t> lengths;
   for (const StoredSection& s : sections) lengths.push_back(s.payload.size());
-  ContainerWriter writer(sink, lengths);
+  io::ContainerWriter writer(sink, lengths);
   for (const StoredSection& s : sections) {
     writer.beginSection(s.tag, s.payload.size());
     writer.bytes(s.payload.data(), s.payload.size());

@@ -8,7 +8,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string file = deltalux::fuzz::glbOf({reinterpret_cast<const char*>(data), size});
   try {
-    validate(deltalux::readGltf(file, "fuzz.glb", "/nonexistent", {}).scene);
+    validate(deltalux::io::readGltf(file, "fuzz.glb", "/nonexistent", {}).scene);
   } catch (const deltalux::InputError&) {
   }
   return 0;

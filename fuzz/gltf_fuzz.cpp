@@ -7,7 +7,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-    validate(deltalux::readGltf(bytes, "fuzz.gltf", "/nonexistent", {}).scene);
+    validate(deltalux::io::readGltf(bytes, "fuzz.gltf", "/nonexistent", {}).scene);
   } catch (const deltalux::InputError&) {
   }
   return 0;

@@ -6,7 +6,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    deltalux::decodeHdr({reinterpret_cast<const char*>(data), size}, "fuzz.hdr");
+    deltalux::io::decodeHdr({reinterpret_cast<const char*>(data), size}, "fuzz.hdr");
   } catch (const deltalux::InputError&) {
   }
   return 0;

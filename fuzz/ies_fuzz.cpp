@@ -9,7 +9,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    const deltalux::PhotometryFile file = deltalux::readPhotometry(text, "fuzz.ies", "/nonexistent");
+    const deltalux::io::PhotometryFile file = deltalux::io::readPhotometry(text, "fuzz.ies", "/nonexistent");
     const double flux = deltalux::luminousFlux(file.photometry);
     if (!(flux >= 0) || !std::isfinite(flux)) std::abort();
   } catch (const deltalux::InputError&) {

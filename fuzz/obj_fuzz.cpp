@@ -25,7 +25,7 @@ const std::filesystem::path& folder() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = deltalux::fuzz::objOf({reinterpret_cast<const char*>(data), size}, folder());
   try {
-    validate(deltalux::readObj(text, "fuzz.obj", folder(), {}).scene);
+    validate(deltalux::io::readObj(text, "fuzz.obj", folder(), {}).scene);
   } catch (const deltalux::InputError&) {
   }
   return 0;

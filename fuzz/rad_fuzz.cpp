@@ -5,6 +5,6 @@
 #include <cstdlib>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (!deltalux::radiance::readsCleanly({reinterpret_cast<const char*>(data), size})) std::abort();
+  if (!deltalux::io::radiance::readsCleanly({reinterpret_cast<const char*>(data), size})) std::abort();
   return 0;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// One fuzzer input as a Radiance scene: texts separated by the byte 1e, the scene first, then the files "a", "b", "c" ...
-// that it may include. The disk is out of reach.
+// One fuzzer input as a Radiance scene: texts separated by the byte 1e, the scene first, then the files "a", "b", "c"
+// ... that it may include. The disk is out of reach.
 #include <deltalux/error.hpp>
 #include <string>
 #include <string_view>
@@ -8,7 +8,7 @@
 
 #include "io/radiance.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 class TextFiles : public FileAccess {
  public:
@@ -38,7 +38,7 @@ inline bool readsCleanly(std::string_view input) {
   ExpansionLimits limits;
   limits.objects = 3000, limits.numbers = 100000;
   try {
-    const ImportedScene imported = readRadiance(files.scene(), files, {}, limits);
+    const ImportedScene imported = io::readRadiance(files.scene(), files, {}, limits);
     validate(imported.scene);
     return imported.report.warnings.size() <= 2;
   } catch (const InputError& error) {
@@ -46,4 +46,4 @@ inline bool readsCleanly(std::string_view input) {
   }
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -86,7 +86,7 @@ struct RadianceSky {
   bool operator==(const RadianceSky&) const = default;
 };
 
-/// CIE standard general sky, types 1-15 [ISO 15469; conventions.md].
+/// CIE standard general sky, types 1-15 [ISO 15469].
 struct CieSky {
   int type = 12;
   double zenith = 1;  // zenith radiance [W/(sr m2)]

@@ -66,7 +66,7 @@ struct Trans {
 
 using Surface = std::variant<Opaque, Mirror, ThinGlass, Dielectric, Trans>;
 
-/// Radiance's spotlight: emission only within the cone, E = L A cos cos' / (d + |direction|)^2. [conventions.md]
+/// Radiance's spotlight: emission only within the cone, E = L A cos cos' / (d + |direction|)^2. [Radiance, spotlight]
 struct SpotCone {
   double fullAngle = kPi;    // radians
   Vec3 direction{0, 0, -1};  // its length is the focal offset, in scene units

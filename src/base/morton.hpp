@@ -4,7 +4,7 @@
 namespace deltalux {
 
 /// The place of a cell of a grid along the curve that keeps neighbours together: bits of x at the even places of the
-/// result, of y at the odd ones. [Morton 1966]
+/// result, of y at the odd ones. [Morton66]
 inline std::uint64_t morton(std::uint32_t x, std::uint32_t y) {
   const auto spread = [](std::uint64_t b) {
     b = (b | b << 16) & 0x0000ffff0000ffffull;

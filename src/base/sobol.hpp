@@ -1,7 +1,7 @@
 #pragma once
 // Stratified points of the unit square: Sobol's first two dimensions, a (0,2)-sequence, Owen-scrambled and shuffled by
 // hashes, so that any number of independent pairs can be padded to one sample. Every power-of-two prefix is stratified.
-// [Burley20: Burley 2020, "Practical Hash-based Owen Scrambling"; Laine and Karras 2011]
+// [Burley20; LK11]
 #include <cstdint>
 #include <span>
 

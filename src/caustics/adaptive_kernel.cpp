@@ -6,7 +6,7 @@
 
 #include "caustics/walls.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -35,7 +35,7 @@ class Smoothing {
         raster_.laidOut(times(light.gray, 1 / mean_)),
         raster_.laidOut(times(light.squares, static_cast<float>(1 / (grid.meanArea() * mean_ * mean_))))};
     Slots first = told[0];
-    const Walls walls = blurredWalls(raster_, told);
+    const EdgeStopping walls = blurredWalls(raster_, told);
     HeatFlow(raster_, walls.bandwidth, &walls.openness).apply(first, 1.0);
     const double darkness = rule.error * (kMatters * medianOfFlux(raster_.areas(), first) + rule.darkest);
     const Borders openness = sharpWalls(raster_, first, darkness);
@@ -70,11 +70,11 @@ class Smoothing {
 
 }  // namespace
 
-Reconstruction reconstructAdaptive(const CellGrid& grid, const CellLight& light, const BandwidthRule& rule) {
+AdaptiveEstimate reconstructAdaptive(const CellGrid& grid, const CellLight& light, const BandwidthRule& rule) {
   const Smoothing smoothing(grid, light, rule);
   const std::vector<float> cells[] = {channelOf(light, 0), channelOf(light, 1), channelOf(light, 2)};
   const Channels E = smoothing.smoothed(cells);
-  Reconstruction result{std::vector<Rgb>(grid.size()), std::vector<float>(grid.size())};
+  AdaptiveEstimate result{std::vector<Rgb>(grid.size()), std::vector<float>(grid.size())};
   for (std::uint32_t i = 0; i < grid.size(); ++i) {
     for (int c = 0; c < 3; ++c) result.E[i][c] = smoothing.at(E, static_cast<std::size_t>(c), i);
     result.noise[i] = smoothing.noiseAt(i);
@@ -82,4 +82,4 @@ Reconstruction reconstructAdaptive(const CellGrid& grid, const CellLight& light,
   return result;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -12,13 +12,13 @@
 // Cost: two scale spaces and two flows, all of them passes of HeatFlow.
 #include "caustics/bandwidth.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
-struct Reconstruction {
+struct AdaptiveEstimate {
   std::vector<Rgb> E;        // of every cell [W/m2]
   std::vector<float> noise;  // standard deviation of its gray that is left [W/m2]
 };
 
-Reconstruction reconstructAdaptive(const CellGrid&, const CellLight&, const BandwidthRule&);
+AdaptiveEstimate reconstructAdaptive(const CellGrid&, const CellLight&, const BandwidthRule&);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -9,7 +9,7 @@
 #include "caustics/surface_impacts.hpp"
 #include "caustics/veil.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -54,9 +54,9 @@ int coarsen(const ChartSurface& surface, ChartPart& part) {
   return halvings;
 }
 
-bool fewLanded(std::span<const Impact> impacts) {
+bool fewLanded(std::span<const particles::Impact> impacts) {
   double flux = 0, squares = 0;
-  for (const Impact& i : impacts) {
+  for (const particles::Impact& i : impacts) {
     const double w = gray(i.flux);
     flux += w, squares += w * w;
   }
@@ -71,7 +71,7 @@ class AdaptiveTextures {
   }
 
   /// Places the particles and cuts coarse textures. What they show that a mesh would not.
-  Departure place(std::span<const Impact> impacts) {
+  Departure place(std::span<const particles::Impact> impacts) {
     auto placed = placeImpacts(shape_, result_.charts, impacts);
     parts_.resize(placed.size()), resolved_.assign(placed.size(), 0);
     Departure total;
@@ -133,7 +133,7 @@ class AdaptiveTextures {
   void putAll(const ChartSurface& surface, ChartPart& whole) {
     const CellGrid grid = surface.grid(whole);
     const CellLight light = collect(grid, whole.impacts);
-    const Reconstruction coarse = reconstructAdaptive(grid, light, rule_);
+    const AdaptiveEstimate coarse = reconstructAdaptive(grid, light, rule_);
     ChartPart all{whole.region, whole.texels, whole.areas, {}};
     std::vector<FadingBorder> borders;
     std::vector<ChartPart> regions = takeRegionsOut(surface, whole, grid, coarse, borders);
@@ -146,7 +146,7 @@ class AdaptiveTextures {
   }
 
   std::vector<ChartPart> takeRegionsOut(const ChartSurface& surface, ChartPart& whole, const CellGrid& grid,
-                                        const Reconstruction& coarse, std::vector<FadingBorder>& borders) const {
+                                        const AdaptiveEstimate& coarse, std::vector<FadingBorder>& borders) const {
     const std::vector<float> E = grayOf(coarse.E);
     const double difference = kMatters * rule_.error * (medianOfFlux(grid.areas(), E) + rule_.background);
     const std::vector<TexelBox> boxes = markedBoxes(grid, cellsOffMedian(grid, E, difference), kMargin);
@@ -182,7 +182,7 @@ class AdaptiveTextures {
     const CellGrid grid = surface.grid(region);
     if (grid.size() == 0) return;
     const CellLight light = collect(grid, region.impacts);
-    Reconstruction reconstruction = reconstructAdaptive(grid, light, rule_);
+    AdaptiveEstimate reconstruction = reconstructAdaptive(grid, light, rule_);
     veil.over(grid, border, rule_, reconstruction);
     result_.textures.push_back(surface.texture(region, grid, light, reconstruction.E));
   }
@@ -207,13 +207,13 @@ class AdaptiveTextures {
 
 }  // namespace
 
-bool deservesTextures(const Shape& shape, std::span<const Impact> impacts, const CausticSettings& settings) {
+bool deservesTextures(const Shape& shape, std::span<const particles::Impact> impacts, const CausticSettings& settings) {
   if (fewLanded(impacts)) return false;
   AdaptiveTextures textures(shape, settings);
   return deservesTexture(textures.place(impacts), settings.error, settings.background);
 }
 
-std::optional<SurfaceCaustics> makeCausticTextures(const Shape& shape, std::span<const Impact> impacts,
+std::optional<SurfaceCaustics> makeCausticTextures(const Shape& shape, std::span<const particles::Impact> impacts,
                                                    const CausticSettings& settings) {
   if (fewLanded(impacts)) return std::nullopt;
   AdaptiveTextures textures(shape, settings);
@@ -221,11 +221,11 @@ std::optional<SurfaceCaustics> makeCausticTextures(const Shape& shape, std::span
   return textures.restricted();
 }
 
-SurfaceCaustics makeUnrestrictedTextures(const Shape& shape, std::span<const Impact> impacts,
+SurfaceCaustics makeUnrestrictedTextures(const Shape& shape, std::span<const particles::Impact> impacts,
                                          const CausticSettings& settings, int texels) {
   AdaptiveTextures textures(shape, settings);
   textures.place(impacts);
   return textures.unrestricted(texels);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

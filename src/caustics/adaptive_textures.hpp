@@ -12,7 +12,7 @@
 #include "caustics/caustic_texture.hpp"
 #include "particles/impact.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 struct CausticSettings {
   double error = 0.05;  // target relative error of irradiance
@@ -22,13 +22,15 @@ struct CausticSettings {
 };
 
 /// Whether textures should show these impacts on one side of a surface, or the mesh: step 1.
-bool deservesTextures(const Shape&, std::span<const Impact>, const CausticSettings&);
+bool deservesTextures(const Shape&, std::span<const particles::Impact>, const CausticSettings&);
 
 /// All steps; nullopt where the mesh will do.
-std::optional<SurfaceCaustics> makeCausticTextures(const Shape&, std::span<const Impact>, const CausticSettings&);
+std::optional<SurfaceCaustics> makeCausticTextures(const Shape&, std::span<const particles::Impact>,
+                                                   const CausticSettings&);
 
 /// The same with one texture a chart, not restricted to where it is needed: to see what restriction does. `texels`: of
 /// each texture.
-SurfaceCaustics makeUnrestrictedTextures(const Shape&, std::span<const Impact>, const CausticSettings&, int texels);
+SurfaceCaustics makeUnrestrictedTextures(const Shape&, std::span<const particles::Impact>, const CausticSettings&,
+                                         int texels);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

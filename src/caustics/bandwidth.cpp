@@ -4,7 +4,7 @@
 
 #include "caustics/vector_math.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -149,4 +149,4 @@ Bandwidths chooseBandwidths(const CellRaster& raster, const HeatFlow& even, cons
   return {std::move(D), std::move(search.noise())};
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -11,7 +11,7 @@
 
 #include "caustics/scale_space.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 struct BandwidthRule {
   static constexpr double kQuiet = 0.5;  // of the target error: noise that a kernel need not grow to reduce
@@ -29,4 +29,4 @@ struct Bandwidths {
 /// `light`: as for blurredWalls, and so is the rule. `even`: flows with a conductivity of 1, between walls.
 Bandwidths chooseBandwidths(const CellRaster&, const HeatFlow& even, const Channels& light, const BandwidthRule&);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

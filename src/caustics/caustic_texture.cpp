@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -122,4 +122,4 @@ void validate(const SurfaceCaustics& s) {
       throw std::logic_error("caustic textures: their integral is not the flux of the side's particles");
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -9,7 +9,7 @@
 
 #include "caustics/cell_grid.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 struct CausticTexture {
   std::uint32_t chart = 0;  // of the surface
@@ -51,4 +51,4 @@ struct SurfaceCaustics {
 void validate(const CausticTexture&);
 void validate(const SurfaceCaustics&);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

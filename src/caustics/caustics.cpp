@@ -9,24 +9,24 @@
 #include "caustics/adaptive_textures.hpp"
 #include "particles/side_index.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
 constexpr double kDarkest = 0.1;  // of a side's area
 
 /// Sorts the impacts by side, in the order that they are in; runs of impacts on one side.
-std::vector<std::span<const Impact>> bySide(std::vector<Impact>& impacts) {
+std::vector<std::span<const particles::Impact>> bySide(std::vector<particles::Impact>& impacts) {
   std::size_t count = 0;
-  for (const Impact& i : impacts) count = std::max(count, sideIndex(i.primitive, i.front) + 1);
+  for (const particles::Impact& i : impacts) count = std::max(count, particles::sideIndex(i.primitive, i.front) + 1);
   std::vector<std::size_t> first(count + 1, 0);
-  for (const Impact& i : impacts) ++first[sideIndex(i.primitive, i.front) + 1];
+  for (const particles::Impact& i : impacts) ++first[particles::sideIndex(i.primitive, i.front) + 1];
   for (std::size_t s = 0; s < count; ++s) first[s + 1] += first[s];
   std::vector<std::size_t> next(first.begin(), first.end());
-  std::vector<Impact> sorted(impacts.size());
-  for (const Impact& i : impacts) sorted[next[sideIndex(i.primitive, i.front)]++] = i;
+  std::vector<particles::Impact> sorted(impacts.size());
+  for (const particles::Impact& i : impacts) sorted[next[particles::sideIndex(i.primitive, i.front)]++] = i;
   impacts = std::move(sorted);
-  std::vector<std::span<const Impact>> sides;
+  std::vector<std::span<const particles::Impact>> sides;
   for (std::size_t s = 0; s < count; ++s)
     if (first[s] < first[s + 1]) sides.emplace_back(impacts.data() + first[s], first[s + 1] - first[s]);
   return sides;
@@ -34,10 +34,11 @@ std::vector<std::span<const Impact>> bySide(std::vector<Impact>& impacts) {
 
 /// body(side index, impacts, settings) for every side that has impacts, in parallel.
 template <class Body>
-void forEachSide(const Scene& scene, const Elements& elements, const std::vector<std::span<const Impact>>& sides,
-                 double error, const Body& body) {
+void forEachSide(const Scene& scene, const hierarchy::Elements& elements,
+                 const std::vector<std::span<const particles::Impact>>& sides, double error, const Body& body) {
   SurfaceSides lit(2 * scene.primitives.size(), false);
-  for (const std::span<const Impact> side : sides) lit[sideIndex(side.front().primitive, side.front().front)] = true;
+  for (const std::span<const particles::Impact> side : sides)
+    lit[particles::sideIndex(side.front().primitive, side.front().front)] = true;
   const OtherLight other = otherLight(scene, elements, lit);
   std::vector<std::size_t> order(sides.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -45,8 +46,8 @@ void forEachSide(const Scene& scene, const Elements& elements, const std::vector
                    [&](std::size_t a, std::size_t b) { return sides[a].size() > sides[b].size(); });
   parallelFor(sides.size(), 1, [&](std::size_t k) {  // those that take long come first
     const std::size_t i = order[k];
-    const Impact& first = sides[i].front();
-    const std::size_t side = sideIndex(first.primitive, first.front);
+    const particles::Impact& first = sides[i].front();
+    const std::size_t side = particles::sideIndex(first.primitive, first.front);
     body(i, scene[first.primitive].shape, CausticSettings{error, other.mean[side], other.darkest[side]});
   });
 }
@@ -59,7 +60,7 @@ struct LitPart {
 /// Puts them in order, and the index with them.
 Caustics indexed(std::vector<SurfaceCaustics> surfaces, std::size_t primitives) {
   std::sort(surfaces.begin(), surfaces.end(), [](const SurfaceCaustics& a, const SurfaceCaustics& b) {
-    return sideIndex(a.primitive, a.front) < sideIndex(b.primitive, b.front);
+    return particles::sideIndex(a.primitive, a.front) < particles::sideIndex(b.primitive, b.front);
   });
   Caustics result;
   result.ofPrimitive.assign(primitives, {Caustics::kNone, Caustics::kNone});
@@ -71,17 +72,17 @@ Caustics indexed(std::vector<SurfaceCaustics> surfaces, std::size_t primitives) 
 
 }  // namespace
 
-OtherLight otherLight(const Scene& scene, const Elements& elements, const SurfaceSides& sides) {
+OtherLight otherLight(const Scene& scene, const hierarchy::Elements& elements, const SurfaceSides& sides) {
   OtherLight result;
   result.mean = meanOtherLight(scene, elements);
   result.darkest.assign(result.mean.size(), 0.0);
   std::vector<LitPart> parts;
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    const ElementTopology& t = elements.topology[i];
-    if (!elements.isReceivingLeaf(ElementId(i))) continue;
-    const std::size_t side = sideIndex(elements.domain[i].primitive, t.front);
+    const hierarchy::ElementTopology& t = elements.topology[i];
+    if (!elements.isReceivingLeaf(hierarchy::ElementId(i))) continue;
+    const std::size_t side = particles::sideIndex(elements.domain[i].primitive, t.front);
     if (!sides[side]) continue;
-    const ElementLight& l = elements.radiometry[i];
+    const hierarchy::ElementLight& l = elements.radiometry[i];
     parts.push_back({side, gray(l.direct + l.indirect), elements.geometry[i].litArea()});
   }
   std::sort(parts.begin(), parts.end(),
@@ -96,12 +97,12 @@ OtherLight otherLight(const Scene& scene, const Elements& elements, const Surfac
   return result;
 }
 
-std::vector<double> meanOtherLight(const Scene& scene, const Elements& elements) {
+std::vector<double> meanOtherLight(const Scene& scene, const hierarchy::Elements& elements) {
   std::vector<double> flux(2 * scene.primitives.size(), 0.0), area(flux.size(), 0.0);
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    const ElementId e(i);
+    const hierarchy::ElementId e(i);
     if (!elements.isInputLevel(e) || elements.at(e).emitter || elements.at(e).blocker) continue;
-    const std::size_t side = sideIndex(elements.domain[i].primitive, elements.at(e).front);
+    const std::size_t side = particles::sideIndex(elements.domain[i].primitive, elements.at(e).front);
     const double own = elements.shape(e).area;
     flux[side] += own * gray(elements.radiometry[i].direct + elements.radiometry[i].indirect);
     area[side] += own;
@@ -132,8 +133,8 @@ std::size_t Caustics::memoryBytes() const {
   return bytes;
 }
 
-SurfaceSides sidesWithTextures(const Scene& scene, const Elements& elements, std::vector<Impact> impacts,
-                               double error) {
+SurfaceSides sidesWithTextures(const Scene& scene, const hierarchy::Elements& elements,
+                               std::vector<particles::Impact> impacts, double error) {
   const auto sides = bySide(impacts);
   std::vector<char> chosen(sides.size(), 0);
   forEachSide(scene, elements, sides, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
@@ -141,19 +142,20 @@ SurfaceSides sidesWithTextures(const Scene& scene, const Elements& elements, std
   });
   SurfaceSides result(2 * scene.primitives.size(), false);
   for (std::size_t i = 0; i < sides.size(); ++i)
-    if (chosen[i]) result[sideIndex(sides[i].front().primitive, sides[i].front().front)] = true;
+    if (chosen[i]) result[particles::sideIndex(sides[i].front().primitive, sides[i].front().front)] = true;
   return result;
 }
 
-Caustics makeCaustics(const Scene& scene, const Elements& elements, std::vector<Impact> impacts, double error) {
+Caustics makeCaustics(const Scene& scene, const hierarchy::Elements& elements, std::vector<particles::Impact> impacts,
+                      double error) {
   Caustics caustics = indexed({}, scene.primitives.size());
   const std::vector<char> all(2 * scene.primitives.size(), 1);
   remakeCaustics(caustics, scene, elements, std::move(impacts), error, all);
   return caustics;
 }
 
-std::size_t remakeCaustics(Caustics& caustics, const Scene& scene, const Elements& elements,
-                           std::vector<Impact> impacts, double error, const std::vector<char>& remade) {
+std::size_t remakeCaustics(Caustics& caustics, const Scene& scene, const hierarchy::Elements& elements,
+                           std::vector<particles::Impact> impacts, double error, const std::vector<char>& remade) {
   if (std::none_of(remade.begin(), remade.end(), [](char r) { return r; })) return 0;
   const auto sides = bySide(impacts);
   std::vector<std::optional<SurfaceCaustics>> made(sides.size());
@@ -165,7 +167,7 @@ std::size_t remakeCaustics(Caustics& caustics, const Scene& scene, const Element
   });
   std::vector<SurfaceCaustics> all;
   for (SurfaceCaustics& s : caustics.surfaces)
-    if (!remade[sideIndex(s.primitive, s.front)]) all.push_back(std::move(s));
+    if (!remade[particles::sideIndex(s.primitive, s.front)]) all.push_back(std::move(s));
   std::size_t count = 0;
   for (std::optional<SurfaceCaustics>& s : made)
     if (s) count += s->textures.size(), all.push_back(std::move(*s));
@@ -193,4 +195,4 @@ void validate(const Caustics& c) {
   }
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -8,7 +8,7 @@
 #include "caustics/caustic_texture.hpp"
 #include "particles/impact.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 struct Caustics {
   std::vector<SurfaceCaustics> surfaces;                  // ascending by primitive, front before back
@@ -32,10 +32,10 @@ using SurfaceSides = std::vector<bool>;
 
 /// Which sides need textures for what landed there, in any order. Light that is not the particles' is read from the
 /// elements: errors are measured against it.
-SurfaceSides sidesWithTextures(const Scene&, const Elements&, std::vector<Impact>, double error);
+SurfaceSides sidesWithTextures(const Scene&, const hierarchy::Elements&, std::vector<particles::Impact>, double error);
 
 /// The textures of all sides that need them. The same for any number of threads. Cost: about 0.25 microseconds a texel.
-Caustics makeCaustics(const Scene&, const Elements&, std::vector<Impact>, double error);
+Caustics makeCaustics(const Scene&, const hierarchy::Elements&, std::vector<particles::Impact>, double error);
 
 /// Gray irradiance of all light but the particles', by side: errors are measured against it, too. [W/m2]
 struct OtherLight {
@@ -43,13 +43,13 @@ struct OtherLight {
   std::vector<double> darkest;  // in the darkest tenth of what light can reach; 0 on sides that were not asked for
 };
 /// `sides`: that are asked for.
-OtherLight otherLight(const Scene&, const Elements&, const SurfaceSides&);
-std::vector<double> meanOtherLight(const Scene&, const Elements&);
+OtherLight otherLight(const Scene&, const hierarchy::Elements&, const SurfaceSides&);
+std::vector<double> meanOtherLight(const Scene&, const hierarchy::Elements&);
 
 /// Judges all that landed on the sides `remade`, and makes the textures of those that need them; others are not
 /// touched. Returns how many textures it made.
-std::size_t remakeCaustics(Caustics&, const Scene&, const Elements&, std::vector<Impact>, double error,
-                           const std::vector<char>& remade);
+std::size_t remakeCaustics(Caustics&, const Scene&, const hierarchy::Elements&, std::vector<particles::Impact>,
+                           double error, const std::vector<char>& remade);
 
 /// Multiplies the textures of a side so that they hold `flux`, when they are off by more than `tolerance` of it.
 bool rescale(SurfaceCaustics&, const RgbSum& flux, double tolerance);
@@ -57,4 +57,4 @@ bool rescale(SurfaceCaustics&, const RgbSum& flux, double tolerance);
 /// Recounts: every texture holds its flux, the index finds every side. Throws std::logic_error.
 void validate(const Caustics&);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -4,7 +4,7 @@
 
 #include "base/check.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 constexpr float kSliver = 0.4f;      // of a texel: less surface joins a neighbour
@@ -119,4 +119,4 @@ std::uint32_t CellGrid::texelAround(const Vec2& at) const {
   return kNone;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

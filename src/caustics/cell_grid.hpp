@@ -14,7 +14,7 @@
 #include "caustics/chart.hpp"
 #include "caustics/region.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 class CellGrid {
  public:
@@ -88,4 +88,4 @@ class CellGrid {
   std::vector<std::uint32_t> texels_;  // by cell
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -5,7 +5,7 @@
 
 #include "base/check.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 CellLight collect(const CellGrid& grid, std::span<const ChartImpact> impacts) {
   CellLight light;
@@ -88,4 +88,4 @@ double typicalIrradiance(const CellGrid& grid, const CellLight& light) {
   return typicalIrradiance(flux, squares, areas);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

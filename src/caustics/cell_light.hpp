@@ -7,7 +7,7 @@
 
 #include "caustics/cell_grid.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 /// An impact on a chart.
 struct ChartImpact {
@@ -48,4 +48,4 @@ double medianOfFlux(std::span<const float> areas, std::span<const float> E);
 
 std::vector<float> grayOf(const std::vector<Rgb>& E);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 constexpr std::size_t kVector = 16;  // values
@@ -178,4 +178,4 @@ float CellRaster::mostPerArea(const Slots& values) const {
   return *std::max_element(most.begin(), most.end());
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

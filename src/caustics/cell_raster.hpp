@@ -16,7 +16,7 @@
 #include "caustics/cell_grid.hpp"
 #include "caustics/slots.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 /// Of several things.
 using Channels = std::vector<Slots>;
@@ -81,4 +81,4 @@ class CellRaster {
   std::vector<std::uint32_t> firstGroup_;  // of each row, and the end
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

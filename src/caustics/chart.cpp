@@ -4,7 +4,7 @@
 
 #include "caustics/mesh_charts.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -105,4 +105,4 @@ SurfacePoint impactPoint(const Shape& shape, const glm::vec2& uv, std::uint32_t 
   return point;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

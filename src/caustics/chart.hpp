@@ -12,7 +12,7 @@
 #include <deltalux/shape.hpp>
 #include <utility>
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 /// An orthonormal frame of a plane.
 struct PlaneChart {
@@ -58,4 +58,4 @@ Charts chartsOf(const Shape&);
 /// The surface point at an impact's parameters (for meshes: of the triangle).
 SurfacePoint impactPoint(const Shape&, const glm::vec2& uv, std::uint32_t triangle);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -2,7 +2,7 @@
 
 #include "caustics/coverage.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 ChartPart ChartSurface::whole(glm::ivec2 texels, std::vector<ChartImpact> impacts) const {
   ChartPart part;
@@ -60,4 +60,4 @@ CausticTexture ChartSurface::texture(const ChartPart& part, const CellGrid& grid
   return result;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

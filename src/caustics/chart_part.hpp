@@ -5,7 +5,7 @@
 #include "caustics/cell_light.hpp"
 #include "caustics/restriction.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 struct ChartPart {
   Region region;
@@ -41,4 +41,4 @@ class ChartSurface {
   std::uint32_t chart_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

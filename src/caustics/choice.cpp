@@ -4,7 +4,7 @@
 
 #include "caustics/heat_flow.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 constexpr double kCoarse = 1.0 / 8;  // of the surface's size: what a mesh of few patches can show
@@ -87,4 +87,4 @@ bool deservesTexture(const Departure& d, double error, double background) {
   return spread > error * (d.flux / d.area + background);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

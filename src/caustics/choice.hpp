@@ -10,7 +10,7 @@
 // Both follow from the particles and the target error. Cost: a pass over the cells, and one smoothing.
 #include "caustics/cell_light.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 /// V, the contrast of the histogram; 0 when it is black.
 double contrast(const CellLight&);
@@ -50,4 +50,4 @@ bool tooFew(double flux, double squaredFlux);
 /// Whether a texture should show the particles' light. `background`: gray irradiance of all other light there.
 bool deservesTexture(const Departure&, double error, double background);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

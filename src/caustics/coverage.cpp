@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -201,4 +201,4 @@ std::vector<float> coveredAreas(const Shape& shape, const Charts& charts, std::s
   return std::visit([&](const auto& s) { return areasOf(s, charts.all[chart], chart, charts, raster); }, shape);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -7,9 +7,9 @@
 #include "caustics/chart.hpp"
 #include "caustics/region.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 /// width * height areas, row by row from the region's lower t.
 std::vector<float> coveredAreas(const Shape&, const Charts&, std::size_t chart, const Region&, int width, int height);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -5,7 +5,7 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 HeatFlow::HeatFlow(const CellRaster& raster, std::span<const float> conductivity, const Borders* open)
     : raster_(raster), through_(raster.shares()), own_(raster.slots(), 0.0f), perArea_(raster.slots(), 0.0f) {
@@ -102,4 +102,4 @@ void HeatFlow::apply(Slots& E, double time) const {
   std::swap(channels[0], E);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

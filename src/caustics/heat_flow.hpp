@@ -14,7 +14,7 @@
 // is what we are here to damp). Cost: 0.4 nanoseconds a cell, channel and step.
 #include "caustics/cell_raster.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 class HeatFlow {
  public:
@@ -49,4 +49,4 @@ class HeatFlow {
   double largest_ = 0;  // bound of L's eigenvalues
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -104,4 +104,4 @@ Charts meshCharts(const Mesh& m) {
   return charts;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

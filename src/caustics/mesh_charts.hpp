@@ -4,8 +4,8 @@
 // itself (a spiral stair) shares texels between its layers: flux is kept, the layers' light is mixed.
 #include "caustics/chart.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 Charts meshCharts(const Mesh&);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

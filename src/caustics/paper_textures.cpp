@@ -8,7 +8,7 @@
 #include "caustics/spiral.hpp"
 #include "caustics/surface_impacts.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -30,7 +30,7 @@ void putRestricted(SurfaceCaustics& result, const ChartSurface& surface, ChartPa
 
 }  // namespace
 
-std::optional<SurfaceCaustics> makePaperTextures(const Shape& shape, std::span<const Impact> impacts,
+std::optional<SurfaceCaustics> makePaperTextures(const Shape& shape, std::span<const particles::Impact> impacts,
                                                  const PaperThresholds& rule) {
   if (impacts.size() < rule.leastParticles) return std::nullopt;  // [GD01 3.1]
   SurfaceCaustics result;
@@ -57,4 +57,4 @@ std::optional<SurfaceCaustics> makePaperTextures(const Shape& shape, std::span<c
   return result;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -8,7 +8,7 @@
 #include "caustics/caustic_texture.hpp"
 #include "particles/impact.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 struct PaperThresholds {
   std::size_t leastParticles = 10;  // fewer are left to the mesh [GD01 3.1]
@@ -20,6 +20,7 @@ struct PaperThresholds {
 };
 
 /// Textures for impacts on one side of a surface; nullopt where the mesh will do.
-std::optional<SurfaceCaustics> makePaperTextures(const Shape&, std::span<const Impact>, const PaperThresholds& = {});
+std::optional<SurfaceCaustics> makePaperTextures(const Shape&, std::span<const particles::Impact>,
+                                                 const PaperThresholds& = {});
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

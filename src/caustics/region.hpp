@@ -2,7 +2,7 @@
 // A rectangle of a chart, and the matrix that maps it to a texture's [0,1]^2. [GD01 6.2]
 #include <deltalux/math.hpp>
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 struct Region {
   Vec2 lower{0}, upper{1};  // on a closed chart s may run past the seam
@@ -18,4 +18,4 @@ struct Region {
   }
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 int paperResolution(double particles, double epsilon, double kernel) {
   if (!(particles > 0)) return 0;
@@ -47,4 +47,4 @@ double texelArea(const ChartPart& part, double perTexel) {
   return typical > 0 ? perTexel * totalSquares / total / typical : part.region.size().x * part.region.size().y;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

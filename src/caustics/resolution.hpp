@@ -12,7 +12,7 @@
 // with a small bright figure gets texels for the figure, and restriction (restriction.hpp) leaves the wall out.
 #include "caustics/chart_part.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 /// Normalised box kernel in two dimensions: the integral of its square.
 inline constexpr double kBoxKernel = 0.25;
@@ -28,4 +28,4 @@ glm::ivec2 squareTexels(const glm::dvec2& size, double area, int most);
 /// Area of a texel that holds `perTexel` particles where the part's light falls, as its present texels see it. [unit^2]
 double texelArea(const ChartPart&, double perTexel);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

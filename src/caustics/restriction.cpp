@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -106,4 +106,4 @@ Region regionOf(const CellGrid& grid, const TexelBox& box) {
   return {grid.region().lower + texel * Vec2(box.x0, box.y0), grid.region().lower + texel * Vec2(box.x1, box.y1)};
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -10,7 +10,7 @@
 
 #include "caustics/cell_light.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 /// Texels [x0, x1) x [y0, y1) of a grid; on a closed grid x1 may exceed its width.
 struct TexelBox {
@@ -32,4 +32,4 @@ std::vector<TexelBox> markedBoxes(const CellGrid&, const std::vector<char>& mark
 /// The part of the grid's region under a box.
 Region regionOf(const CellGrid&, const TexelBox&);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

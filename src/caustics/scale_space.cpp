@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 constexpr double kFirst = 0.5;         // in cells
@@ -32,4 +32,4 @@ bool ScaleSpace::widen() {
   return true;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -7,7 +7,7 @@
 #include "caustics/cell_light.hpp"
 #include "caustics/heat_flow.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 /// One width: the light of all slots with it.
 struct ScaleLevel {
@@ -35,4 +35,4 @@ class ScaleSpace {
   std::vector<ScaleLevel> levels_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -4,7 +4,7 @@
 #include <new>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 template <class T>
 struct LineAllocator {
@@ -25,4 +25,4 @@ struct LineAllocator {
 /// Values by slot (cell_raster.hpp).
 using Slots = std::vector<float, LineAllocator<float>>;
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -99,4 +99,4 @@ std::vector<Rgb> reconstructSpiral(const CellGrid& grid, const CellLight& light,
   return result;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

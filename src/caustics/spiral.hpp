@@ -9,9 +9,9 @@
 // Cost: O(texels R^2). Kept for comparison with bandwidth.hpp.
 #include "caustics/cell_light.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 /// E of every cell [W/m2]. `radius`: R in texels.
 std::vector<Rgb> reconstructSpiral(const CellGrid&, const CellLight&, int radius);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

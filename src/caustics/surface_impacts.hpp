@@ -5,9 +5,9 @@
 #include "caustics/cell_light.hpp"
 #include "particles/impact.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 /// By chart. The impacts' own primitive and side are not looked at.
-std::vector<std::vector<ChartImpact>> placeImpacts(const Shape&, const Charts&, std::span<const Impact>);
+std::vector<std::vector<ChartImpact>> placeImpacts(const Shape&, const Charts&, std::span<const particles::Impact>);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

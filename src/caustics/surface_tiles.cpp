@@ -6,7 +6,7 @@
 
 #include "particles/side_index.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -15,11 +15,11 @@ constexpr double kMost = 16;     // tiles across
 
 }  // namespace
 
-SurfaceTiles::SurfaceTiles(const Scene& scene, const Particles& p) : scene_(scene) {
+SurfaceTiles::SurfaceTiles(const Scene& scene, const particles::Particles& p) : scene_(scene) {
   sides_.resize(2 * scene.primitives.size());
   std::vector<std::uint32_t> impacts(sides_.size(), 0);
   for (std::size_t path = 0; path < p.paths(); ++path)
-    for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) ++impacts[sideIndex(p, i)];
+    for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) ++impacts[particles::sideIndex(p, i)];
   for (std::size_t side = 0; side < sides_.size(); ++side)
     if (impacts[side] > 0)
       cut(side,
@@ -32,8 +32,8 @@ void SurfaceTiles::cut(std::size_t side, std::uint32_t across) {
   tiles_ += across * across;
 }
 
-std::uint32_t SurfaceTiles::tileOf(const Particles& p, std::uint32_t impact) {
-  const std::size_t index = sideIndex(p, impact);
+std::uint32_t SurfaceTiles::tileOf(const particles::Particles& p, std::uint32_t impact) {
+  const std::size_t index = particles::sideIndex(p, impact);
   if (sides_[index].across == 0) cut(index, 1);
   const Side& side = sides_[index];
   if (side.across == 1) return side.first;
@@ -47,4 +47,4 @@ std::uint32_t SurfaceTiles::tileOf(const Particles& p, std::uint32_t impact) {
   return side.first + along(p.uv[impact].y) * side.across + along(p.uv[impact].x);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

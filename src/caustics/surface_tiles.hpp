@@ -6,15 +6,15 @@
 
 #include "particles/particles.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 class SurfaceTiles {
  public:
   /// As many as today's particles ask for.
-  SurfaceTiles(const Scene&, const Particles&);
+  SurfaceTiles(const Scene&, const particles::Particles&);
 
   /// Of an impact: its slot. A side that no particle met before gets one tile now.
-  std::uint32_t tileOf(const Particles&, std::uint32_t impact);
+  std::uint32_t tileOf(const particles::Particles&, std::uint32_t impact);
 
   /// One side's tiles: from `first` on; none when no particle ever met it.
   struct Side {
@@ -34,4 +34,4 @@ class SurfaceTiles {
   std::uint32_t tiles_ = 0;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

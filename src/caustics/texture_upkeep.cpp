@@ -8,7 +8,7 @@
 #include "caustics/choice.hpp"
 #include "particles/side_index.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -22,7 +22,7 @@ constexpr float kTexels = 256;            // across a side, at most: impacts tha
 constexpr std::size_t kParts = 8;         // of all impacts, summed apart
 
 /// 1 for impacts at one place, 0 for those that textures tell apart.
-float sameness(const Particles& p, std::uint32_t a, std::uint32_t b) {
+float sameness(const particles::Particles& p, std::uint32_t a, std::uint32_t b) {
   if (p.primitive[a] != p.primitive[b] || p.triangleAndSide[a] != p.triangleAndSide[b]) return 0.0f;
   const glm::vec2 d = glm::abs(p.uv[a] - p.uv[b]);
   return std::max(0.0f, 1 - kTexels * std::max(d.x, d.y));
@@ -50,9 +50,9 @@ std::vector<TextureUpkeep::Tile> TextureUpkeep::halved(const std::vector<Tile>& 
   return result;
 }
 
-TextureUpkeep::TextureUpkeep(const Parts& parts, const ParticleTransfer& transfer, double error)
+TextureUpkeep::TextureUpkeep(const Parts& parts, const particles::ParticleTransfer& transfer, double error)
     : parts_(parts), error_(error), tiles_(parts.scene, parts.particles) {
-  const Particles& p = parts_.particles;
+  const particles::Particles& p = parts_.particles;
   tileOf_.assign(p.impactSlots(), kNone);
   for (std::size_t path = 0; path < p.paths(); ++path)
     for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) tileOf_[i] = tiles_.tileOf(p, i);
@@ -62,8 +62,8 @@ TextureUpkeep::TextureUpkeep(const Parts& parts, const ParticleTransfer& transfe
   remember(std::vector<char>(looks_.size(), 1), meanOtherLight(parts_.scene, parts_.elements));
 }
 
-TextureUpkeep::Report TextureUpkeep::follow(const ParticleUpdate& update, const ParticleTransfer& transfer,
-                                            Caustics& caustics) {
+TextureUpkeep::Report TextureUpkeep::follow(const particles::ParticleUpdate& update,
+                                            const particles::ParticleTransfer& transfer, Caustics& caustics) {
   DELTALUX_CHECK(!update.all, "the particles of before");
   takeIn(update);
   const LargeArray<Rgb> powers = weigh(transfer);
@@ -76,7 +76,7 @@ TextureUpkeep::Report TextureUpkeep::follow(const ParticleUpdate& update, const 
   Report report;
   report.judged = static_cast<std::uint64_t>(std::count(sides.begin(), sides.end(), 1));
   for (SurfaceCaustics& s : caustics.surfaces)
-    if (const std::size_t side = sideIndex(s.primitive, s.front); !sides[side])
+    if (const std::size_t side = particles::sideIndex(s.primitive, s.front); !sides[side])
       report.scaled += rescale(s, fluxOf(side), kMatters * error_);
   report.rebuilt = remakeCaustics(caustics, parts_.scene, parts_.elements, landedOn(sides, powers), error_, sides);
   remember(sides, background);
@@ -85,10 +85,10 @@ TextureUpkeep::Report TextureUpkeep::follow(const ParticleUpdate& update, const 
 
 /// Impacts that came out where they were keep what is known of them; the others' light was taken away, or is new. What
 /// moved by a part of a texel is so in part.
-void TextureUpkeep::takeIn(const ParticleUpdate& update) {
-  const Particles& p = parts_.particles;
+void TextureUpkeep::takeIn(const particles::ParticleUpdate& update) {
+  const particles::Particles& p = parts_.particles;
   tileOf_.resize(p.impactSlots(), kNone), then_.resize(p.impactSlots(), 0.0f), now_.resize(p.impactSlots(), 0.0f);
-  for (const RetracedPath& r : update.paths) {
+  for (const particles::RetracedPath& r : update.paths) {
     const std::uint32_t first = p.firstImpact(r.path), before = r.range.impact;
     for (std::uint32_t i = first; i < p.endImpact(r.path); ++i) {
       tileOf_[i] = tiles_.tileOf(p, i);
@@ -101,8 +101,8 @@ void TextureUpkeep::takeIn(const ParticleUpdate& update) {
 }
 
 /// Today's flux of every impact and tile. What every path carries.
-LargeArray<Rgb> TextureUpkeep::weigh(const ParticleTransfer& transfer) {
-  const Particles& p = parts_.particles;
+LargeArray<Rgb> TextureUpkeep::weigh(const particles::ParticleTransfer& transfer) {
+  const particles::Particles& p = parts_.particles;
   now_.resize(p.impactSlots(), 0.0f);
   LargeArray<Rgb> powers(p.paths());
   std::vector<std::vector<RgbSum>> sums(kParts, std::vector<RgbSum>(tiles_.size(), RgbSum(0.0)));
@@ -188,21 +188,22 @@ bool TextureUpkeep::changed(std::size_t side, double background, bool textured) 
 }
 
 /// By side; on each in the order of the particles.
-std::vector<Impact> TextureUpkeep::landedOn(const std::vector<char>& sides, const LargeArray<Rgb>& powers) const {
-  const Particles& p = parts_.particles;
+std::vector<particles::Impact> TextureUpkeep::landedOn(const std::vector<char>& sides,
+                                                       const LargeArray<Rgb>& powers) const {
+  const particles::Particles& p = parts_.particles;
   std::vector<std::vector<std::uint32_t>> places(kParts, std::vector<std::uint32_t>(sides.size(), 0));
   const auto forEach = [&](const auto& body) {
     inParts(p.paths(), [&](std::size_t part, std::size_t begin, std::size_t end) {
       for (std::size_t path = begin; path < end; ++path)
         for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i)
-          if (const std::size_t side = sideIndex(p, i); sides[side]) body(path, i, places[part][side]);
+          if (const std::size_t side = particles::sideIndex(p, i); sides[side]) body(path, i, places[part][side]);
     });
   };
   forEach([](std::size_t, std::uint32_t, std::uint32_t& count) { ++count; });
   std::uint32_t next = 0;
   for (std::size_t side = 0; side < sides.size(); ++side)
     for (auto& part : places) part[side] = std::exchange(next, next + part[side]);
-  std::vector<Impact> all(next);
+  std::vector<particles::Impact> all(next);
   forEach([&](std::size_t path, std::uint32_t i, std::uint32_t& place) {
     all[place++] = {p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0, p.uv[i],
                     powers[path] * p.throughput[i]};
@@ -229,4 +230,4 @@ std::size_t TextureUpkeep::memoryBytes() const {
          tiles_.sides().capacity() * sizeof(SurfaceTiles::Side);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

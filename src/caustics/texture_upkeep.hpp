@@ -20,14 +20,14 @@
 #include "caustics/surface_tiles.hpp"
 #include "particles/transfer.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 class TextureUpkeep {
  public:
   struct Parts {
     const Scene& scene;
-    const Elements& elements;
-    const Particles& particles;
+    const hierarchy::Elements& elements;
+    const particles::Particles& particles;
   };
   struct Report {
     std::uint64_t judged = 0;   // sides whose light has changed
@@ -37,11 +37,11 @@ class TextureUpkeep {
 
   /// Of textures that show the particles as they are now, sent with the light that there is now. The parts must outlive
   /// this.
-  TextureUpkeep(const Parts&, const ParticleTransfer&, double error);
+  TextureUpkeep(const Parts&, const particles::ParticleTransfer&, double error);
 
   /// Brings the textures up to what was traced anew, and to today's light. `transfer` has taken it in. Not for updates
   /// of all particles, or compacted ones: then make new textures, and a new upkeep.
-  Report follow(const ParticleUpdate&, const ParticleTransfer&, Caustics&);
+  Report follow(const particles::ParticleUpdate&, const particles::ParticleTransfer&, Caustics&);
 
   std::size_t memoryBytes() const;
 
@@ -56,14 +56,14 @@ class TextureUpkeep {
     double difference = 0, squares = 0;
   };
 
-  void takeIn(const ParticleUpdate&);
-  LargeArray<Rgb> weigh(const ParticleTransfer&);
+  void takeIn(const particles::ParticleUpdate&);
+  LargeArray<Rgb> weigh(const particles::ParticleTransfer&);
   void compare();
   RgbSum fluxOf(std::size_t side) const;
   bool fewParticles(const SurfaceTiles::Side&) const;
   static std::vector<Tile> halved(const std::vector<Tile>&, std::uint32_t across);
   bool changed(std::size_t side, double background, bool textured) const;
-  std::vector<Impact> landedOn(const std::vector<char>& sides, const LargeArray<Rgb>& powers) const;
+  std::vector<particles::Impact> landedOn(const std::vector<char>& sides, const LargeArray<Rgb>& powers) const;
   void remember(const std::vector<char>& sides, const std::vector<double>& background);
 
   Parts parts_;
@@ -75,4 +75,4 @@ class TextureUpkeep {
   std::vector<Tile> tile_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 /// exp(x), x in [-87, 88]; 1e-38 below.
 inline float expOf(float x) {
@@ -27,4 +27,4 @@ inline float logOf(float x) {
          2 * s * (1 + q * (0.333333333f + q * (0.2f + q * (0.142857143f + q * 0.111111111f))));
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -39,7 +39,7 @@ double FadingBorder::at(const Vec2& st) const {
   return 1 - smoothStep(inside);
 }
 
-Veil::Veil(const ChartSurface& surface, ChartPart all, const CellGrid& grid, const Reconstruction& reconstruction,
+Veil::Veil(const ChartSurface& surface, ChartPart all, const CellGrid& grid, const AdaptiveEstimate& reconstruction,
            std::span<const FadingBorder> borders, int halvings)
     : all_(surface.texture(all, grid, {}, reconstruction.E)) {
   std::vector<ChartImpact> pieces;
@@ -57,7 +57,7 @@ Veil::Veil(const ChartSurface& surface, ChartPart all, const CellGrid& grid, con
 }
 
 void Veil::over(const CellGrid& grid, const FadingBorder& border, const BandwidthRule& rule,
-                Reconstruction& own) const {
+                AdaptiveEstimate& own) const {
   for (std::uint32_t i = 0; i < grid.size(); ++i) {
     const auto texel = static_cast<int>(grid.texelOf(i));
     const Vec2 st = centreOf(grid.region(), grid.width(), grid.height(), texel % grid.width(), texel / grid.width());
@@ -81,4 +81,4 @@ CausticTexture Veil::shownOn(const ChartPart& left) const {
   return shown;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -11,7 +11,7 @@
 #include "caustics/adaptive_kernel.hpp"
 #include "caustics/chart_part.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 /// Where a region fades into what is around it: over `width` inside of `box`, at those of its sides that are not the
 /// chart's own.
@@ -30,11 +30,11 @@ class Veil {
  public:
   /// `all`: the chart before anything was taken out of it, whose grid and reconstruction these are. What is shown of
   /// the veil has no light from within the borders, and is halved as often as the part that is left.
-  Veil(const ChartSurface&, ChartPart all, const CellGrid&, const Reconstruction&, std::span<const FadingBorder>,
+  Veil(const ChartSurface&, ChartPart all, const CellGrid&, const AdaptiveEstimate&, std::span<const FadingBorder>,
        int halvings);
 
   /// Gives the cells of a region, whose light is reconstructed, as much of the veil as they want.
-  void over(const CellGrid&, const FadingBorder&, const BandwidthRule&, Reconstruction&) const;
+  void over(const CellGrid&, const FadingBorder&, const BandwidthRule&, AdaptiveEstimate&) const;
 
   /// Its texture where it is shown. `left`: the part that regions were taken out of.
   CausticTexture shownOn(const ChartPart& left) const;
@@ -44,4 +44,4 @@ class Veil {
   CausticTexture shown_;  // without, but for their margins
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -5,7 +5,7 @@
 
 #include "caustics/vector_math.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
 namespace {
 
@@ -115,14 +115,14 @@ Borders opennessBy(const CellRaster& raster, double contrast, const Squared& squ
 
 }  // namespace
 
-Walls blurredWalls(const CellRaster& raster, const Channels& light) {
+EdgeStopping blurredWalls(const CellRaster& raster, const Channels& light) {
   const HeatFlow even(raster, {});
   ScaleSpace space(raster, even, light, kWidest, kFactor);
   while (space.widen()) {
   }
   const Estimates estimates = estimatesOf(raster, space.levels());
   const float *root = estimates.root.data(), *overlap = estimates.overlap.data(), *noise = estimates.noise.data();
-  Walls walls;
+  EdgeStopping walls;
   walls.bandwidth.resize(raster.slots());
   const auto half = static_cast<float>(raster.meanArea() / (8 * kPi));
   for (std::size_t i = 0; i < raster.slots(); ++i) walls.bandwidth[i] = half / overlap[i];
@@ -148,4 +148,4 @@ Borders sharpWalls(const CellRaster& raster, const Slots& E, double darkness) {
   });
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

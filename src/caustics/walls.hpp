@@ -12,17 +12,17 @@
 
 #include "caustics/scale_space.hpp"
 
-namespace deltalux {
+namespace deltalux::caustics {
 
-struct Walls {
+struct EdgeStopping {
   Borders openness;
   Slots bandwidth;  // half the variance of a kernel that holds kParticles [unit^2]
 };
 
 /// `light`: gray E and density of squares, both of which the mean cell's area and the mean E were made 1 for.
-Walls blurredWalls(const CellRaster&, const Channels& light);
+EdgeStopping blurredWalls(const CellRaster&, const Channels& light);
 
 /// `darkness`: differences below it do not matter [of E].
 Borders sharpWalls(const CellRaster&, const Slots& E, double darkness);
 
-}  // namespace deltalux
+}  // namespace deltalux::caustics

@@ -11,7 +11,7 @@
 #include "particles/bounce.hpp"
 #include "scene/stops_light.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 namespace {
 
@@ -27,14 +27,14 @@ struct Surfaces {
 };
 
 Surfaces surfacesOf(const Solution& s) {
-  const Elements& elements = s.elements;
-  const ParticleSurfaces particles(s.scene);
+  const hierarchy::Elements& elements = s.elements;
+  const particles::ParticleSurfaces particles(s.scene);
   return parallelSum<Surfaces>(elements.size(), kBlock, [&](std::size_t e) {
     // What mirrors get, particles account for.
-    if (!elements.isReceivingLeaf(ElementId(e)) ||
+    if (!elements.isReceivingLeaf(hierarchy::ElementId(e)) ||
         !particles.takes(elements.domain[e].primitive, elements.topology[e].front))
       return Surfaces{};
-    const ElementLight& l = elements.radiometry[e];
+    const hierarchy::ElementLight& l = elements.radiometry[e];
     const double A = elements.geometry[e].litArea();
     return Surfaces{A * RgbSum(l.direct),
                     A * RgbSum((Rgb(1.0f) - l.rho - l.tau) * (l.direct + l.indirect + l.particle))};
@@ -48,10 +48,10 @@ struct Outcome {
 };
 
 /// What covered parts of leaves would send, which do not: rays start there, too.
-RgbSum sentUnderCovers(const Elements& elements) {
+RgbSum sentUnderCovers(const hierarchy::Elements& elements) {
   return parallelSum<RgbSum>(elements.size(), kBlock, [&](std::size_t e) {
-    const ElementGeometry& g = elements.geometry[e];
-    return elements.isReceivingLeaf(ElementId(e))
+    const hierarchy::ElementGeometry& g = elements.geometry[e];
+    return elements.isReceivingLeaf(hierarchy::ElementId(e))
                ? (double(g.area) - double(g.litArea())) * RgbSum(elements.radiometry[e].B)
                : RgbSum(0.0);
   });
@@ -60,10 +60,10 @@ RgbSum sentUnderCovers(const Elements& elements) {
 /// What becomes of light that diffuse surfaces send and that reaches none: rays from leaves, in proportion to the power
 /// that they send.
 Outcome diffuseLight(const Solution& s) {
-  const Elements& elements = s.elements;
+  const hierarchy::Elements& elements = s.elements;
   std::vector<double> power{0.0};
   for (std::size_t e = 0; e < elements.size(); ++e)
-    power.push_back(power.back() + (elements.isReceivingLeaf(ElementId(e))
+    power.push_back(power.back() + (elements.isReceivingLeaf(hierarchy::ElementId(e))
                                         ? double(elements.geometry[e].area) * double(gray(elements.radiometry[e].B))
                                         : 0.0));
   const double total = power.back();
@@ -75,14 +75,14 @@ Outcome diffuseLight(const Solution& s) {
     const auto e =
         static_cast<std::size_t>(std::upper_bound(power.begin() + 1, power.end() - 1, u) - power.begin() - 1);
     const Rgb B = elements.radiometry[e].B;
-    const PatchPoint x = samplePatch(elements, s.scene, ElementId(e), at.x, at.y);
-    Ray ray;
+    const hierarchy::PatchPoint x = hierarchy::samplePatch(elements, s.scene, hierarchy::ElementId(e), at.x, at.y);
+    tracing::Ray ray;
     ray.direction = Vec3f(cosineDirection(Frame(Vec3(x.normal)), to.x, to.y));
-    ray.origin = offsetOrigin(x.position, x.normal, ray.direction);
+    ray.origin = tracing::offsetOrigin(x.position, x.normal, ray.direction);
     Outcome outcome;
     RgbSum flux = total / kRays / double(gray(B)) * RgbSum(B);
     for (int pane = 0; pane < kPanes; ++pane) {
-      const Hit hit = s.tracer->closestHit(ray);
+      const tracing::Hit hit = s.tracer->closestHit(ray);
       if (!hit) {
         outcome.escaped = flux;
         break;
@@ -90,7 +90,8 @@ Outcome diffuseLight(const Solution& s) {
       const Material& material = s.scene.materialOf(hit.primitive);
       const auto* glass = std::get_if<ThinGlass>(&material.surface);
       if (!glass) {
-        if (stopsLight(material) && !elements.side(hit.primitive, hit.triangle, hit.front).valid()) outcome.gaps = flux;
+        if (scene::stopsLight(material) && !elements.side(hit.primitive, hit.triangle, hit.front).valid())
+          outcome.gaps = flux;
         break;
       }
       const double cosine = std::abs(glm::dot(Vec3(hit.normal), Vec3(ray.direction)));
@@ -99,7 +100,7 @@ Outcome diffuseLight(const Solution& s) {
       const RgbSum reflects(s.settings.diffuseOnly ? Rgb(0.0f) : reflectance(*glass, cosine));
       outcome.panes += flux * (1.0 - passes - reflects);
       flux *= passes;
-      ray.origin = offsetOrigin(hit.position, hit.normal, ray.direction);
+      ray.origin = tracing::offsetOrigin(hit.position, hit.normal, ray.direction);
     }
     return outcome;
   });
@@ -115,26 +116,26 @@ struct Specular {
   }
 };
 
-Specular specularLight(const Solution& s, const ParticleTransfer& transfer) {
-  const Particles& p = s.particles;
+Specular specularLight(const Solution& s, const particles::ParticleTransfer& transfer) {
+  const particles::Particles& p = s.particles;
   return parallelSum<Specular>(p.paths(), kBlock, [&](std::size_t path) {
     Specular sum;
-    if (!(p.fate[path] & kArrived)) return sum;
-    const SenderCell& cell = p.senderCells[p.sender[path]];
+    if (!(p.fate[path] & particles::kArrived)) return sum;
+    const particles::SenderCell& cell = p.senderCells[p.sender[path]];
     const RgbSum power = double(p.links[p.link[path]].scale) * RgbSum(transfer.power(path, s.elements, s.scene));
-    if (cell.kind != SenderKind::Side) sum.ofLights = power * RgbSum(p.account[path].entered.value());
+    if (cell.kind != particles::SenderKind::Side) sum.ofLights = power * RgbSum(p.account[path].entered.value());
     sum.passed = power * RgbSum(p.account[path].passed.value());
     sum.absorbed = power * RgbSum(p.account[path].absorbed.value());
     for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i)
       if (!transfer.placed(i)) sum.absorbed += power * RgbSum(p.throughput[i]);
-    if (!(p.fate[path] & kCut)) sum.escaped = power * RgbSum(p.account[path].left.value());
+    if (!(p.fate[path] & particles::kCut)) sum.escaped = power * RgbSum(p.account[path].left.value());
     return sum;
   });
 }
 
 }  // namespace
 
-EnergyLedger energyBalance(const Solution& s, const ParticleTransfer& transfer, const RgbSum& unsettled) {
+EnergyLedger energyBalance(const Solution& s, const particles::ParticleTransfer& transfer, const RgbSum& unsettled) {
   const Surfaces surfaces = surfacesOf(s);
   const Outcome diffuse = diffuseLight(s);
   const Specular specular = specularLight(s, transfer);
@@ -148,4 +149,4 @@ EnergyLedger energyBalance(const Solution& s, const ParticleTransfer& transfer, 
   return ledger;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

@@ -12,12 +12,12 @@ namespace deltalux {
 Engine::Engine(Scene scene, SolveSettings settings) : state_(std::make_unique<State>()) {
   DELTALUX_CHECK(settings.error > 0 && settings.error < 1, "the target error is a fraction between 0 and 1");
   addAreaLights(scene);
-  if (settings.diffuseOnly) dropSpeculars(scene);
+  if (settings.diffuseOnly) scene::dropSpeculars(scene);
   validate(scene);
   Solution& s = *state_->solution;
   s.scene = std::move(scene);
   s.settings = settings;
-  s.tracer = makeEmbreeTracer(s.scene);
+  s.tracer = tracing::makeEmbreeTracer(s.scene);
 }
 
 Engine::~Engine() = default;
@@ -39,7 +39,7 @@ Engine::Engine(SolutionView view) : state_(std::make_unique<State>()) {
     state_->solution = std::const_pointer_cast<Solution>(held);
   } else {
     state_->solution = std::make_shared<Solution>(*held);
-    state_->solution->tracer = makeEmbreeTracer(state_->solution->scene);
+    state_->solution->tracer = tracing::makeEmbreeTracer(state_->solution->scene);
   }
   state_->finished = !state_->solution->transfers.empty() || state_->solution->elements.size() == 0;
   state_->prepareToFollow();

@@ -9,10 +9,10 @@
 
 namespace deltalux {
 
-ParticleUpdate Engine::State::followWithParticles(std::size_t count, StepReport& step) {
+particles::ParticleUpdate Engine::State::followWithParticles(std::size_t count, StepReport& step) {
   Solution& s = *solution;
-  const Clock time;
-  ParticleUpdate followed =
+  const engine::Clock time;
+  particles::ParticleUpdate followed =
       tracing->allWait() ? tracing->retraceAll(s.particles) : tracing->retrace(s.particles, count);
   DELTALUX_VALIDATED(validate(s.particles, s.scene));
   constexpr std::size_t kTelling = 2048;  // fewer paths cost what starting costs
@@ -27,20 +27,22 @@ ParticleUpdate Engine::State::followWithParticles(std::size_t count, StepReport&
 
 bool Engine::State::subdivideWhereParticlesLanded(StepReport& step) {
   Solution& s = *solution;
-  const Clock time;
+  const engine::Clock time;
   if (!tracing) return false;
   if (backlog.landed.paths.empty() && !backlog.landed.all) return false;
   std::vector<bool> shown(2 * s.scene.primitives.size(), false);
-  for (const SurfaceCaustics& c : s.caustics.surfaces) shown[sideIndex(c.primitive, c.front)] = true;
-  const std::size_t split = subdivideForParticles(s.elements, s.scene, s.particles, shown,
-                                                  sidesThatKeepTheirMesh(s.scene, s.particles, backlog.landed));
+  for (const caustics::SurfaceCaustics& c : s.caustics.surfaces)
+    shown[particles::sideIndex(c.primitive, c.front)] = true;
+  const std::size_t split = particles::subdivideForParticles(
+      s.elements, s.scene, s.particles, shown, particles::sidesThatKeepTheirMesh(s.scene, s.particles, backlog.landed));
   step.times.particles += time.seconds();
   return split > 0;
 }
 
-void Engine::State::placeParticles(const ParticleUpdate& followed, LightChanges& light, StepReport& step) {
+void Engine::State::placeParticles(const particles::ParticleUpdate& followed, engine::LightChanges& light,
+                                   StepReport& step) {
   const Solution& s = *solution;
-  const Clock time;
+  const engine::Clock time;
   if (followed.all) transfer.reset();
   light.allParticles = !transfer;
   if (transfer)
@@ -51,19 +53,19 @@ void Engine::State::placeParticles(const ParticleUpdate& followed, LightChanges&
 }
 
 /// How far they are spread depends on what patches reflect and how much of them is exposed.
-void Engine::State::spreadParticlesAnew(LightChanges& light) {
+void Engine::State::spreadParticlesAnew(engine::LightChanges& light) {
   if (light.allParticles) return;
-  const Elements& elements = solution->elements;
+  const hierarchy::Elements& elements = solution->elements;
   transfer->followPatches(elements, light.rows);  // which are looked at in any case
-  const std::vector<ElementId> painted = transfer->followPatches(elements, light.painted);
+  const std::vector<hierarchy::ElementId> painted = transfer->followPatches(elements, light.painted);
   light.surfaces.insert(light.surfaces.end(), painted.begin(), painted.end());
   sortUnique(light.surfaces);
 }
 
 bool Engine::State::gapsAreMany(double most) const {
-  const Particles& p = solution->particles;
+  const particles::Particles& p = solution->particles;
   std::size_t used = 0;
-  for (const PathRange& r : p.range) used += r.vertices;
+  for (const particles::PathRange& r : p.range) used += r.vertices;
   return static_cast<double>(p.vertices.size()) > most * static_cast<double>(used);
 }
 
@@ -74,8 +76,8 @@ void Engine::State::closeGaps() {
 
 void Engine::State::followWithTextures(StepReport& step) {
   Solution& s = *solution;
-  const Clock time;
-  const ParticleUpdate followed = std::exchange(backlog.landed, {});
+  const engine::Clock time;
+  const particles::ParticleUpdate followed = std::exchange(backlog.landed, {});
   if (!tracing && s.caustics.surfaces.empty()) return;
   if (!backlog.textures.empty()) s.caustics.surfaces = std::exchange(backlog.textures, {});
   if (!upkeep || followed.all) {

@@ -10,7 +10,7 @@ namespace deltalux {
 
 StepReport Engine::State::frame(double seconds) {
   constexpr double kPlanned = 0.92;  // of a frame: what is left keeps it in time where work takes longer than learned
-  const Clock time;
+  const engine::Clock time;
   const auto left = [&] { return kPlanned * seconds - time.seconds(); };
   Solution& s = *solution;
   StepReport step;
@@ -48,24 +48,24 @@ void Engine::State::countWaiting(StepReport& step) const {
   const Solution& s = *solution;
   step.deferred = backlog.links.moved.size() + backlog.links.movedLights.size();
   step.deferred += backlog.rows.size();
-  double stale = (backlog.linksWait() ? lightOn(s, backlog.links) : 0.0) + backlog.rows.stale();
+  double stale = (backlog.linksWait() ? engine::lightOn(s, backlog.links) : 0.0) + backlog.rows.stale();
   if (tracing && tracing->allWait()) {
     step.deferred += s.particles.paths();
-    for (std::size_t path = 0; path < s.particles.paths(); ++path) stale += deposited(s, *transfer, path);
+    for (std::size_t path = 0; path < s.particles.paths(); ++path) stale += engine::deposited(s, *transfer, path);
   } else if (tracing) {
     step.deferred += tracing->waiting().size();
-    for (const ParticleTracing::Waiting& w : tracing->waiting()) stale += w.worth;
+    for (const particles::ParticleTracing::Waiting& w : tracing->waiting()) stale += w.worth;
   }
   step.staleW = stale * s.scene.metresPerUnit * s.scene.metresPerUnit;
 }
 
 void Engine::State::followWithLinks(StepReport& step) {
-  const Clock time;
-  const SceneUpdate edits = std::exchange(backlog.links, {});
+  const engine::Clock time;
+  const engine::SceneUpdate edits = std::exchange(backlog.links, {});
   Solution& s = *solution;
-  const double stale = lightOn(s, edits);
+  const double stale = engine::lightOn(s, edits);
   Motion motion = leave(edits, step);
-  RowWork work = arriveInLight(edits, motion, false, step);
+  engine::RowWork work = arriveInLight(edits, motion, false, step);
   backlog.rows.add(std::move(work), s.transfers, s.elements, s.links, stale);
   renewRows(backlog.rows.work(), backlog.rows.urgent(), step);
   transfer.emplace(s.particles, s.elements, s.scene);
@@ -76,11 +76,11 @@ void Engine::State::followWithLinks(StepReport& step) {
 void Engine::State::followWithRows(const SecondsLeft& left, StepReport& step) {
   constexpr std::size_t kFewest = 32;  // so that every frame gets on
   Solution& s = *solution;
-  const Clock time;
+  const engine::Clock time;
   const double seconds = left() - backlog.deposit.seconds();
   const auto fit = static_cast<std::size_t>(std::max(0.0, seconds) / backlog.row.seconds());
   const std::size_t before = backlog.rows.size(), elements = s.elements.size();
-  const ConcernedLeaves leaves = backlog.rows.take(std::max(kFewest, fit), s.elements);
+  const radiosity::ConcernedLeaves leaves = backlog.rows.take(std::max(kFewest, fit), s.elements);
   renewRows(backlog.rows.work(), leaves, step);
   if (backlog.rows.empty()) backlog.rows = {};
   backlog.addSeen(s.scene);
@@ -93,9 +93,9 @@ void Engine::State::followInPart(const SecondsLeft& left, StepReport& step) {
   Solution& s = *solution;
   const double time = left() - backlog.carry.seconds() - backlog.deposit.seconds();
   const auto fit = static_cast<std::size_t>(std::max(0.0, time) / backlog.path.seconds());
-  const ParticleUpdate followed = followWithParticles(std::max(kFewest, fit), step);
-  const Clock carrying;
-  TextureFlux textures(s);
+  const particles::ParticleUpdate followed = followWithParticles(std::max(kFewest, fit), step);
+  const engine::Clock carrying;
+  engine::TextureFlux textures(s);
   textures.takeOut(followed, *transfer);
   transfer->follow(s.particles, followed, s.elements, s.scene);
   carryTextures(textures, followed);
@@ -103,7 +103,7 @@ void Engine::State::followInPart(const SecondsLeft& left, StepReport& step) {
   step.times.particles += carrying.seconds();
 }
 
-void Engine::State::carryTextures(TextureFlux& textures, const ParticleUpdate& followed) {
+void Engine::State::carryTextures(engine::TextureFlux& textures, const particles::ParticleUpdate& followed) {
   Solution& s = *solution;
   if (backlog.textures.empty()) backlog.textures = s.caustics.surfaces;
   textures.putIn(followed, *transfer);
@@ -112,19 +112,19 @@ void Engine::State::carryTextures(TextureFlux& textures, const ParticleUpdate& f
 
 void Engine::State::iterate(const SecondsLeft& left, StepReport& step) {
   Solution& s = *solution;
-  const Clock time;
+  const engine::Clock time;
   transfer->apply(s.elements, s.scene);
-  pull(s.elements);
+  radiosity::pull(s.elements);
   backlog.deposit.learn(time.seconds());
   const double emitted = backlog.pass.seconds() < left() ? gray(directPower()) : 0.0;
   while (backlog.pass.seconds() < left()) {
-    const Clock passing;
+    const engine::Clock passing;
     s.transfers.gatherIndirect(s.elements);
     transfer->apply(s.elements, s.scene);
-    unsettled = pull(s.elements);
+    unsettled = radiosity::pull(s.elements);
     backlog.pass.learn(passing.seconds());
     ++s.report.counts.iterations;
-    if (gray(unsettled) <= kSettledRows * emitted) break;
+    if (gray(unsettled) <= engine::kSettledRows * emitted) break;
   }
   step.times.gather += time.seconds();
 }

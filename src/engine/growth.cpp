@@ -9,7 +9,7 @@
 #include "radiosity/covered_sides.hpp"
 #include "radiosity/push_pull.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 namespace {
 
@@ -26,50 +26,52 @@ std::vector<Box> newlyLit(const SceneUpdate& edits, const Scene& scene) {
   return boxes;
 }
 
-void addLanding(std::vector<SurfaceSide>& sides, const Solution& s, const ParticleUpdate& update) {
+void addLanding(std::vector<hierarchy::SurfaceSide>& sides, const Solution& s,
+                const particles::ParticleUpdate& update) {
   std::vector<std::uint32_t> paths(update.all ? s.particles.paths() : update.paths.size());
   for (std::uint32_t i = 0; i < paths.size(); ++i) paths[i] = update.all ? i : update.paths[i].path;
   if (paths.empty()) return;
-  addReachedSides(sides, s.particles, paths, s.scene, *s.tracer,
-                  [&](PrimitiveId primitive, std::uint32_t triangle, bool front) {
-                    return s.elements.side(primitive, triangle, front).valid();
-                  });
+  particles::addReachedSides(sides, s.particles, paths, s.scene, *s.tracer,
+                             [&](PrimitiveId primitive, std::uint32_t triangle, bool front) {
+                               return s.elements.side(primitive, triangle, front).valid();
+                             });
 }
 
 }  // namespace
 
-std::vector<ElementId> leavesBelow(const Elements& elements, const Growth& growth) {
-  std::vector<ElementId> tops = growth.woken, leaves;
+std::vector<hierarchy::ElementId> leavesBelow(const hierarchy::Elements& elements, const Growth& growth) {
+  std::vector<hierarchy::ElementId> tops = growth.woken, leaves;
   tops.insert(tops.end(), growth.asleep.begin(), growth.asleep.end());
   if (growth.root.valid()) tops.push_back(growth.root);
-  for (const ElementId top : tops) forEachLeafBelow(elements, top, [&](ElementId leaf) { leaves.push_back(leaf); });
+  for (const hierarchy::ElementId top : tops)
+    hierarchy::forEachLeafBelow(elements, top, [&](hierarchy::ElementId leaf) { leaves.push_back(leaf); });
   return leaves;
 }
 
-Growth growInLight(Solution& s, const SceneUpdate& edits, const ParticleUpdate& particles) {
-  CoveredSides sides;
+Growth growInLight(Solution& s, const SceneUpdate& edits, const particles::ParticleUpdate& particles) {
+  radiosity::CoveredSides sides;
   if (!edits.moved.empty() || !edits.movedLights.empty()) {
     std::vector<PrimitiveId> moved;
     for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
-    sides = coveredSides(s.scene, *s.tracer, s.elements, moved, newlyLit(edits, s.scene));
+    sides = radiosity::coveredSides(s.scene, *s.tracer, s.elements, moved, newlyLit(edits, s.scene));
   }
   addLanding(sides.uncovered, s, particles);
-  dropReachedSides(sides.covered, s.particles);
+  particles::dropReachedSides(sides.covered, s.particles);
   Growth growth;
-  std::vector<SurfaceSide> fresh;
-  const std::vector<ElementId> known = elementsOf(s.elements, sides.uncovered);
+  std::vector<hierarchy::SurfaceSide> fresh;
+  const std::vector<hierarchy::ElementId> known = hierarchy::elementsOf(s.elements, sides.uncovered);
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (!known[i].valid())
       fresh.push_back(sides.uncovered[i]);
     else if (std::binary_search(s.elements.asleep.begin(), s.elements.asleep.end(), known[i]))
       growth.woken.push_back(known[i]);
   }
-  growth.asleep = elementsOf(s.elements, sides.covered);
-  if (!growth.asleep.empty()) setAsleep(s.elements, s.scene, growth.asleep, true);
-  if (!growth.woken.empty()) setAsleep(s.elements, s.scene, growth.woken, false);
-  if (!fresh.empty()) growth.root = growElements(s.elements, s.scene, fresh);
-  if (!growth.empty()) pull(s.elements, leavesBelow(s.elements, growth));
+  growth.asleep = hierarchy::elementsOf(s.elements, sides.covered);
+  if (!growth.asleep.empty()) hierarchy::setAsleep(s.elements, s.scene, growth.asleep, true);
+  if (!growth.woken.empty()) hierarchy::setAsleep(s.elements, s.scene, growth.woken, false);
+  if (!fresh.empty()) growth.root = hierarchy::growElements(s.elements, s.scene, fresh);
+  if (!growth.empty()) radiosity::pull(s.elements, leavesBelow(s.elements, growth));
   return growth;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

@@ -6,20 +6,20 @@
 #include "particles/particle_tracing.hpp"
 #include "solution/solution.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 struct Growth {
-  ElementId root;                // of what has grown, or none; its links are still to be made
-  std::vector<ElementId> woken;  // and they, to be judged anew
-  std::vector<ElementId> asleep;
+  hierarchy::ElementId root;                // of what has grown, or none; its links are still to be made
+  std::vector<hierarchy::ElementId> woken;  // and they, to be judged anew
+  std::vector<hierarchy::ElementId> asleep;
 
   bool empty() const { return !root.valid() && woken.empty() && asleep.empty(); }
 };
 
 /// Leaf patches of what has grown, woken or fallen asleep.
-std::vector<ElementId> leavesBelow(const Elements&, const Growth&);
+std::vector<hierarchy::ElementId> leavesBelow(const hierarchy::Elements&, const Growth&);
 
 /// Scene, tracer and particles are those after the edits.
-Growth growInLight(Solution&, const SceneUpdate&, const ParticleUpdate&);
+Growth growInLight(Solution&, const SceneUpdate&, const particles::ParticleUpdate&);
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

@@ -7,7 +7,7 @@
 #include "base/parallel.hpp"
 #include "engine/light_settling.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 namespace {
 
@@ -54,28 +54,28 @@ void takeLargest(std::vector<Amount> heap, double sum, double most, const Take& 
 }  // namespace
 
 /// Leaves that may send otherwise; and patches that were leaves when they were taken for senders.
-void LightSettling::listen(const Elements& elements, std::span<const ElementId> leaves) {
-  const auto add = [&](ElementId e) {
+void LightSettling::listen(const hierarchy::Elements& elements, std::span<const hierarchy::ElementId> leaves) {
+  const auto add = [&](hierarchy::ElementId e) {
     Unheard& unheard = unheard_[regions_.of(e)];
     unheard.summed = false;
     if (!std::exchange(listed_[e.index()], 1)) unheard.patches.push_back(e);
   };
-  for (const ElementId leaf : leaves) {
+  for (const hierarchy::ElementId leaf : leaves) {
     add(leaf);
-    for (ElementId e = leaf; elements.at(e).depth > 0;) {
+    for (hierarchy::ElementId e = leaf; elements.at(e).depth > 0;) {
       e = elements.at(e).parent;
       if (read_[e.index()]) add(e);
     }
   }
 }
 
-LightSettling::News LightSettling::publish(const Elements& elements, double tolerated) {
-  const auto difference = [&](ElementId e) { return elements.radiometry[e.index()].B - seen_[e.index()]; };
+LightSettling::News LightSettling::publish(const hierarchy::Elements& elements, double tolerated) {
+  const auto difference = [&](hierarchy::ElementId e) { return elements.radiometry[e.index()].B - seen_[e.index()]; };
   parallelFor(kRegions, 1, [&](std::size_t r) {
     Unheard& u = unheard_[r];
     if (std::exchange(u.summed, true)) return;
     u.change = u.square = 0;
-    for (const ElementId e : u.patches) {
+    for (const hierarchy::ElementId e : u.patches) {
       const double A = elements.shape(e).litArea(), dB = gray(glm::abs(difference(e)));
       u.change += A * dB, u.square += A * dB * dB;
     }
@@ -87,7 +87,7 @@ LightSettling::News LightSettling::publish(const Elements& elements, double tole
     news.regions |= SceneRegions::Set(1) << r;
     news.change[r] = static_cast<float>(std::sqrt(u.square / std::max(area_[r], 1e-30)));
     news.withheld -= u.change;
-    for (const ElementId e : u.patches) {
+    for (const hierarchy::ElementId e : u.patches) {
       if (elements.isLeaf(e)) power_[r] += elements.shape(e).litArea() * gray(difference(e));
       seen_[e.index()] = elements.radiometry[e.index()].B;
       listed_[e.index()] = 0;
@@ -104,7 +104,7 @@ LightSettling::News LightSettling::publish(const Elements& elements, double tole
   return news;
 }
 
-LightSettling::Work LightSettling::readersOf(const News& news, const Parts& parts, const Elements& elements,
+LightSettling::Work LightSettling::readersOf(const News& news, const Parts& parts, const hierarchy::Elements& elements,
                                              double tolerated, double& missed) {
   const double area = std::accumulate(area_.begin(), area_.end(), 1e-30);
   const auto dark = static_cast<float>(kDark * std::accumulate(power_.begin(), power_.end(), 0.0) / area);
@@ -112,7 +112,7 @@ LightSettling::Work LightSettling::readersOf(const News& news, const Parts& part
   for (std::size_t b = 0; b < blocksFrom_.size(); ++b)
     if ((blocksFrom_[b] & news.regions) || blocksMiss_[b]) blocks.push_back(b);
   struct Rows {
-    std::vector<ElementId> gathered;
+    std::vector<hierarchy::ElementId> gathered;
     std::vector<Amount> others;  // that is not reflected
   };
   std::vector<Rows> found(blocks.size());
@@ -120,11 +120,11 @@ LightSettling::Work LightSettling::readersOf(const News& news, const Parts& part
     char& miss = blocksMiss_[blocks[k]] = 0;
     const std::size_t begin = blocks[k] * kBlock, end = std::min(begin + kBlock, elements.size());
     for (std::size_t e = begin; e < end; ++e) {
-      if (!parts.rows.find(ElementId(e))) continue;
+      if (!parts.rows.find(hierarchy::ElementId(e))) continue;
       if (from_[e] & news.regions) misses_[e] += dot(factors_[e], news.change) / 255;
       if (!(misses_[e] > 0)) continue;
       miss = 1;
-      const ElementLight& light = elements.radiometry[e];
+      const hierarchy::ElementLight& light = elements.radiometry[e];
       if (misses_[e] > kMatters * (dark + gray(light.direct + light.indirect + light.particle)))
         found[k].gathered.emplace_back(e);
       else
@@ -152,9 +152,9 @@ LightSettling::Work LightSettling::readersOf(const News& news, const Parts& part
     std::sort(work.rows.begin(), work.rows.end());
     missed = 0;
   }
-  for (const ElementId e : parts.particles.surfaces())
+  for (const hierarchy::ElementId e : parts.particles.surfaces())
     if (particlesFrom_[e.index()] & news.regions) work.surfaces.push_back(e);
   return work;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

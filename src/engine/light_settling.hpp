@@ -15,31 +15,32 @@
 #include "particles/transfer.hpp"
 #include "radiosity/leaf_transfers.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 /// What is another since light was settled.
 struct LightChanges {
-  std::vector<ElementId> rows;      // leaves whose rows are others, or gone; their direct light is up to date
-  std::vector<ElementId> surfaces;  // that particles lie otherwise on
-  bool allParticles = false;        // they were placed anew
-  std::vector<ElementId> painted;   // input-level patches of other reflectances
-  bool lights = false;              // some send otherwise
+  std::vector<hierarchy::ElementId> rows;  // leaves whose rows are others, or gone; their direct light is up to date
+  std::vector<hierarchy::ElementId> surfaces;  // that particles lie otherwise on
+  bool allParticles = false;                   // they were placed anew
+  std::vector<hierarchy::ElementId> painted;   // input-level patches of other reflectances
+  bool lights = false;                         // some send otherwise
 };
 
 class LightSettling {
  public:
   struct Parts {
     const Scene& scene;
-    const LeafTransfers& rows;
-    const ParticleTransfer& particles;
+    const radiosity::LeafTransfers& rows;
+    const particles::ParticleTransfer& particles;
   };
 
   /// From settled light: all was last gathered with the radiosities that there are.
-  LightSettling(const Parts&, const Elements&);
+  LightSettling(const Parts&, const hierarchy::Elements&);
 
   /// Gathers until what leaves fail to reflect of what they miss is less than `tolerated` [W, gray], or `most` passes
   /// are done. Returns that; the next call takes it up. Adds to `passes`.
-  double settle(const Parts&, Elements&, const LightChanges&, double tolerated, int most, std::uint64_t& passes);
+  double settle(const Parts&, hierarchy::Elements&, const LightChanges&, double tolerated, int most,
+                std::uint64_t& passes);
 
  private:
   static constexpr int kRegions = SceneRegions::kCount;
@@ -47,7 +48,7 @@ class LightSettling {
 
   /// What to gather, and leaves that may reflect otherwise beside those.
   struct Work {
-    std::vector<ElementId> rows, surfaces, leaves;  // rows: ascending, before others that share join
+    std::vector<hierarchy::ElementId> rows, surfaces, leaves;  // rows: ascending, before others that share join
   };
   struct News {
     SceneRegions::Set regions = 0;
@@ -57,23 +58,23 @@ class LightSettling {
 
   /// Patches whose radiosity may be another than seen.
   struct Unheard {
-    std::vector<ElementId> patches;
+    std::vector<hierarchy::ElementId> patches;
     double change = 0, square = 0;  // of their radiosities, times area
     bool summed = true;             // whether these are up to date
   };
 
-  void follow(const Elements&);
-  void markRead(ElementId sender);
-  void learn(const LeafRow&);
+  void follow(const hierarchy::Elements&);
+  void markRead(hierarchy::ElementId sender);
+  void learn(const radiosity::LeafRow&);
   void addToBlock(std::size_t block, SceneRegions::Set);
-  void learn(ElementId surface, const Parts&, const Elements&);
-  Work firstWork(const Parts&, Elements&, const LightChanges&);
-  void addRelit(const Parts&, Elements&, std::vector<ElementId>& leaves) const;
-  void gather(const Parts&, Elements&, Work&, bool anew);
-  void listen(const Elements&, std::span<const ElementId> leaves);
-  News publish(const Elements&, double tolerated);
+  void learn(hierarchy::ElementId surface, const Parts&, const hierarchy::Elements&);
+  Work firstWork(const Parts&, hierarchy::Elements&, const LightChanges&);
+  void addRelit(const Parts&, hierarchy::Elements&, std::vector<hierarchy::ElementId>& leaves) const;
+  void gather(const Parts&, hierarchy::Elements&, Work&, bool anew);
+  void listen(const hierarchy::Elements&, std::span<const hierarchy::ElementId> leaves);
+  News publish(const hierarchy::Elements&, double tolerated);
   /// Adds news to what rows miss; returns those that it matters to. `missed`: by those that it does not, as settle().
-  Work readersOf(const News&, const Parts&, const Elements&, double tolerated, double& missed);
+  Work readersOf(const News&, const Parts&, const hierarchy::Elements&, double tolerated, double& missed);
 
   SceneRegions regions_;
   // By element.
@@ -83,7 +84,7 @@ class LightSettling {
   std::vector<SceneRegions::Set> particlesFrom_;  // of surfaces
   std::vector<char> read_;                        // rows or particles may have it for a sender
   std::vector<Rgb> seen_;                         // radiosity that is gathered
-  RowSurplus::Pools pools_;                       // of rows that gather too much, as their neighbours have heard
+  radiosity::RowSurplus::Pools pools_;            // of rows that gather too much, as their neighbours have heard
   std::vector<char> listed_;                      // in unheard_
 
   // By blocks of elements one after another: what their rows have in common.
@@ -96,4 +97,4 @@ class LightSettling {
   std::array<Unheard, kRegions> unheard_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

@@ -23,7 +23,7 @@
 #include "particles/transfer.hpp"
 #include "solution/solution.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 /// Seconds that a kind of work takes, by what it took before.
 class LearnedCost {
@@ -51,14 +51,14 @@ struct Backlog {
   RowQueue rows;             // that follow links
   int framesSinceLinks = 0;  // since links last followed, and when that was
   std::chrono::steady_clock::time_point linksFollowed = std::chrono::steady_clock::now();
-  std::vector<ElementId> reflecting;  // that were black
-  std::vector<ElementId> painted;     // input-level patches whose reflectance is another
-  std::vector<ElementId> rescaled;    // leaves that gather otherwise by that
-  bool dimmed = false;                // some light sends otherwise
-  bool afresh = false;                // only solving the scene anew helps
-  ParticleUpdate landed;              // paths traced anew since textures were last looked at, and what they were then
-  std::vector<SurfaceCaustics> textures;  // as they were when they were last looked at
-  bool frames = false;                    // some frame has been shown since
+  std::vector<hierarchy::ElementId> reflecting;  // that were black
+  std::vector<hierarchy::ElementId> painted;     // input-level patches whose reflectance is another
+  std::vector<hierarchy::ElementId> rescaled;    // leaves that gather otherwise by that
+  bool dimmed = false;                           // some light sends otherwise
+  bool afresh = false;                           // only solving the scene anew helps
+  particles::ParticleUpdate landed;  // paths traced anew since textures were last looked at, and what they were then
+  std::vector<caustics::SurfaceCaustics> textures;  // as they were when they were last looked at
+  bool frames = false;                              // some frame has been shown since
 
   LearnedCost path{3e-6};                                       // traced anew
   LearnedCost carry{0.01};                                      // what was traced taken into transfers and textures
@@ -75,11 +75,11 @@ struct Backlog {
   /// Rows have seen things where they are now.
   void addSeen(const Scene&);
   /// Adds paths traced anew; what they were first is what they were.
-  void add(const ParticleUpdate&);
+  void add(const particles::ParticleUpdate&);
 };
 
 /// What a path deposits today, gray [W, with the scene's unit squared as area].
-double deposited(const Solution&, const ParticleTransfer&, std::size_t path);
+double deposited(const Solution&, const particles::ParticleTransfer&, std::size_t path);
 
 /// One frame in so many may be longer than asked, for links to follow; and so much of the time may they take.
 inline constexpr int kFramesBetween = 25;
@@ -97,16 +97,16 @@ class TextureFlux {
   explicit TextureFlux(const Solution& s) : solution_(s), change_(s.caustics.surfaces.size(), RgbSum(0.0)) {}
 
   /// What the paths were is taken out: before `transfer` follows. What they are is put in: after.
-  void takeOut(const ParticleUpdate&, const ParticleTransfer&);
-  void putIn(const ParticleUpdate&, const ParticleTransfer&);
+  void takeOut(const particles::ParticleUpdate&, const particles::ParticleTransfer&);
+  void putIn(const particles::ParticleUpdate&, const particles::ParticleTransfer&);
   /// Multiplies the textures, of pictures as they are in `still`. Returns how many surfaces that was.
-  std::size_t apply(Caustics&, const std::vector<SurfaceCaustics>& still) const;
+  std::size_t apply(caustics::Caustics&, const std::vector<caustics::SurfaceCaustics>& still) const;
 
  private:
-  void add(const PathRange&, const Rgb& power);
+  void add(const particles::PathRange&, const Rgb& power);
 
   const Solution& solution_;
   std::vector<RgbSum> change_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

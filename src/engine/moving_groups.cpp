@@ -4,40 +4,41 @@
 
 #include "base/sort_unique.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
-void MovingGroups::separate(RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> primitives) {
+void MovingGroups::separate(tracing::RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> primitives) {
   if (primitives.empty()) return;
-  const GroupId group = groupOf(primitives[0]);
+  const tracing::GroupId group = groupOf(primitives[0]);
   const auto together = [&](PrimitiveId p) { return groupOf(p) == group; };
   const auto size = static_cast<std::size_t>(std::count(groups_.begin(), groups_.end(), group));
-  if (group != GroupId(0) && size == primitives.size() && std::all_of(primitives.begin(), primitives.end(), together))
+  if (group != tracing::GroupId(0) && size == primitives.size() &&
+      std::all_of(primitives.begin(), primitives.end(), together))
     return;
   setApart(tracer, scene, primitives);
 }
 
-void MovingGroups::setApart(RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> primitives) {
+void MovingGroups::setApart(tracing::RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> primitives) {
   if (separated_ == kMost) {
     tracer.rejoin();
     groups_.clear(), separated_ = 0;
   }
-  groups_.resize(scene.primitives.size(), GroupId(0));
-  const GroupId own = tracer.separate(primitives);
+  groups_.resize(scene.primitives.size(), tracing::GroupId(0));
+  const tracing::GroupId own = tracer.separate(primitives);
   for (const PrimitiveId p : primitives) groups_[p.index()] = own;
   ++separated_;
 }
 
-void MovingGroups::rebuild(RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> moved) {
+void MovingGroups::rebuild(tracing::RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> moved) {
   std::vector<PrimitiveId> loose;
-  std::vector<GroupId> groups;
+  std::vector<tracing::GroupId> groups;
   for (const PrimitiveId p : moved)
-    if (groupOf(p) == GroupId(0))
+    if (groupOf(p) == tracing::GroupId(0))
       loose.push_back(p);
     else
       groups.push_back(groupOf(p));
   sortUnique(groups);
-  for (const GroupId g : groups) tracer.rebuild(g);
+  for (const tracing::GroupId g : groups) tracer.rebuild(g);
   if (!loose.empty()) setApart(tracer, scene, loose);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

@@ -4,24 +4,26 @@
 // every ray. Cost: of separating, the whole scene once; then that of what moves.
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 class MovingGroups {
  public:
   /// Puts primitives into a group of their own, unless they are one.
-  void separate(RayTracer&, const Scene&, std::span<const PrimitiveId>);
+  void separate(tracing::RayTracer&, const Scene&, std::span<const PrimitiveId>);
   /// Takes in where these are now.
-  void rebuild(RayTracer&, const Scene&, std::span<const PrimitiveId> moved);
+  void rebuild(tracing::RayTracer&, const Scene&, std::span<const PrimitiveId> moved);
 
  private:
-  GroupId groupOf(PrimitiveId p) const { return p.index() < groups_.size() ? groups_[p.index()] : GroupId(0); }
+  tracing::GroupId groupOf(PrimitiveId p) const {
+    return p.index() < groups_.size() ? groups_[p.index()] : tracing::GroupId(0);
+  }
 
   static constexpr int kMost = 16;
 
-  void setApart(RayTracer&, const Scene&, std::span<const PrimitiveId>);
+  void setApart(tracing::RayTracer&, const Scene&, std::span<const PrimitiveId>);
 
-  std::vector<GroupId> groups_;  // by primitive
+  std::vector<tracing::GroupId> groups_;  // by primitive
   int separated_ = 0;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <deltalux/settings.hpp>
 
-namespace deltalux {
+namespace deltalux::engine {
 
 /// How many particles a solution asks for: their error falls with the root of their number.
 inline std::uint64_t particleCount(const SolveSettings& s) {
@@ -11,4 +11,4 @@ inline std::uint64_t particleCount(const SolveSettings& s) {
                          : static_cast<std::uint64_t>(std::clamp(kAtUnitError / (s.error * s.error), kLeast, kMost));
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

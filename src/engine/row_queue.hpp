@@ -8,21 +8,21 @@
 
 #include "radiosity/leaf_transfers.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 /// What a move of geometry asks of rows, once links have followed it.
 struct RowWork {
-  LinkMarks marks;
-  std::vector<LinkId> changed;  // topmost
-  SpaceChange space;
-  ConcernedLeaves leaves;
+  radiosity::LinkMarks marks;
+  std::vector<hierarchy::LinkId> changed;  // topmost
+  radiosity::SpaceChange space;
+  radiosity::ConcernedLeaves leaves;
 };
 
 class RowQueue {
  public:
   /// Adds the work of a move, of links as they are now. `stale`: light that is another when all rows have followed,
   /// gray [W, with the scene's unit squared as area].
-  void add(RowWork, const LeafTransfers&, const Elements&, const Links&, double stale);
+  void add(RowWork, const radiosity::LeafTransfers&, const hierarchy::Elements&, const hierarchy::Links&, double stale);
 
   bool empty() const { return waiting_.empty(); }
   /// Moves whose rows wait.
@@ -32,27 +32,27 @@ class RowQueue {
   double stale() const { return light_ > 0 ? stale_ * std::max(waitingLight_, 0.0) / light_ : 0.0; }
 
   /// The leaves that cannot wait.
-  const ConcernedLeaves& urgent() const { return urgent_; }
+  const radiosity::ConcernedLeaves& urgent() const { return urgent_; }
   /// Takes `count` of those that wait out, the brightest ones. Patches that are leaves no more are passed over.
-  ConcernedLeaves take(std::size_t count, const Elements&);
+  radiosity::ConcernedLeaves take(std::size_t count, const hierarchy::Elements&);
   /// Of all moves whose rows wait.
   const RowWork& work() const { return work_; }
 
  private:
   struct Waiting {
-    ElementId leaf;
+    hierarchy::ElementId leaf;
     bool byLights = false, byLeaves = false;
     double light = 0;
   };
 
-  void addWork(RowWork, const Links&);
-  void add(const ConcernedLeaves&, const std::vector<char>& urgent, const Elements&);
+  void addWork(RowWork, const hierarchy::Links&);
+  void add(const radiosity::ConcernedLeaves&, const std::vector<char>& urgent, const hierarchy::Elements&);
 
   RowWork work_;
-  ConcernedLeaves urgent_;
+  radiosity::ConcernedLeaves urgent_;
   std::vector<Waiting> waiting_;  // the brightest last
   int moves_ = 0;
   double stale_ = 0, light_ = 0, waitingLight_ = 0;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

@@ -5,12 +5,12 @@
 #include "base/parallel.hpp"
 #include "base/room.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
-SceneRegions::SceneRegions(const Elements& elements) {
+SceneRegions::SceneRegions(const hierarchy::Elements& elements) {
   std::vector<Vec3f> centers;
   for (std::size_t i = 0; i < elements.size(); ++i)
-    if (elements.topology[i].kind == ElementKind::Patch && elements.topology[i].childCount == 0)
+    if (elements.topology[i].kind == hierarchy::ElementKind::Patch && elements.topology[i].childCount == 0)
       centers.push_back(elements.geometry[i].center);
   split(1, centers);
   follow(elements);
@@ -33,7 +33,7 @@ void SceneRegions::split(std::size_t node, std::span<Vec3f> centers) {
   split(2 * node + 1, centers.subspan(half));
 }
 
-void SceneRegions::follow(const Elements& elements) {
+void SceneRegions::follow(const hierarchy::Elements& elements) {
   const std::size_t known = of_.size();
   resizeWithRoom(of_, elements.size());
   parallelFor(elements.size() - known, 4096, [&](std::size_t k) {
@@ -47,4 +47,4 @@ void SceneRegions::follow(const Elements& elements) {
   });
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

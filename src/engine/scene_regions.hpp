@@ -6,20 +6,20 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 class SceneRegions {
  public:
   static constexpr int kCount = 64;
   using Set = std::uint64_t;
 
-  explicit SceneRegions(const Elements&);
+  explicit SceneRegions(const hierarchy::Elements&);
 
   /// Names elements that came since.
-  void follow(const Elements&);
+  void follow(const hierarchy::Elements&);
 
-  int of(ElementId e) const { return of_[e.index()]; }
-  Set setOf(ElementId e) const { return Set(1) << of_[e.index()]; }
+  int of(hierarchy::ElementId e) const { return of_[e.index()]; }
+  Set setOf(hierarchy::ElementId e) const { return Set(1) << of_[e.index()]; }
 
  private:
   struct Split {
@@ -32,4 +32,4 @@ class SceneRegions {
   std::vector<std::uint8_t> of_;      // by element
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

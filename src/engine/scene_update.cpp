@@ -4,7 +4,7 @@
 
 #include "scene/edit/plan.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 namespace {
 
@@ -32,11 +32,11 @@ bool alike(const A&, const B&) {
 
 }  // namespace
 
-bool haveElements(const Elements& elements, const Scene& scene, const SceneUpdate& update) {
+bool haveElements(const hierarchy::Elements& elements, const Scene& scene, const SceneUpdate& update) {
   const bool nothing = update.moved.empty() && update.movedLights.empty();
   if (!elements.sceneRoot.valid()) return nothing;  // nothing was lit
   std::vector<char> has(scene.lights.size(), 0);    // by light: an element of its kind
-  for (const ElementId e : elements.inputs) {
+  for (const hierarchy::ElementId e : elements.inputs) {
     const LightId light = elements.light[e.index()];
     if (!light.valid()) continue;
     // A surface that is no more is a dark point, whose element is a patch still; and the other way round.
@@ -44,7 +44,7 @@ bool haveElements(const Elements& elements, const Scene& scene, const SceneUpdat
     if (surface == elements.isPatch(e)) has[light.index()] = 1;
   }
   return std::all_of(update.movedLights.begin(), update.movedLights.end(),
-                     [&](LightId light) { return has[light.index()] || edits::isDark(scene[light]); });
+                     [&](LightId light) { return has[light.index()] || scene::edits::isDark(scene[light]); });
 }
 
 Restore applyInto(SceneUpdate& update, Scene& scene, const Edit& edit) {
@@ -67,4 +67,4 @@ Restore applyInto(SceneUpdate& update, Scene& scene, const Edit& edit) {
   return applied.inverse;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

@@ -5,7 +5,7 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 struct SceneUpdate {
   SceneChange whole;  // of all edits, one after the other
@@ -20,9 +20,9 @@ struct SceneUpdate {
 
 /// Whether all lights of the edits have elements to send from: new ones have none. Surfaces can get theirs
 /// (growth.hpp).
-bool haveElements(const Elements&, const Scene&, const SceneUpdate&);
+bool haveElements(const hierarchy::Elements&, const Scene&, const SceneUpdate&);
 
 /// Applies the edit, adds what it did, and returns its inverse.
 Restore applyInto(SceneUpdate&, Scene&, const Edit&);
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

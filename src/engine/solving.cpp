@@ -29,7 +29,7 @@ constexpr int kMaxIterations = 64;
 }  // namespace
 
 SolveReport Engine::State::step(Progress* progress) {
-  const Clock time;
+  const engine::Clock time;
   Solution& s = *solution;
   if (!s.elements.sceneRoot.valid() && s.elements.size() == 0) prepare(progress);
   if (s.elements.sceneRoot.valid())
@@ -42,17 +42,17 @@ SolveReport Engine::State::step(Progress* progress) {
 
 void Engine::State::prepare(Progress* progress) {
   Solution& s = *solution;
-  const Clock time;
-  CoarseReport coarse;
-  auto sides = coarseSolution(s.scene, *s.tracer, &coarse);
+  const engine::Clock time;
+  radiosity::CoarseReport coarse;
+  auto sides = radiosity::coarseSolution(s.scene, *s.tracer, &coarse);
   trace();
-  addReachedSides(sides, s.particles, s.scene, *s.tracer);
-  s.elements = buildElements(s.scene, sides);
-  pull(s.elements);
+  particles::addReachedSides(sides, s.particles, s.scene, *s.tracer);
+  s.elements = hierarchy::buildElements(s.scene, sides);
+  radiosity::pull(s.elements);
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.counts.raysVisibility += coarse.rays;
   s.report.times.hierarchy += time.seconds() - s.report.times.particles;
-  budget = TimeBudget(s.settings.seconds, clock.seconds());
+  budget = engine::TimeBudget(s.settings.seconds, clock.seconds());
   nextError = s.settings.error * kFirstError * (budget.limited() ? kHasty : 1.0);
   if (progress) progress->report("hierarchy", 1.0);
 }
@@ -60,8 +60,8 @@ void Engine::State::prepare(Progress* progress) {
 void Engine::State::trace() {
   Solution& s = *solution;
   if (s.settings.diffuseOnly) return;
-  const Clock time;
-  tracing.emplace(s.scene, *s.tracer, ParticleSettings{particleCount(s.settings), s.settings.seed});
+  const engine::Clock time;
+  tracing.emplace(s.scene, *s.tracer, particles::ParticleSettings{engine::particleCount(s.settings), s.settings.seed});
   s.particles = tracing->trace();
   DELTALUX_VALIDATED(validate(s.particles, s.scene));
   s.report.times.particles += time.seconds();
@@ -81,28 +81,30 @@ void Engine::State::countParticles() {
 
 void Engine::State::round(Progress* progress) {
   Solution& s = *solution;
-  OracleSettings oracle;
-  const double least = s.settings.error * kLastError;
+  radiosity::OracleSettings oracle;
+  const double least = s.settings.error * engine::kLastError;
   oracle.error = std::max(nextError, least);
   const bool last = oracle.error <= least;
-  const RefineReport refined = refineLinks(oracle, progress);
+  const radiosity::RefineReport refined = refineLinks(oracle, progress);
 
-  const SurfaceSides shown = chooseTextures();
-  const Clock placing;
-  subdivideForParticles(s.elements, s.scene, s.particles, shown);
+  const caustics::SurfaceSides shown = chooseTextures();
+  const engine::Clock placing;
+  particles::subdivideForParticles(s.elements, s.scene, s.particles, shown);
   s.report.times.particles += placing.seconds();
 
-  const Clock gathering;
+  const engine::Clock gathering;
   bool settled = settle(progress);
-  LeafTransferSettings leaves;
+  radiosity::LeafTransferSettings leaves;
   leaves.error = s.settings.error;
   nextError = std::max(least, oracle.error * kErrorFactor);
   bool whole = true;
   if (budget.limited()) {
-    const double needed = leafRoundSeconds(s.elements, s.links, s.scene, *s.tracer, leaves), left = budget.left();
-    nextError = budget.reach(LinkErrors(s.links, s.elements, oracle), oracle.error, nextError, left - needed);
+    const double needed = engine::leafRoundSeconds(s.elements, s.links, s.scene, *s.tracer, leaves),
+                 left = budget.left();
+    nextError =
+        budget.reach(radiosity::LinkErrors(s.links, s.elements, oracle), oracle.error, nextError, left - needed);
     whole = needed <= left;
-    leaves = shrunk(leaves, needed, left);
+    leaves = engine::shrunk(leaves, needed, left);
   }
   finished = last || refined.stopped || !(nextError < oracle.error);
   if (finished) settled = resolve(leaves, progress);
@@ -113,11 +115,12 @@ void Engine::State::round(Progress* progress) {
   s.report.converged = settled && whole && last && !refined.stopped;
 }
 
-RefineReport Engine::State::refineLinks(const OracleSettings& oracle, Progress* progress) {
+radiosity::RefineReport Engine::State::refineLinks(const radiosity::OracleSettings& oracle, Progress* progress) {
   Solution& s = *solution;
-  const double predicted = budget.limited() ? LinkErrors(s.links, s.elements, oracle).madeBy(oracle.error) : 0;
-  const Clock time;
-  const RefineReport refined = refine(s.links, s.elements, s.scene, *s.tracer, oracle, [&] {
+  const double predicted =
+      budget.limited() ? radiosity::LinkErrors(s.links, s.elements, oracle).madeBy(oracle.error) : 0;
+  const engine::Clock time;
+  const radiosity::RefineReport refined = radiosity::refine(s.links, s.elements, s.scene, *s.tracer, oracle, [&] {
     if (progress && progress->stopRequested()) throw Interrupted();
     return budget.limited() && budget.left() < 0;
   });
@@ -130,23 +133,23 @@ RefineReport Engine::State::refineLinks(const OracleSettings& oracle, Progress* 
   return refined;
 }
 
-SurfaceSides Engine::State::chooseTextures() {
+caustics::SurfaceSides Engine::State::chooseTextures() {
   Solution& s = *solution;
   if (s.particles.impacts() == 0 || !s.settings.causticTextures)
-    return SurfaceSides(2 * s.scene.primitives.size(), false);
-  const Clock time;
-  SurfaceSides sides =
-      sidesWithTextures(s.scene, s.elements, impacts(s.particles, s.elements, s.scene), s.settings.error);
+    return caustics::SurfaceSides(2 * s.scene.primitives.size(), false);
+  const engine::Clock time;
+  caustics::SurfaceSides sides = caustics::sidesWithTextures(
+      s.scene, s.elements, particles::impacts(s.particles, s.elements, s.scene), s.settings.error);
   s.report.times.textures += time.seconds();
   return sides;
 }
 
 void Engine::State::makeTextures() {
   Solution& s = *solution;
-  const Clock time;
-  std::vector<Impact> landed;
-  if (s.settings.causticTextures) landed = impacts(s.particles, s.elements, s.scene);
-  s.caustics = makeCaustics(s.scene, s.elements, std::move(landed), s.settings.error);
+  const engine::Clock time;
+  std::vector<particles::Impact> landed;
+  if (s.settings.causticTextures) landed = particles::impacts(s.particles, s.elements, s.scene);
+  s.caustics = caustics::makeCaustics(s.scene, s.elements, std::move(landed), s.settings.error);
   DELTALUX_VALIDATED(validate(s.caustics));
   s.report.times.textures += time.seconds();
   countTextures();
@@ -161,14 +164,14 @@ void Engine::State::countTextures() {
 
 bool Engine::State::settle(Progress* progress) {
   Solution& s = *solution;
-  const GatherPlan plan(s.links, s.elements);
+  const radiosity::GatherPlan plan(s.links, s.elements);
   plan.gatherDirect(s.elements);
-  const ParticleTransfer onMesh(s.particles, s.elements, s.scene);
+  const particles::ParticleTransfer onMesh(s.particles, s.elements, s.scene);
   RgbSum emitted(0.0);
   for (int i = 0; i < kMaxIterations; ++i) {
     plan.gatherIndirect(s.elements);
     onMesh.apply(s.elements, s.scene);
-    unsettled = pushPull(s.elements);
+    unsettled = radiosity::pushPull(s.elements);
     ++s.report.counts.iterations;
     emitted = directPower();
     if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
@@ -179,7 +182,7 @@ bool Engine::State::settle(Progress* progress) {
 
 void Engine::State::solveAfresh(Progress* progress) {
   Solution& s = *solution;
-  s.tracer = makeEmbreeTracer(s.scene);
+  s.tracer = tracing::makeEmbreeTracer(s.scene);
   tracing.reset(), transfer.reset(), upkeep.reset(), settling.reset(), backlog = {}, groups = {};
   s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.caustics = {}, s.report = {};
   finished = false;
@@ -187,11 +190,11 @@ void Engine::State::solveAfresh(Progress* progress) {
   while (!finished) step(progress);
 }
 
-bool Engine::State::resolve(const LeafTransferSettings& settings, Progress* progress) {
+bool Engine::State::resolve(const radiosity::LeafTransferSettings& settings, Progress* progress) {
   Solution& s = *solution;
   transfer.reset(), settling.reset(), upkeep.reset();  // of the rows and the mesh that there were
-  creditLights(s.elements);
-  const LeafTransferReport r = s.transfers.build(s.elements, s.links, s.scene, *s.tracer, settings);
+  radiosity::creditLights(s.elements);
+  const radiosity::LeafTransferReport r = s.transfers.build(s.elements, s.links, s.scene, *s.tracer, settings);
   s.report.counts.raysVisibility += r.rays;
   s.sampledScale.clear();
   for (const Light& light : s.scene.lights) s.sampledScale.push_back(light.scale);
@@ -204,8 +207,8 @@ bool Engine::State::resolve(const LeafTransferSettings& settings, Progress* prog
 /// first update would be left to settle that.
 void Engine::State::settleCorners() {
   Solution& s = *solution;
-  settling.emplace(LightSettling::Parts{s.scene, s.transfers, *transfer}, s.elements);
-  LightChanges all;
+  settling.emplace(engine::LightSettling::Parts{s.scene, s.transfers, *transfer}, s.elements);
+  engine::LightChanges all;
   all.rows = s.transfers.leaves();
   settleOver(all);
 }
@@ -213,24 +216,24 @@ void Engine::State::settleCorners() {
 bool Engine::State::settleRows(Progress* progress) {
   Solution& s = *solution;
   s.transfers.gatherDirect(s.elements);
-  pull(s.elements);
+  radiosity::pull(s.elements);
   const RgbSum emitted = directPower();
   if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
-  for (int i = 0; i < kMaxRowIterations; ++i) {
+  for (int i = 0; i < engine::kMaxRowIterations; ++i) {
     s.transfers.gatherIndirect(s.elements);
     transfer->apply(s.elements, s.scene);
-    unsettled = pull(s.elements);
+    unsettled = radiosity::pull(s.elements);
     ++s.report.counts.iterations;
     if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
-    if (gray(unsettled) <= kSettledWell * gray(emitted)) break;
+    if (gray(unsettled) <= engine::kSettledWell * gray(emitted)) break;
   }
-  return gray(unsettled) <= kSettledRows * gray(emitted);
+  return gray(unsettled) <= engine::kSettledRows * gray(emitted);
 }
 
 RgbSum Engine::State::directPower() const {
-  const Elements& e = solution->elements;
+  const hierarchy::Elements& e = solution->elements;
   return parallelSum<RgbSum>(e.inputs.size(), 4096, [&](std::size_t i) {
-    const ElementId input = e.inputs[i];
+    const hierarchy::ElementId input = e.inputs[i];
     return e.receives(input) ? double(e.shape(input).litArea()) * RgbSum(e.radiometry[input.index()].direct)
                              : RgbSum(0.0);
   });
@@ -240,16 +243,16 @@ void Engine::State::count() {
   Solution& s = *solution;
   if (finished) {
     if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
-    s.report.energy = energyBalance(s, *transfer, unsettled);
+    s.report.energy = engine::energyBalance(s, *transfer, unsettled);
   }
   WorkCounts& c = s.report.counts;
   c.elements = s.elements.size();
   c.leafElements = 0;
   for (std::size_t i = 0; i < s.elements.size(); ++i)
-    c.leafElements += solution->elements.isReceivingLeaf(ElementId(i));
+    c.leafElements += solution->elements.isReceivingLeaf(hierarchy::ElementId(i));
   c.links = s.links.size();
   s.report.activeLinks = 0;
-  for (const Link& l : s.links.all) s.report.activeLinks += l.state == LinkState::Active;
+  for (const hierarchy::Link& l : s.links.all) s.report.activeLinks += l.state == hierarchy::LinkState::Active;
   s.report.memory.elements = s.elements.memoryBytes();
   s.report.memory.links = s.links.memoryBytes() + s.transfers.memoryBytes();
   s.report.memory.octree = tracing ? tracing->watchBytes() : 0;

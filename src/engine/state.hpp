@@ -23,7 +23,7 @@
 #include "radiosity/refine.hpp"
 #include "solution/solution.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 constexpr double kLastError = 20.0;    // of the links, relative to the target: the rest the leaves' own samples resolve
 constexpr double kSettledRows = 1e-4;  // unsettled power over rows, relative to emitted
@@ -40,21 +40,25 @@ class Clock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+}  // namespace deltalux::engine
+
+namespace deltalux {
+
 struct Engine::State {
   std::shared_ptr<Solution> solution = std::make_shared<Solution>();
   double nextError = 0;   // of the next round
   bool finished = false;  // the last round has run
-  Clock clock;
-  TimeBudget budget{0};
-  SceneUpdate pending;                       // edits since the last update
-  std::optional<ParticleTracing> tracing;    // knows the scene that the particles are of
-  RgbSum unsettled{0.0};                     // power that the last iteration of rows changed
-  bool counted = true;                       // the report is of the solution as it is
-  std::optional<LightSettling> settling;     // from update to update
-  std::optional<ParticleTransfer> transfer;  // of the particles, on the mesh of the rows
-  std::optional<TextureUpkeep> upkeep;       // of the textures, once there are edits
-  Backlog backlog;                           // what edits that were taken in have still to do
-  MovingGroups groups;                       // of the tracer
+  engine::Clock clock;
+  engine::TimeBudget budget{0};
+  engine::SceneUpdate pending;                          // edits since the last update
+  std::optional<particles::ParticleTracing> tracing;    // knows the scene that the particles are of
+  RgbSum unsettled{0.0};                                // power that the last iteration of rows changed
+  bool counted = true;                                  // the report is of the solution as it is
+  std::optional<engine::LightSettling> settling;        // from update to update
+  std::optional<particles::ParticleTransfer> transfer;  // of the particles, on the mesh of the rows
+  std::optional<caustics::TextureUpkeep> upkeep;        // of the textures, once there are edits
+  engine::Backlog backlog;                              // what edits that were taken in have still to do
+  engine::MovingGroups groups;                          // of the tracer
 
   // Solving.
   SolveReport step(Progress* progress);
@@ -63,56 +67,56 @@ struct Engine::State {
   void trace();
   void countParticles();
   void round(Progress* progress);
-  RefineReport refineLinks(const OracleSettings& oracle, Progress* progress);
+  radiosity::RefineReport refineLinks(const radiosity::OracleSettings& oracle, Progress* progress);
   /// Sides whose particles textures would show by the light there is: their mesh need not. [GD01 3]
-  SurfaceSides chooseTextures();
+  caustics::SurfaceSides chooseTextures();
   /// Of the light in the end, as updates judge it.
   void makeTextures();
   void countTextures();
-  /// Gathers until the light no longer changes. [algorithm 3]
+  /// Gathers until the light no longer changes.
   bool settle(Progress* progress);
   /// There is no place in the trees for what was not there.
   void solveAfresh(Progress* progress);
   /// The links' transfers resolved to leaves, and settled again.
-  bool resolve(const LeafTransferSettings& settings, Progress* progress);
+  bool resolve(const radiosity::LeafTransferSettings& settings, Progress* progress);
   /// Gathers over rows, from the light there is, until it no longer changes.
   bool settleRows(Progress* progress);
   void settleCorners();
   RgbSum directPower() const;
   /// Sums that take a walk over everything, for who looks at the report.
   void count();
-  LeafTransferSettings leafSettings() const {
-    LeafTransferSettings settings;
+  radiosity::LeafTransferSettings leafSettings() const {
+    radiosity::LeafTransferSettings settings;
     settings.error = solution->settings.error;
     return settings;
   }
 
   // Updating.
   struct Motion {
-    SpaceChange all;                // bounds before and after
-    std::vector<ElementId> inputs;  // of what moves
-    LinkMarks marks;
-    LightChanges light;
+    radiosity::SpaceChange all;                // bounds before and after
+    std::vector<hierarchy::ElementId> inputs;  // of what moves
+    radiosity::LinkMarks marks;
+    engine::LightChanges light;
   };
   /// What a fresh solve would make of the edited scene, from the solution there is. [GD01 5]
   StepReport update(Progress* progress);
   /// What moves, and sides that come into the light by it.
-  RowWork arriveInLight(const SceneUpdate& edits, Motion& motion, bool split, StepReport& step);
+  engine::RowWork arriveInLight(const engine::SceneUpdate& edits, Motion& motion, bool split, StepReport& step);
   /// Edits reach the scene's emission, the tracer, and the lists of what has to follow.
   void takeIn(StepReport& step, bool inMotion = false);
   /// Whether a light is so much brighter than when links were refined and rows sampled that it needs its own.
-  bool outshines(const SceneUpdate& edits) const;
+  bool outshines(const engine::SceneUpdate& edits) const;
   /// Retraces particles that edits have touched: `count` of those that wait. [GD01 4]
-  ParticleUpdate followWithParticles(std::size_t count, StepReport& step);
+  particles::ParticleUpdate followWithParticles(std::size_t count, StepReport& step);
   /// Where light of particles is new. It is sent on from where it lies, so the mesh must know.
   bool subdivideWhereParticlesLanded(StepReport& step);
   /// On the mesh as it is now.
-  void placeParticles(const ParticleUpdate& followed, LightChanges&, StepReport& step);
-  void spreadParticlesAnew(LightChanges&);
+  void placeParticles(const particles::ParticleUpdate& followed, engine::LightChanges&, StepReport& step);
+  void spreadParticlesAnew(engine::LightChanges&);
   /// Elements for what the edits brought into the light.
-  Growth grow(const SceneUpdate& edits, const ParticleUpdate& followed, StepReport& step);
+  engine::Growth grow(const engine::SceneUpdate& edits, const particles::ParticleUpdate& followed, StepReport& step);
   /// Paths that were traced anew leave gaps.
-  bool gapsAreMany(double most = kMostGaps) const;
+  bool gapsAreMany(double most = engine::kMostGaps) const;
   void closeGaps();
   /// Makes the textures anew whose light has changed.
   void followWithTextures(StepReport& step);
@@ -121,21 +125,22 @@ struct Engine::State {
   void prepareToFollow();
   /// Emission and reflectance of what stays where it was. Returns what was black and reflects now: links took it for no
   /// sender.
-  std::vector<ElementId> relight(const SceneUpdate& edits);
+  std::vector<hierarchy::ElementId> relight(const engine::SceneUpdate& edits);
   /// What moves leaves its place: the links that it touches there, and the shapes of its elements.
-  Motion leave(const SceneUpdate& edits, StepReport& step);
+  Motion leave(const engine::SceneUpdate& edits, StepReport& step);
   /// It comes to its new place, and what has grown in the light with it: links follow. Returns what rows have to do.
-  RowWork arrive(Motion& motion, const Growth& growth, StepReport& step);
+  engine::RowWork arrive(Motion& motion, const engine::Growth& growth, StepReport& step);
   /// Makes rows of these leaves anew. Returns the leaves whose rows are others.
-  std::vector<ElementId> renewRows(const RowWork& work, const ConcernedLeaves& leaves, StepReport& step);
+  std::vector<hierarchy::ElementId> renewRows(const engine::RowWork& work, const radiosity::ConcernedLeaves& leaves,
+                                              StepReport& step);
   /// Rows that wait from before follow all at once.
-  std::vector<ElementId> renewWaitingRows(StepReport& step);
+  std::vector<hierarchy::ElementId> renewWaitingRows(StepReport& step);
   /// Hands on what has changed, where light was settled before; all light otherwise.
-  void settleAfter(const LightChanges&, Progress* progress);
+  void settleAfter(const engine::LightChanges&, Progress* progress);
   /// What leaves fail to reflect then [W, gray].
-  double settleOver(const LightChanges&);
+  double settleOver(const engine::LightChanges&);
   /// Nobody traces now, and who holds the solution holds the engine's tracer.
-  RayTracer& tracer() { return *std::const_pointer_cast<RayTracer>(solution->tracer); }
+  tracing::RayTracer& tracer() { return *std::const_pointer_cast<tracing::RayTracer>(solution->tracer); }
 
   // Frames of motion.
   using SecondsLeft = std::function<double()>;
@@ -148,7 +153,7 @@ struct Engine::State {
   void followWithRows(const SecondsLeft& left, StepReport& step);
   /// Traces those that deposit the most anew, as many as there is time for, and carries their light along.
   void followInPart(const SecondsLeft& left, StepReport& step);
-  void carryTextures(TextureFlux& textures, const ParticleUpdate& followed);
+  void carryTextures(engine::TextureFlux& textures, const particles::ParticleUpdate& followed);
   /// Brings the particles' light to the elements, and hands on light as often as there is time for.
   void iterate(const SecondsLeft& left, StepReport& step);
   /// Gives an object a place of its own in the tracer, and makes ready what updates need to know.

@@ -7,7 +7,7 @@
 #include "radiosity/direct_sampler.hpp"
 #include "radiosity/indirect_sampler.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 namespace {
 
@@ -23,7 +23,7 @@ void TimeBudget::learn(double seconds, double predicted, double made) {
   if (predicted > 0) trust_ = std::clamp(made / predicted, 0.05, 20.0);
 }
 
-double TimeBudget::reach(const LinkErrors& errors, double from, double least, double seconds) const {
+double TimeBudget::reach(const radiosity::LinkErrors& errors, double from, double least, double seconds) const {
   double error = from;
   while (error > least) {
     const double next = std::max(least, error * kStep);
@@ -33,20 +33,20 @@ double TimeBudget::reach(const LinkErrors& errors, double from, double least, do
   return error;
 }
 
-double leafRoundSeconds(const Elements& elements, const Links& links, const Scene& scene, const RayTracer& tracer,
-                        const LeafTransferSettings& settings) {
-  std::vector<ElementId> leaves;
+double leafRoundSeconds(const hierarchy::Elements& elements, const hierarchy::Links& links, const Scene& scene,
+                        const tracing::RayTracer& tracer, const radiosity::LeafTransferSettings& settings) {
+  std::vector<hierarchy::ElementId> leaves;
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (elements.isReceivingLeaf(ElementId(i))) leaves.push_back(ElementId(i));
+    if (elements.isReceivingLeaf(hierarchy::ElementId(i))) leaves.push_back(hierarchy::ElementId(i));
   }
   if (leaves.empty()) return 0;
-  const DirectSampler direct(scene, elements, links, tracer);
-  const IndirectSampler indirect(scene, elements, links, tracer);
-  const GatherRays gatherRays(settings, leaves.size(), meanOf(leaves, elements));
+  const radiosity::DirectSampler direct(scene, elements, links, tracer);
+  const radiosity::IndirectSampler indirect(scene, elements, links, tracer);
+  const radiosity::GatherRays gatherRays(settings, leaves.size(), radiosity::meanOf(leaves, elements));
   const std::size_t n = std::min(kSampled, leaves.size());
   const auto start = std::chrono::steady_clock::now();
   parallelFor(n, 4, [&](std::size_t i) {
-    const ElementId leaf = leaves[i * leaves.size() / n];
+    const hierarchy::ElementId leaf = leaves[i * leaves.size() / n];
     direct.at(leaf, settings.shadowRays);
     std::uint64_t traced = 0;
     indirect.atLeaf(leaf, gatherRays.of(leaf, elements), traced);
@@ -55,7 +55,7 @@ double leafRoundSeconds(const Elements& elements, const Links& links, const Scen
   return kSplitting * seconds * static_cast<double>(leaves.size()) / static_cast<double>(n);
 }
 
-LeafTransferSettings shrunk(LeafTransferSettings settings, double needed, double seconds) {
+radiosity::LeafTransferSettings shrunk(radiosity::LeafTransferSettings settings, double needed, double seconds) {
   if (needed <= seconds) return settings;
   const double share = std::max(kFewestRays, seconds / needed);
   settings.shadowRays = static_cast<int>(settings.shadowRays * share);
@@ -65,4 +65,4 @@ LeafTransferSettings shrunk(LeafTransferSettings settings, double needed, double
   return settings;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

@@ -7,7 +7,7 @@
 #include "radiosity/leaf_transfers.hpp"
 #include "radiosity/link_errors.hpp"
 
-namespace deltalux {
+namespace deltalux::engine {
 
 class TimeBudget {
  public:
@@ -24,7 +24,7 @@ class TimeBudget {
   /// What a round that is predicted to make so many links takes. [s]
   double cost(double predicted) const { return secondsPerLink_ * trust_ * predicted; }
   /// The least error from `least` up to that a round can aim at in `seconds`; `from` when none below it can.
-  double reach(const LinkErrors&, double from, double least, double seconds) const;
+  double reach(const radiosity::LinkErrors&, double from, double least, double seconds) const;
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -34,9 +34,10 @@ class TimeBudget {
 };
 
 /// Time for the leaves' round [s], measured on a few of them.
-double leafRoundSeconds(const Elements&, const Links&, const Scene&, const RayTracer&, const LeafTransferSettings&);
+double leafRoundSeconds(const hierarchy::Elements&, const hierarchy::Links&, const Scene&, const tracing::RayTracer&,
+                        const radiosity::LeafTransferSettings&);
 
 /// The same round with as few rays as fit into `seconds`, when all take `needed`.
-LeafTransferSettings shrunk(LeafTransferSettings, double needed, double seconds);
+radiosity::LeafTransferSettings shrunk(radiosity::LeafTransferSettings, double needed, double seconds);
 
-}  // namespace deltalux
+}  // namespace deltalux::engine

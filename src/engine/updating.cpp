@@ -13,7 +13,7 @@
 namespace deltalux {
 
 StepReport Engine::State::update(Progress* progress) {
-  const Clock time;
+  const engine::Clock time;
   StepReport step;
   takeIn(step);
   if (backlog.afresh) {
@@ -21,13 +21,13 @@ StepReport Engine::State::update(Progress* progress) {
     step.times.total = time.seconds();
     return step;
   }
-  const std::vector<ElementId> waited = renewWaitingRows(step);
-  const SceneUpdate edits = std::exchange(backlog.links, {});
+  const std::vector<hierarchy::ElementId> waited = renewWaitingRows(step);
+  const engine::SceneUpdate edits = std::exchange(backlog.links, {});
   Motion motion = leave(edits, step);
-  ParticleUpdate followed;
+  particles::ParticleUpdate followed;
   if (tracing) followed = followWithParticles(tracing->waiting().size(), step);
   const bool split = subdivideWhereParticlesLanded(step);
-  const RowWork work = arriveInLight(edits, motion, split, step);
+  const engine::RowWork work = arriveInLight(edits, motion, split, step);
   for (const auto& rows : {renewRows(work, work.leaves, step), waited})
     motion.light.rows.insert(motion.light.rows.end(), rows.begin(), rows.end());
   // Frames may have found origins on what had moved where its elements did not stand yet.
@@ -35,10 +35,10 @@ StepReport Engine::State::update(Progress* progress) {
   placeParticles(followed, motion.light, step);
   motion.light.lights = std::exchange(backlog.dimmed, false);
   motion.light.painted = std::exchange(backlog.painted, {});
-  const std::vector<ElementId> rescaled = std::exchange(backlog.rescaled, {});
+  const std::vector<hierarchy::ElementId> rescaled = std::exchange(backlog.rescaled, {});
   motion.light.rows.insert(motion.light.rows.end(), rescaled.begin(), rescaled.end());
   spreadParticlesAnew(motion.light);
-  const Clock gathering;
+  const engine::Clock gathering;
   settleAfter(motion.light, progress);
   step.times.gather += gathering.seconds();
   followWithTextures(step);
@@ -48,46 +48,48 @@ StepReport Engine::State::update(Progress* progress) {
   return step;
 }
 
-RowWork Engine::State::arriveInLight(const SceneUpdate& edits, Motion& motion, bool split, StepReport& step) {
-  Growth growth = grow(edits, backlog.landed, step);
-  const std::vector<ElementId> reflecting = std::exchange(backlog.reflecting, {});
+engine::RowWork Engine::State::arriveInLight(const engine::SceneUpdate& edits, Motion& motion, bool split,
+                                             StepReport& step) {
+  engine::Growth growth = grow(edits, backlog.landed, step);
+  const std::vector<hierarchy::ElementId> reflecting = std::exchange(backlog.reflecting, {});
   growth.woken.insert(growth.woken.end(), reflecting.begin(), reflecting.end());
-  motion.light.rows = leavesBelow(solution->elements, growth);
+  motion.light.rows = engine::leavesBelow(solution->elements, growth);
   if (!split && motion.marks.changes.empty() && growth.empty()) return {};
   return arrive(motion, growth, step);
 }
 
 void Engine::State::takeIn(StepReport& step, bool inMotion) {
-  const SceneUpdate edits = std::exchange(pending, {});
+  const engine::SceneUpdate edits = std::exchange(pending, {});
   step.op = edits.op, step.object = edits.subject;
-  backlog.afresh |= !haveElements(solution->elements, solution->scene, edits) || outshines(edits);
+  backlog.afresh |= !engine::haveElements(solution->elements, solution->scene, edits) || outshines(edits);
   if (backlog.afresh) return;
   backlog.dimmed |= !edits.dimmed.empty();
-  const std::vector<ElementId> reflecting = relight(edits);
+  const std::vector<hierarchy::ElementId> reflecting = relight(edits);
   backlog.reflecting.insert(backlog.reflecting.end(), reflecting.begin(), reflecting.end());
   std::vector<PrimitiveId> moved;
   for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
   groups.rebuild(tracer(), solution->scene, moved);
   backlog.add(edits);
   if (!tracing) return;
-  const Clock time;
-  ParticleTracing::Worth worth;
-  if (inMotion) worth = [&](std::size_t path) { return deposited(*solution, *transfer, path); };
+  const engine::Clock time;
+  particles::ParticleTracing::Worth worth;
+  if (inMotion) worth = [&](std::size_t path) { return engine::deposited(*solution, *transfer, path); };
   tracing->note(solution->particles, edits.whole, worth);
   step.times.particles += time.seconds();
 }
 
-bool Engine::State::outshines(const SceneUpdate& edits) const {
+bool Engine::State::outshines(const engine::SceneUpdate& edits) const {
   const Solution& s = *solution;
   return std::any_of(edits.dimmed.begin(), edits.dimmed.end(), [&](LightId light) {
     return light.index() >= s.sampledScale.size() ||  // it was not there
-           gray(s.scene[light].scale) > kBrighter * gray(s.sampledScale[light.index()]);
+           gray(s.scene[light].scale) > radiosity::kBrighter * gray(s.sampledScale[light.index()]);
   });
 }
 
-Growth Engine::State::grow(const SceneUpdate& edits, const ParticleUpdate& followed, StepReport& step) {
-  const Clock time;
-  const Growth growth = growInLight(*solution, edits, followed);
+engine::Growth Engine::State::grow(const engine::SceneUpdate& edits, const particles::ParticleUpdate& followed,
+                                   StepReport& step) {
+  const engine::Clock time;
+  const engine::Growth growth = engine::growInLight(*solution, edits, followed);
   DELTALUX_VALIDATED(validate(solution->elements));
   step.times.hierarchy = time.seconds();
   return growth;
@@ -95,24 +97,27 @@ Growth Engine::State::grow(const SceneUpdate& edits, const ParticleUpdate& follo
 
 Restore Engine::State::apply(const Edit& edit) {
   if (pending.empty() && !backlog.frames) prepareToFollow();
-  return applyInto(pending, solution->scene, edit);
+  return engine::applyInto(pending, solution->scene, edit);
 }
 
 void Engine::State::prepareToFollow() {
   Solution& s = *solution;
   if (!finished) return;
   if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
-  if (!settling) settling.emplace(LightSettling::Parts{s.scene, s.transfers, *transfer}, s.elements);
+  if (!settling) settling.emplace(engine::LightSettling::Parts{s.scene, s.transfers, *transfer}, s.elements);
   if (s.settings.diffuseOnly) return;
-  if (!tracing) tracing.emplace(s.scene, *s.tracer, ParticleSettings{particleCount(s.settings), s.settings.seed});
+  if (!tracing)
+    tracing.emplace(s.scene, *s.tracer,
+                    particles::ParticleSettings{engine::particleCount(s.settings), s.settings.seed});
   if (upkeep || !s.settings.causticTextures) return;
-  upkeep.emplace(TextureUpkeep::Parts{s.scene, s.elements, s.particles}, *transfer, s.settings.error);
+  upkeep.emplace(caustics::TextureUpkeep::Parts{s.scene, s.elements, s.particles}, *transfer, s.settings.error);
 }
 
-std::vector<ElementId> Engine::State::relight(const SceneUpdate& edits) {
+std::vector<hierarchy::ElementId> Engine::State::relight(const engine::SceneUpdate& edits) {
   Solution& s = *solution;
-  std::vector<ElementId> reflecting;
-  for (const ElementId e : elementsOf(s.elements, edits.dimmed)) setEmission(s.elements, s.scene, e);
+  std::vector<hierarchy::ElementId> reflecting;
+  for (const hierarchy::ElementId e : hierarchy::elementsOf(s.elements, edits.dimmed))
+    hierarchy::setEmission(s.elements, s.scene, e);
   for (const LightId light : edits.movedLights)
     if (Rgb& sampled = s.sampledScale[light.index()]; gray(s.scene[light].scale) > gray(sampled))
       sampled = s.scene[light].scale;
@@ -123,24 +128,24 @@ std::vector<ElementId> Engine::State::relight(const SceneUpdate& edits) {
         edits.materials.end())
       repainted.emplace_back(i);
   const std::size_t known = backlog.painted.size();
-  for (const ElementId e : elementsOf(s.elements, repainted)) {
+  for (const hierarchy::ElementId e : hierarchy::elementsOf(s.elements, repainted)) {
     if (s.elements.at(e).emitter) continue;
     backlog.painted.push_back(e);
-    const ElementLight& l = s.elements.radiometry[e.index()];
+    const hierarchy::ElementLight& l = s.elements.radiometry[e.index()];
     const bool wasBlack = isBlack(l.rho) && isBlack(l.tau);
-    setReflectance(s.elements, s.scene, e);
+    hierarchy::setReflectance(s.elements, s.scene, e);
     if (wasBlack && !(isBlack(l.rho) && isBlack(l.tau))) reflecting.push_back(e);
   }
   s.transfers.followReflectance(s.elements, std::span(backlog.painted).subspan(known), backlog.rescaled);
   return reflecting;
 }
 
-Engine::State::Motion Engine::State::leave(const SceneUpdate& edits, StepReport& step) {
+Engine::State::Motion Engine::State::leave(const engine::SceneUpdate& edits, StepReport& step) {
   Solution& s = *solution;
-  const Clock time;
+  const engine::Clock time;
   Motion motion;
   std::vector<PrimitiveId> primitives;
-  SpaceChange before, after;
+  radiosity::SpaceChange before, after;
   for (const SceneChange::Moved& m : edits.moved) {
     primitives.push_back(m.primitive);
     before.add(m.before), motion.all.add(m.before);
@@ -148,45 +153,46 @@ Engine::State::Motion Engine::State::leave(const SceneUpdate& edits, StepReport&
   }
   for (const PrimitiveId id : primitives)
     if (const Box box = bounds(s.scene[id].shape); !box.empty()) after.add(box), motion.all.add(box);
-  motion.inputs = elementsOf(s.elements, primitives);
-  const std::vector<ElementId> lights = elementsOf(s.elements, edits.movedLights);
+  motion.inputs = hierarchy::elementsOf(s.elements, primitives);
+  const std::vector<hierarchy::ElementId> lights = hierarchy::elementsOf(s.elements, edits.movedLights);
   motion.inputs.insert(motion.inputs.end(), lights.begin(), lights.end());
   motion.all.addMoved(motion.inputs, s.elements, s.scene);
   if (primitives.empty() && motion.inputs.empty()) return motion;
   motion.all.findHidden(s.elements, s.scene);
-  motion.marks = LineSpace(s.links, s.elements, s.scene, motion.all, before, after).visit();
-  reshape(s.elements, s.scene, motion.inputs);
-  if (!lights.empty()) creditLights(s.elements);
+  motion.marks = radiosity::LineSpace(s.links, s.elements, s.scene, motion.all, before, after).visit();
+  hierarchy::reshape(s.elements, s.scene, motion.inputs);
+  if (!lights.empty()) radiosity::creditLights(s.elements);
   step.times.visibility = time.seconds();
   return motion;
 }
 
-RowWork Engine::State::arrive(Motion& motion, const Growth& growth, StepReport& step) {
+engine::RowWork Engine::State::arrive(Motion& motion, const engine::Growth& growth, StepReport& step) {
   Solution& s = *solution;
-  const Clock time;
-  LinkMarks& marks = motion.marks;
+  const engine::Clock time;
+  radiosity::LinkMarks& marks = motion.marks;
   if (marks.changes.empty() || !growth.woken.empty()) {
-    SpaceChange woken;
+    radiosity::SpaceChange woken;
     woken.addMoved(growth.woken, s.elements, s.scene);
-    add(LineSpace(s.links, s.elements, s.scene, woken, {}, {}).visit(), marks);
+    radiosity::add(radiosity::LineSpace(s.links, s.elements, s.scene, woken, {}, {}).visit(), marks);
     motion.inputs.insert(motion.inputs.end(), growth.woken.begin(), growth.woken.end());
     motion.all.addMoved(motion.inputs, s.elements, s.scene);
   }
   if (!growth.empty()) motion.all.findHidden(s.elements, s.scene, growth.root);
-  if (growth.root.valid()) addRootLinks(s.links, s.elements, growth.root);
+  if (growth.root.valid()) radiosity::addRootLinks(s.links, s.elements, growth.root);
   step.linksVisited = marks.visited;
   step.times.visibility += time.seconds();
 
-  const Clock refining;
-  OracleSettings oracle;
-  oracle.error = s.settings.error * kLastError;
-  RowWork work;
-  const RefineReport refined = rejudge(s.links, s.elements, s.scene, *s.tracer, oracle, marks, work.changed);
+  const engine::Clock refining;
+  radiosity::OracleSettings oracle;
+  oracle.error = s.settings.error * engine::kLastError;
+  engine::RowWork work;
+  const radiosity::RefineReport refined =
+      radiosity::rejudge(s.links, s.elements, s.scene, *s.tracer, oracle, marks, work.changed);
   DELTALUX_VALIDATED(validate(s.links, s.elements));
   s.report.counts.raysVisibility += refined.rays;
   step.linksChanged = work.changed.size();
   step.times.refine = refining.seconds();
-  const Clock gathering;
+  const engine::Clock gathering;
   work.leaves = s.transfers.concerned(s.elements, s.links, work.changed, motion.all);
   work.marks = std::move(marks), work.space = std::move(motion.all);
   step.leavesExamined = std::max(work.leaves.byLights.size(), work.leaves.byLeaves.size());
@@ -194,12 +200,13 @@ RowWork Engine::State::arrive(Motion& motion, const Growth& growth, StepReport& 
   return work;
 }
 
-std::vector<ElementId> Engine::State::renewRows(const RowWork& work, const ConcernedLeaves& leaves, StepReport& step) {
+std::vector<hierarchy::ElementId> Engine::State::renewRows(const engine::RowWork& work,
+                                                           const radiosity::ConcernedLeaves& leaves, StepReport& step) {
   if (leaves.byLights.empty() && leaves.byLeaves.empty()) return {};
   Solution& s = *solution;
-  const Clock time;
-  LeafUpdateReport rows = s.transfers.update(s.elements, s.links, s.scene, *s.tracer, leafSettings(), work.marks,
-                                             work.changed, work.space, leaves);
+  const engine::Clock time;
+  radiosity::LeafUpdateReport rows = s.transfers.update(s.elements, s.links, s.scene, *s.tracer, leafSettings(),
+                                                        work.marks, work.changed, work.space, leaves);
   DELTALUX_VALIDATED(s.transfers.validate(s.elements, s.links));
   s.report.counts.raysVisibility += rows.rays;
   step.leavesRenewed += std::max(rows.direct, rows.indirect);
@@ -207,22 +214,22 @@ std::vector<ElementId> Engine::State::renewRows(const RowWork& work, const Conce
   return std::move(rows.leaves);
 }
 
-std::vector<ElementId> Engine::State::renewWaitingRows(StepReport& step) {
-  RowQueue waiting = std::exchange(backlog.rows, {});
+std::vector<hierarchy::ElementId> Engine::State::renewWaitingRows(StepReport& step) {
+  engine::RowQueue waiting = std::exchange(backlog.rows, {});
   return renewRows(waiting.work(), waiting.take(waiting.size(), solution->elements), step);
 }
 
-void Engine::State::settleAfter(const LightChanges& changes, Progress* progress) {
+void Engine::State::settleAfter(const engine::LightChanges& changes, Progress* progress) {
   if (settling)
     unsettled = RgbSum(settleOver(changes));
   else
     settleRows(progress);
 }
 
-double Engine::State::settleOver(const LightChanges& changes) {
+double Engine::State::settleOver(const engine::LightChanges& changes) {
   Solution& s = *solution;
-  return settling->settle({s.scene, s.transfers, *transfer}, s.elements, changes, kMissed * gray(directPower()),
-                          kMaxRowIterations, s.report.counts.iterations);
+  return settling->settle({s.scene, s.transfers, *transfer}, s.elements, changes, engine::kMissed * gray(directPower()),
+                          engine::kMaxRowIterations, s.report.counts.iterations);
 }
 
 }  // namespace deltalux

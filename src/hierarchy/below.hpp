@@ -3,7 +3,7 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 /// visit(element) of `top` and of all that is below those where it returns true, each after its parent.
 template <class Visit>
@@ -26,4 +26,4 @@ void forEachLeafBelow(const Elements& elements, ElementId top, const Visit& visi
   });
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -11,7 +11,7 @@
 #include "hierarchy/patch.hpp"
 #include "scene/edit/plan.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 namespace {
 
@@ -36,7 +36,7 @@ struct Node {
 /// Where the surface is at rest: edits move things within the clusters that they were built into, and a scene that was
 /// edited gets the same ones.
 Box boundsOf(const Scene& scene, PrimitiveId primitive, std::uint32_t triangle) {
-  const Shape& shape = edits::restShape(scene, primitive);
+  const Shape& shape = scene::edits::restShape(scene, primitive);
   const auto* mesh = std::get_if<Mesh>(&shape);
   if (!mesh) return bounds(shape);
   Box box;
@@ -286,4 +286,4 @@ ElementId growElements(Elements& elements, const Scene& scene, const std::vector
   return root;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -1,12 +1,12 @@
 #pragma once
 // Builds the element hierarchy over the sides of a scene's surfaces that light can reach: a bounding-volume hierarchy
 // of clusters whose large surfaces stay high, so that a wall does not widen every cluster along it (attach a surface to
-// the lowest cluster that fits it [Christensen 1995, 6.7]); the area emitters in a tree of their own.
+// the lowest cluster that fits it [Christensen95 6.7]); the area emitters in a tree of their own.
 // Cost: O(n log n) over input-level surfaces; meshes take part by triangle, so clusters within a mesh do the work.
 #include "hierarchy/element.hpp"
 #include "hierarchy/input_level.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 /// One side of an input-level surface, and what is known of it before any link exists.
 struct SurfaceSide {
@@ -46,4 +46,4 @@ std::vector<ElementId> elementsOf(const Elements&, std::span<const SurfaceSide>)
 /// the order of surfaceSides(), at least one.
 ElementId growElements(Elements&, const Scene&, const std::vector<SurfaceSide>&);
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

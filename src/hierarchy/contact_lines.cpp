@@ -14,7 +14,7 @@
 #include "scene/edit/plan.hpp"
 #include "scene/stops_light.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 namespace {
 
@@ -80,7 +80,7 @@ class ContactLines::Search {
  private:
   std::optional<PlaneFrame> atRest(ElementId patch) const {
     const PatchDomain& d = elements_.domain[patch.index()];
-    return planeOf(edits::restShape(scene_, d.primitive), d.triangle);
+    return planeOf(scene::edits::restShape(scene_, d.primitive), d.triangle);
   }
 
   std::vector<Face> facesOf(std::span<const ElementId> inputs) const {
@@ -88,7 +88,7 @@ class ContactLines::Search {
     for (const ElementId e : inputs) {
       const Side side = elements_.sideOf(e);
       const bool again = !side.front && elements_.sides.at({side.primitive, side.triangle, true}).valid();
-      if (again || !stopsLight(scene_.materialOf(side.primitive))) continue;
+      if (again || !scene::stopsLight(scene_.materialOf(side.primitive))) continue;
       if (const auto plane = atRest(e)) faces.push_back({cornersOf(elements_, *plane, e), plane->normal});
     }
     return faces;
@@ -191,4 +191,4 @@ std::size_t ContactLines::memoryBytes() const {
   return lines_.capacity() * sizeof(lines_[0]) + end_.capacity() * sizeof(end_[0]);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 class Elements;
 
@@ -44,4 +44,4 @@ class ContactLines {
   std::vector<std::uint32_t> end_;  // of the lines of plane i / 2, axis i % 2
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 DirectionWindow::DirectionWindow(const Elements& elements, const Scene& scene, ElementId distant, const Vec3& w,
                                  double angle) {
@@ -27,4 +27,4 @@ DirectionWindow::DirectionWindow(const Elements& elements, const Scene& scene, E
     halfU_ = std::asin(std::min(1.0, std::sin(wide) / std::sin(from))) / (2 * kPi) + kMargin;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -5,7 +5,7 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 class DirectionWindow {
  public:
@@ -23,4 +23,4 @@ class DirectionWindow {
   double lowV_, highV_, middleU_, halfU_ = 0.5;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

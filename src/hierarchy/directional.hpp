@@ -1,13 +1,13 @@
 #pragma once
 // Functions over the sphere in real spherical harmonics up to order 2: what a cluster of Lambertian surfaces sends, and
 // the irradiance that arrives at it as a function of the receiving normal. Both are sums of clamped cosines, of which
-// order 2 keeps all but about 1 % of the energy [Ramamoorthi & Hanrahan 2001]; and sums, so a cluster adds its
+// order 2 keeps all but about 1 % of the energy [RH01]; and sums, so a cluster adds its
 // children.
 #include <array>
 #include <deltalux/math.hpp>
 #include <deltalux/units.hpp>
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 inline constexpr int kHarmonics = 9;
 inline constexpr float kConstantHarmonic = 0.28209479f;
@@ -60,4 +60,4 @@ struct DirectionalRgb {
   }
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -1,6 +1,6 @@
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 ElementId Elements::addChildren(ElementId parent, ElementKind kind, std::size_t count) {
   const std::size_t first = size();
@@ -59,4 +59,4 @@ std::size_t Elements::memoryBytes() const {
          bytes(inputs) + sides.memoryBytes() + contacts.memoryBytes();
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -14,7 +14,7 @@
 #include "hierarchy/directional.hpp"
 #include "hierarchy/side_table.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 using ElementId = Id<struct ElementTag>;
 
@@ -170,4 +170,4 @@ class Elements {
 /// weights sum to one. Throws std::logic_error with the first violation.
 void validate(const Elements&);
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -7,12 +7,12 @@
 #include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 namespace {
 
 std::optional<PlaneFrame> planeOf(const Scene& scene, const PatchDomain& d) {
-  return planeOf(scene[d.primitive].shape, d.triangle);
+  return hierarchy::planeOf(scene[d.primitive].shape, d.triangle);
 }
 
 bool isGone(const Scene& scene, PrimitiveId primitive) { return !(area(scene[primitive].shape) > 0); }
@@ -241,4 +241,4 @@ void reshape(Elements& elements, const Scene& scene, std::span<const ElementId> 
   shapeAbove(elements, inputs);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -3,7 +3,7 @@
 // them once, an edit again.
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 /// Glass has no diffuse side: it blocks or attenuates, and hands on specular light.
 bool passesStraight(const Material&);
@@ -30,4 +30,4 @@ std::vector<ElementId> elementsOf(const Elements&, std::span<const LightId>);
 /// primitive that is no more keeps its elements, without area.
 void reshape(Elements&, const Scene&, std::span<const ElementId> inputs);
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

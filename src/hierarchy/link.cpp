@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 LinkId Links::addRoot(ElementId receiver, ElementId sender, bool fromLight) {
   const LinkId id(all.size());
@@ -106,4 +106,4 @@ void Links::collapse(LinkId id, const std::function<void(LinkId)>& gone) {
 
 std::size_t Links::memoryBytes() const { return all.capacity() * sizeof(Link) + arriving.capacity() * sizeof(LinkId); }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -8,7 +8,7 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 using LinkId = Id<struct LinkTag>;
 
@@ -91,4 +91,4 @@ class Links {
 /// have no children. Throws std::logic_error with the first violation.
 void validate(const Links&, const Elements&);
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -4,7 +4,7 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 /// Irradiance per radiosity of all around, of which a patch sends back a little less than there is.
 inline float mostReturned(const ElementLight& light) {
@@ -12,4 +12,4 @@ inline float mostReturned(const ElementLight& light) {
   return kShare / std::max(maxChannel(light.rho + light.tau), 1e-3f);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 namespace {
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
@@ -59,4 +59,4 @@ std::vector<Vec2> clipOutline(std::span<const Vec2> p, int axis, double limit, b
   return out;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

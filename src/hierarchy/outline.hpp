@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 /// Signed area, positive counter-clockwise.
 double outlineArea(std::span<const Vec2>);
@@ -15,7 +15,7 @@ Vec2 outlineCentroid(std::span<const Vec2>);
 bool outlineContains(std::span<const Vec2>, const Vec2& p);
 /// Whether it is all of a rectangle of that area, which it lies in.
 bool outlineFills(std::span<const Vec2>, double area);
-/// The part with coordinate `axis` <= limit (below) or >= limit. [Sutherland & Hodgman 1974]
+/// The part with coordinate `axis` <= limit (below) or >= limit. [SH74]
 std::vector<Vec2> clipOutline(std::span<const Vec2>, int axis, double limit, bool below);
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -6,7 +6,7 @@
 #include "base/random.hpp"
 #include "hierarchy/outline.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 namespace {
 
@@ -291,4 +291,4 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
   return true;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -3,7 +3,7 @@
 // (outline clipped to the quadrant); curved ones follow their primitive's implicit parameterisation.
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 /// A point of a patch with the unit normal of the patch's side.
 struct PatchPoint {
@@ -44,4 +44,4 @@ void shapeDistant(Elements&, const Scene&, ElementId element);
 /// Unit direction towards the point (a,b) in [0,1]^2 of the cell.
 Vec3f directionOf(const Elements&, const Scene&, ElementId element, double a, double b);
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -7,7 +7,7 @@
 #include "hierarchy/outline.hpp"
 #include "hierarchy/patch.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 PatchPoint pointOn(const Elements& elements, const Scene& scene, ElementId patch, double u, double v) {
   const PatchDomain& d = elements.domain[patch.index()];
@@ -70,4 +70,4 @@ Vec3f directionOf(const Elements& elements, const Scene& scene, ElementId e, dou
   return Vec3f(Frame(axis).toWorld(Vec3(sine * onUnitCircle(d.u0 + a * (d.u1 - d.u0)), 1 - cap)));
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

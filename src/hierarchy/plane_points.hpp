@@ -3,7 +3,7 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 /// The inverse of PlaneFrame::at(): (u,v) of points of a plane, and of the feet of others on it. Finite also where the
 /// plane's edges are parallel.
@@ -20,4 +20,4 @@ class PlanePoints {
   Vec3 origin_, dualU_, dualV_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 SideLocator::SideLocator(const Elements& elements, const Scene& scene)
     : elements_(elements), scene_(scene), planes_(elements.frames.begin(), elements.frames.end()) {}
@@ -32,4 +32,4 @@ ElementId SideLocator::leafAt(ElementId e, const Vec2& uv) const {
   return e;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -3,7 +3,7 @@
 // quadtree to the leaf. Cost: a handful of comparisons a level, no memory per query.
 #include "hierarchy/plane_points.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 /// A leaf patch and the parameters of a point on its primitive (of its triangle, for meshes).
 struct LeafPoint {
@@ -31,4 +31,4 @@ class SideLocator {
   std::vector<PlanePoints> planes_;  // per frame
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

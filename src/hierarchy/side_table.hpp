@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 /// A side of a surface, or of a mesh's triangle.
 struct Side {
@@ -72,4 +72,4 @@ class SideTable {
   std::vector<T> values_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

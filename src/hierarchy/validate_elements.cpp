@@ -4,7 +4,7 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 namespace {
 
@@ -53,4 +53,4 @@ void validate(const Elements& elements) {
   }
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

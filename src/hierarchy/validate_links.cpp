@@ -5,7 +5,7 @@
 
 #include "hierarchy/link.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 namespace {
 void require(bool holds, std::size_t link, const char* what) {
@@ -42,4 +42,4 @@ void validate(const Links& links, const Elements& elements) {
   }
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::hierarchy

@@ -49,6 +49,10 @@ void checkWritable(const fs::path& target) {
     refuse(target, fmt::format("the folder {} is not writable ({})", folder.string(), std::strerror(errno)));
 }
 
+}  // namespace deltalux
+
+namespace deltalux::io {
+
 AtomicFile::AtomicFile(const fs::path& target) : target_(target), place_(resolved(target)) {
   checkWritable(target);
   if (isDevice(place_)) {
@@ -112,4 +116,4 @@ void writeFile(const fs::path& target, std::string_view bytes) {
   file.commit();
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

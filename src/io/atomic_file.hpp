@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace deltalux {
+namespace deltalux::io {
 
 class AtomicFile {
  public:
@@ -32,4 +32,4 @@ class AtomicFile {
 /// AtomicFile in one call.
 void writeFile(const std::filesystem::path& target, std::string_view bytes);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -23,7 +23,7 @@ class EntryReader {
   EntryReader(const std::string& file, const fs::path& folder, const ImportSettings& import)
       : file_(file), folder_(folder), import_(import) {}
 
-  EditStep read(const JsonView& entry) {
+  EditStep read(const io::JsonView& entry) {
     entry.expectObject();
     const std::string op = text(entry, "op");
     if (op == "transform") return Edit(transform(entry));
@@ -39,12 +39,12 @@ class EntryReader {
 
  private:
   /// Every key has a meaning here.
-  static void only(const JsonView& entry, std::initializer_list<const char*> keys) {
+  static void only(const io::JsonView& entry, std::initializer_list<const char*> keys) {
     for (const auto& [key, value] : entry.value().items())
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) entry.fail("has an unknown key '" + key + "'");
   }
   /// The one of `keys` that the entry has.
-  static std::string oneOf(const JsonView& entry, std::initializer_list<const char*> keys) {
+  static std::string oneOf(const io::JsonView& entry, std::initializer_list<const char*> keys) {
     std::string found;
     for (const char* key : keys)
       if (entry.member(key).present()) {
@@ -55,24 +55,24 @@ class EntryReader {
       entry.fail(fmt::format("needs one of {}", fmt::join(std::vector<std::string>(keys.begin(), keys.end()), ", ")));
     return found;
   }
-  static std::string text(const JsonView& entry, const char* key) {
-    const JsonView value = entry.member(key);
+  static std::string text(const io::JsonView& entry, const char* key) {
+    const io::JsonView value = entry.member(key);
     value.expectPresent("every entry of this operation names one");
     value.expectString();
     return value.value().get<std::string>();
   }
-  static double number(const JsonView& value, double low, double high) {
+  static double number(const io::JsonView& value, double low, double high) {
     value.expectPresent("a number");
     value.expectNumber(low, high);
     return value.value().get<double>();
   }
-  static Vec3 triple(const JsonView& value, double low = -kLargest, double high = kLargest) {
+  static Vec3 triple(const io::JsonView& value, double low = -kLargest, double high = kLargest) {
     value.expectPresent("three numbers");
     value.expectNumbers(3, low, high);
     return {value.value()[0].get<double>(), value.value()[1].get<double>(), value.value()[2].get<double>()};
   }
 
-  static Mat4 rowMajor(const JsonView& value) {
+  static Mat4 rowMajor(const io::JsonView& value) {
     value.expectNumbers(16, -kLargest, kLargest);
     Mat4 m;
     for (int row = 0; row < 4; ++row)
@@ -83,7 +83,7 @@ class EntryReader {
     if (!(std::abs(glm::determinant(m)) > 0)) value.fail("flattens what it maps: its determinant is 0");
     return m;
   }
-  static Mat4 rotation(const JsonView& value) {
+  static Mat4 rotation(const io::JsonView& value) {
     value.expectObject();
     only(value, {"axis", "degrees", "about"});
     const Vec3 axis = triple(value.member("axis"));
@@ -94,21 +94,21 @@ class EntryReader {
                           -about);
   }
 
-  static TransformObject transform(const JsonView& entry) {
+  static TransformObject transform(const io::JsonView& entry) {
     only(entry, {"op", "object", "translate", "rotate", "matrix"});
     const std::string key = oneOf(entry, {"translate", "rotate", "matrix"});
-    const JsonView value = entry.member(key.c_str());
+    const io::JsonView value = entry.member(key.c_str());
     const Mat4 matrix = key == "matrix"   ? rowMajor(value)
                         : key == "rotate" ? rotation(value)
                                           : glm::translate(Mat4(1.0), triple(value));
     return {text(entry, "object"), matrix};
   }
 
-  static EditStep light(const JsonView& entry) {
+  static EditStep light(const io::JsonView& entry) {
     only(entry, {"op", "light", "scale", "rgb", "on", "aim", "translate"});
     const std::string name = text(entry, "light");
     const std::string key = oneOf(entry, {"scale", "rgb", "on", "aim", "translate"});
-    const JsonView value = entry.member(key.c_str());
+    const io::JsonView value = entry.member(key.c_str());
     if (key == "scale") return Edit(ScaleLight{name, static_cast<float>(number(value, 0, kLargest))});
     if (key == "rgb") return Edit(ColourLight{name, Rgb(triple(value, 0, kLargest))});
     if (key == "on") return value.expectBool(), EditStep(Edit(SwitchLight{name, value.value().get<bool>()}));
@@ -118,21 +118,21 @@ class EntryReader {
     return Edit(AimLight{name, direction});
   }
 
-  static SetMaterial material(const JsonView& entry) {
+  static SetMaterial material(const io::JsonView& entry) {
     only(entry, {"op", "material", "reflectance", "roughness"});
     SetMaterial edit{text(entry, "material"), {}, {}};
-    const JsonView reflectance = entry.member("reflectance"), roughness = entry.member("roughness");
+    const io::JsonView reflectance = entry.member("reflectance"), roughness = entry.member("roughness");
     if (reflectance.present()) edit.reflectance = Rgb(triple(reflectance, 0, 1));
     if (roughness.present()) edit.roughness = static_cast<float>(number(roughness, 0, 1));
     if (!edit.reflectance && !edit.roughness) entry.fail("sets neither reflectance nor roughness");
     return edit;
   }
 
-  AddObject add(const JsonView& entry) {
+  AddObject add(const io::JsonView& entry) {
     only(entry, {"op", "object", "scene", "matrix"});
     AddObject edit{text(entry, "object"), text(entry, "scene"), nullptr, Mat4(1.0)};
-    if (const JsonView matrix = entry.member("matrix"); matrix.present()) edit.matrix = rowMajor(matrix);
-    const fs::path place = resolveReference(edit.file, folder_, file_, 0, false);
+    if (const io::JsonView matrix = entry.member("matrix"); matrix.present()) edit.matrix = rowMajor(matrix);
+    const fs::path place = io::resolveReference(edit.file, folder_, file_, 0, false);
     std::shared_ptr<const Scene>& part = parts_[place];
     if (!part) part = std::make_shared<const Scene>(loadScene({place}, import_).scene);
     edit.part = part;
@@ -146,7 +146,7 @@ class EntryReader {
 };
 
 /// Undo and redo have something to do.
-void checkHistory(const std::vector<JsonView>& entries, const std::vector<EditStep>& steps) {
+void checkHistory(const std::vector<io::JsonView>& entries, const std::vector<EditStep>& steps) {
   std::size_t undo = 0, redo = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (std::holds_alternative<Undo>(steps[i])) {
@@ -162,6 +162,10 @@ void checkHistory(const std::vector<JsonView>& entries, const std::vector<EditSt
 }
 
 }  // namespace
+
+}  // namespace deltalux
+
+namespace deltalux::io {
 
 std::vector<EditStep> readEdits(const JsonView& document, const std::string& file, const fs::path& folder,
                                 const ImportSettings& import) {
@@ -187,14 +191,18 @@ nlohmann::json parseEditJson(std::string_view text, const std::string& file) {
   }
 }
 
+}  // namespace deltalux::io
+
+namespace deltalux {
+
 std::vector<EditStep> parseEdits(std::string_view text, const std::string& file, const fs::path& folder,
                                  const ImportSettings& import) {
-  const nlohmann::json tree = parseEditJson(text, file);
-  return readEdits(JsonView(tree, file, kEditHint), file, folder, import);
+  const nlohmann::json tree = io::parseEditJson(text, file);
+  return io::readEdits(io::JsonView(tree, file, io::kEditHint), file, folder, import);
 }
 
 std::vector<EditStep> loadEdits(const fs::path& path, const ImportSettings& import) {
-  return parseEdits(readInputFile(path), path.string(), path.parent_path(), import);
+  return parseEdits(io::readInputFile(path), path.string(), path.parent_path(), import);
 }
 
 AppliedEdit applyStep(Scene& scene, EditHistory& history, const EditStep& step) {

@@ -12,7 +12,7 @@
 #include "io/import_report.hpp"
 #include "io/planar_faces.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -120,4 +120,4 @@ ImportedScene loadGltf(const std::filesystem::path& file, const ImportSettings& 
   return readGltf(readInputFile(file), file.string(), file.parent_path(), settings);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -23,7 +23,7 @@
 #include <string>
 #include <string_view>
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Throws InputError: file, place in the JSON document, what to do.
 ImportedScene loadGltf(const std::filesystem::path& file, const ImportSettings&);
@@ -32,4 +32,4 @@ ImportedScene loadGltf(const std::filesystem::path& file, const ImportSettings&)
 ImportedScene readGltf(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
                        const ImportSettings&);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

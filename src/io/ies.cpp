@@ -13,7 +13,7 @@ namespace deltalux {
 namespace {
 
 // A luminaire cannot give more light than its lamps; candelas that say so have a wrong multiplier or were scaled twice.
-void checkFlux(const IesRecord& record, const Photometry& photometry, const std::string& name,
+void checkFlux(const io::IesRecord& record, const Photometry& photometry, const std::string& name,
                std::vector<std::string>& warnings) {
   const double rated = record.lampCount * record.lumensPerLamp;
   const double flux = luminousFlux(photometry);
@@ -25,6 +25,10 @@ void checkFlux(const IesRecord& record, const Photometry& photometry, const std:
 }
 
 }  // namespace
+
+}  // namespace deltalux
+
+namespace deltalux::io {
 
 PhotometryFile readPhotometry(std::string_view text, const std::string& name, const std::filesystem::path& folder) {
   IesRecord record = parseIes(text, name, folder);
@@ -38,8 +42,12 @@ PhotometryFile readPhotometry(std::string_view text, const std::string& name, co
   return file;
 }
 
+}  // namespace deltalux::io
+
+namespace deltalux {
+
 Photometry loadPhotometry(const std::filesystem::path& path, std::vector<std::string>* warnings) {
-  PhotometryFile file = readPhotometry(readInputFile(path), path.string(), path.parent_path());
+  io::PhotometryFile file = io::readPhotometry(io::readInputFile(path), path.string(), path.parent_path());
   if (warnings) warnings->insert(warnings->end(), file.warnings.begin(), file.warnings.end());
   return std::move(file.photometry);
 }

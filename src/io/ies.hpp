@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::io {
 
 struct PhotometryFile {
   Photometry photometry;
@@ -22,4 +22,4 @@ struct PhotometryFile {
 /// InputError with the line.
 PhotometryFile readPhotometry(std::string_view text, const std::string& name, const std::filesystem::path& folder);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -5,7 +5,7 @@
 #include <deltalux/error.hpp>
 #include <fstream>
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace fs = std::filesystem;
 
@@ -73,4 +73,4 @@ fs::path resolveReference(std::string_view reference, const fs::path& folder, co
   return path;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// The whole content of `file`. Throws InputError when it is not there, not a file, or cannot be read.
 std::string readInputFile(const std::filesystem::path& file);
@@ -15,4 +15,4 @@ std::string readInputFile(const std::filesystem::path& file);
 std::filesystem::path resolveReference(std::string_view reference, const std::filesystem::path& folder,
                                        const std::string& referrer, int line, bool isUri);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

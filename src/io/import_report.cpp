@@ -1,6 +1,6 @@
 #include "io/import_report.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 void warnOfIgnored(ImportReport& report) {
   std::string list;
@@ -10,4 +10,4 @@ void warnOfIgnored(ImportReport& report) {
   if (!list.empty()) report.warnings.push_back("ignored: " + list);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

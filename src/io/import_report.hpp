@@ -1,9 +1,9 @@
 #pragma once
 #include <deltalux/io.hpp>
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Appends the one warning that sums up what `report.ignored` counts, if anything.
 void warnOfIgnored(ImportReport& report);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -60,4 +60,4 @@ Rgb average(const Texture& texture) {
   return Rgb(sum / static_cast<double>(texture.texels.size()));
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

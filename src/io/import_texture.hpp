@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// How the numbers of an image mean quantities.
 enum class TexelEncoding { Srgb, Linear };
@@ -16,4 +16,4 @@ std::optional<Texture> decodeTexture(std::string_view bytes, std::string name, T
 /// The mean texel.
 Rgb average(const Texture&);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

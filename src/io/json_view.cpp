@@ -1,6 +1,6 @@
 #include "io/json_view.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 using nlohmann::json;
 
@@ -99,4 +99,4 @@ void JsonView::expectPresent(const char* what) const {
   if (!present()) fail(std::string("is missing: ") + what);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

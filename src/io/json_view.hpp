@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Members that are not there are nowhere: present() is false, and every check passes.
 class JsonView {
@@ -51,4 +51,4 @@ class JsonView {
   std::string where_;  // JSON pointer
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::io

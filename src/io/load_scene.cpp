@@ -7,7 +7,7 @@
 #include "io/obj.hpp"
 #include "io/radiance.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace fs = std::filesystem;
 
@@ -45,4 +45,4 @@ ImportedScene loadScene(const std::vector<fs::path>& files, const ImportSettings
   return extensionOf(*other) == ".obj" ? loadObj(*other, settings) : loadGltf(*other, settings);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

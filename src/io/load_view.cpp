@@ -23,7 +23,7 @@ std::optional<std::string_view> viewOptions(std::string_view line) {
 }  // namespace
 
 View loadView(const std::filesystem::path& file) {
-  const std::string text = readInputFile(file);
+  const std::string text = io::readInputFile(file);
   std::optional<std::string_view> last;
   int lastLine = 0, line = 0;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -34,7 +34,7 @@ View loadView(const std::filesystem::path& file) {
     begin = end + 1;
   }
   if (!last) throw InputError(file.string(), 0, "holds no view", "a view is a line 'rvu -vtv -vp ... -vd ...'");
-  View view = radiance::parseView(*last, {std::make_shared<const std::string>(file.string()), lastLine});
+  View view = io::radiance::parseView(*last, {std::make_shared<const std::string>(file.string()), lastLine});
   view.name = file.stem().string();
   return view;
 }

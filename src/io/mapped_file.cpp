@@ -7,7 +7,7 @@
 
 #include "io/import_file.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 MappedFile::MappedFile(const std::filesystem::path& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -25,4 +25,4 @@ MappedFile::~MappedFile() {
   if (mapping_) ::munmap(const_cast<char*>(mapping_), size_);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace deltalux {
+namespace deltalux::io {
 
 class MappedFile {
  public:
@@ -24,4 +24,4 @@ class MappedFile {
   std::string copy_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -15,7 +15,7 @@
 #include "io/obj/tinyobj.hpp"
 #include "io/planar_faces.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -156,4 +156,4 @@ ImportedScene loadObj(const std::filesystem::path& file, const ImportSettings& s
   return readObj(readInputFile(file), file.string(), file.parent_path(), settings);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

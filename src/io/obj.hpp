@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Throws InputError: file, line, what to do.
 ImportedScene loadObj(const std::filesystem::path& file, const ImportSettings&);
@@ -20,4 +20,4 @@ ImportedScene loadObj(const std::filesystem::path& file, const ImportSettings&);
 ImportedScene readObj(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                       const ImportSettings&);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

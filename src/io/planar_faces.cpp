@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -162,4 +162,4 @@ std::vector<Shape> planarFaces(Mesh mesh) {
   return shapes;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

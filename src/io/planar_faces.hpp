@@ -8,7 +8,7 @@
 #include <deltalux/shape.hpp>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Above this a mesh stays a mesh: it is a modelled shape rather than a box, and few elements are worth more than
 /// fitting ones.
@@ -19,4 +19,4 @@ inline constexpr std::size_t kMaxFacetedTriangles = 64;
 /// simple polygon. Empty when nothing of it has area.
 std::vector<Shape> planarFaces(Mesh mesh);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

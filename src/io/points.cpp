@@ -163,7 +163,7 @@ std::string formatProbeResults(const PointTable& table, std::span<const ProbeRes
 
 void writeProbeResults(const std::filesystem::path& path, const PointTable& table, std::span<const ProbeResult> results,
                        ProbeColumns columns) {
-  writeFile(path, formatProbeResults(table, results, columns));
+  io::writeFile(path, formatProbeResults(table, results, columns));
 }
 
 }  // namespace deltalux

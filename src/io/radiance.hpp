@@ -12,7 +12,7 @@
 
 #include "io/radiance/expander.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// The files as one scene, in order and with one namespace. Throws InputError.
 ImportedScene loadRadiance(const std::vector<std::filesystem::path>& files, const ImportSettings&);
@@ -21,4 +21,4 @@ ImportedScene loadRadiance(const std::vector<std::filesystem::path>& files, cons
 ImportedScene readRadiance(const radiance::SourceFile&, radiance::FileAccess& files, const ImportSettings&,
                            const radiance::ExpansionLimits& = {});
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -108,7 +108,7 @@ std::string toJson(const RunReport& report) {
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void writeReport(const std::filesystem::path& path, const RunReport& report) { writeFile(path, toJson(report)); }
+void writeReport(const std::filesystem::path& path, const RunReport& report) { io::writeFile(path, toJson(report)); }
 
 std::uint64_t peakResidentBytes() {
   rusage usage{};

@@ -29,14 +29,14 @@ void forEachSection(auto& solution, const auto& visit) {
 }
 
 Solution parse(std::string_view bytes, const std::string& file) {
-  const std::vector<Section> sections = openContainer(bytes, file);
+  const std::vector<io::Section> sections = io::openContainer(bytes, file);
   Solution solution;
   auto section = sections.begin();
   forEachSection(solution, [&](std::string_view tag, auto& part) {
     if (section == sections.end() || section->tag != tag)
       throw InputError(file, 0, "is damaged: its sections are not those of a solution", "solve the scene again");
-    ArchiveReader reader(section->payload, file);
-    transfer(reader, part);
+    io::ArchiveReader reader(section->payload, file);
+    io::transfer(reader, part);
     reader.require(reader.left() == 0);
     ++section;
   });
@@ -53,6 +53,10 @@ bool isSolutionFile(const fs::path& file) {
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return extension == ".dlx";
 }
+
+}  // namespace deltalux
+
+namespace deltalux::io {
 
 void writeSolution(const SolutionView& view, const ByteSink& sink) {
   std::vector<std::uint64_t> lengths;
@@ -71,11 +75,19 @@ void writeSolution(const SolutionView& view, const ByteSink& sink) {
   writer.flush();
 }
 
+}  // namespace deltalux::io
+
+namespace deltalux {
+
 void saveSolution(const fs::path& path, const SolutionView& view) {
-  AtomicFile file(path);
-  writeSolution(view, [&](std::string_view bytes) { file.write(bytes); });
+  io::AtomicFile file(path);
+  io::writeSolution(view, [&](std::string_view bytes) { file.write(bytes); });
   file.commit();
 }
+
+}  // namespace deltalux
+
+namespace deltalux::io {
 
 SolutionView readSolution(std::string_view bytes, const std::string& file) {
   auto solution = std::make_shared<Solution>(parse(bytes, file));
@@ -86,16 +98,20 @@ SolutionView readSolution(std::string_view bytes, const std::string& file) {
     throw InputError(file, 0, std::string("does not hold together: ") + error.what(), "solve the scene again");
   }
   solution->elements.listInputs();
-  solution->elements.contacts = ContactLines(solution->elements, solution->scene);
+  solution->elements.contacts = hierarchy::ContactLines(solution->elements, solution->scene);
   solution->links.listArriving();
   solution->transfers.listRows(solution->elements);
-  solution->tracer = makeEmbreeTracer(solution->scene);
+  solution->tracer = tracing::makeEmbreeTracer(solution->scene);
   return SolutionView(std::move(solution));
 }
 
+}  // namespace deltalux::io
+
+namespace deltalux {
+
 SolutionView loadSolution(const fs::path& path) {
-  const MappedFile file(path);
-  return readSolution(file.bytes(), path.string());
+  const io::MappedFile file(path);
+  return io::readSolution(file.bytes(), path.string());
 }
 
 }  // namespace deltalux

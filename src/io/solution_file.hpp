@@ -5,7 +5,7 @@
 
 #include "io/solution_file/container.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// The bytes of the solution's .dlx file.
 void writeSolution(const SolutionView&, const ByteSink&);
@@ -13,4 +13,4 @@ void writeSolution(const SolutionView&, const ByteSink&);
 /// The solution in the bytes of a .dlx file. Throws InputError in the name of `file`.
 SolutionView readSolution(std::string_view bytes, const std::string& file);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

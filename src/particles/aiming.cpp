@@ -6,7 +6,7 @@
 #include "base/cosine_direction.hpp"
 #include "particles/solid_angle_rectangle.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -165,4 +165,4 @@ bool Aiming::hidesItself(std::uint32_t cell, const Vec3& position, const Vec3& t
   return glm::dot(position - ball->center, towardsLight) < 0;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -13,7 +13,7 @@
 
 #include "particles/receivers.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// A point of a sender.
 struct SendingPoint {
@@ -59,4 +59,4 @@ class Aiming {
   const Receivers& receivers_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -37,7 +37,7 @@ ParticleSurfaces::ParticleSurfaces(const Scene& scene) : scene_(scene) {
   for (const Material& m : scene.materials) {
     for (const bool front : {false, true}) {
       Side s;
-      s.bsdf = specularPart(makeBsdf(m, front));
+      s.bsdf = scene::specularPart(scene::makeBsdf(m, front));
       s.takes = takesParticles(m, front);
       s.rough = s.bsdf.hasFinitePart();
       s.passesOn = s.rough || s.bsdf.pane || s.bsdf.refractingIor || !isBlack(s.bsdf.reflection.reflectance) ||
@@ -58,19 +58,19 @@ std::optional<SpecularEvent> ParticleSurfaces::scatter(const SurfaceSpot& at, co
   if (!(wo.z > 0)) return std::nullopt;
   SpecularEvent event;
   if (first && s.bsdf.pane) {
-    event.weight = mirrorReflectance(s.bsdf, wo.z);
+    event.weight = scene::mirrorReflectance(s.bsdf, wo.z);
     event.direction = Vec3f(glm::normalize(frame.toWorld({-wo.x, -wo.y, wo.z})));
     return event;
   }
-  const auto sampled = sample(s.bsdf, wo, u.scatter);
+  const auto sampled = scene::sample(s.bsdf, wo, u.scatter);
   if (!sampled) return std::nullopt;
   event.weight = sampled->weight;
   event.direction = Vec3f(glm::normalize(frame.toWorld(sampled->direction)));
-  event.refracted = sampled->event == ScatterEvent::Refraction;
+  event.refracted = sampled->event == scene::ScatterEvent::Refraction;
   return event;
 }
 
-glm::vec2 ParticleSurfaces::parameters(const Hit& hit) const {
+glm::vec2 ParticleSurfaces::parameters(const tracing::Hit& hit) const {
   const Shape& shape = scene_[hit.primitive].shape;
   const Vec3 p(hit.position);
   if (const auto* polygon = std::get_if<Polygon>(&shape)) {
@@ -87,4 +87,4 @@ glm::vec2 ParticleSurfaces::parameters(const Hit& hit) const {
   return glm::vec2(parameterAt(shape, p));
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

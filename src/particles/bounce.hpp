@@ -9,7 +9,7 @@
 #include "scene/bsdf.hpp"
 #include "tracing/ray.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// A point of a surface and the side that a particle comes to.
 struct SurfaceSpot {
@@ -58,11 +58,11 @@ class ParticleSurfaces {
   std::optional<SpecularEvent> scatter(const SurfaceSpot&, const Vec3f& direction, bool first,
                                        const EventNumbers&) const;
   /// Parameters of a hit, as Impact has them.
-  glm::vec2 parameters(const Hit&) const;
+  glm::vec2 parameters(const tracing::Hit&) const;
 
  private:
   struct Side {
-    Bsdf bsdf;
+    scene::Bsdf bsdf;
     bool takes = false, passesOn = false, rough = false;
   };
   const Side& side(PrimitiveId p, bool front) const { return sides_[2 * scene_[p].material.index() + (front ? 1 : 0)]; }
@@ -73,4 +73,4 @@ class ParticleSurfaces {
   std::vector<char> panes_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -8,7 +8,7 @@
 #include "base/sobol.hpp"
 #include "tracing/shadow_ray.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -23,9 +23,9 @@ constexpr double kFloor = 0.02;  // the same of the whole scene's mean
 /// sent after it. [TCE05]
 class Direct {
  public:
-  Direct(const Scene& scene, const LightSampler& lights) : scene_(scene), lights_(lights) {}
+  Direct(const Scene& scene, const scene::LightSampler& lights) : scene_(scene), lights_(lights) {}
 
-  double irradiance(const SurfacePoint& p, const RayTracer& tracer, Rng& rng, std::uint64_t& rays) {
+  double irradiance(const SurfacePoint& p, const tracing::RayTracer& tracer, Rng& rng, std::uint64_t& rays) {
     const std::size_t all = scene_.lights.size(), some = std::min(all, kMostLights);
     if (all == 0) return 0;
     const double first = rng.uniform();
@@ -47,33 +47,34 @@ class Direct {
     if (samples_.empty()) return 0;
     const auto drawn = std::upper_bound(samples_.begin(), std::prev(samples_.end()), target,
                                         [](double x, const Sample& s) { return x < s.summed; });
-    const LightSample& to = drawn->light;
+    const scene::LightSample& to = drawn->light;
     ++rays;
     return total * static_cast<double>(all) / static_cast<double>(some) *
-           gray(tracer.transmittance(shadowRay(p.position, p.normal, to.direction, to.distance, to.normal)));
+           gray(tracer.transmittance(tracing::shadowRay(p.position, p.normal, to.direction, to.distance, to.normal)));
   }
 
  private:
   struct Sample {
     double summed;
-    LightSample light;
+    scene::LightSample light;
   };
 
   const Scene& scene_;
-  const LightSampler& lights_;
+  const scene::LightSampler& lights_;
   std::vector<Sample> samples_;
 };
 
 /// First surface that is not a pane.
-Hit look(const Scene& scene, const RayTracer& tracer, const SurfacePoint& p, const Vec3& w, std::uint64_t& rays) {
-  Ray ray;
+tracing::Hit look(const Scene& scene, const tracing::RayTracer& tracer, const SurfacePoint& p, const Vec3& w,
+                  std::uint64_t& rays) {
+  tracing::Ray ray;
   ray.direction = Vec3f(w);
-  ray.origin = offsetOrigin(Vec3f(p.position), Vec3f(p.normal), ray.direction);
+  ray.origin = tracing::offsetOrigin(Vec3f(p.position), Vec3f(p.normal), ray.direction);
   for (int pane = 0; pane < kPanes; ++pane) {
-    const Hit hit = tracer.closestHit(ray);
+    const tracing::Hit hit = tracer.closestHit(ray);
     ++rays;
     if (!hit || !isThinGlass(scene.materialOf(hit.primitive))) return hit;
-    ray.origin = offsetOrigin(hit.position, hit.normal, ray.direction);
+    ray.origin = tracing::offsetOrigin(hit.position, hit.normal, ray.direction);
   }
   return {};
 }
@@ -133,7 +134,7 @@ std::vector<float> skyStrengths(const Scene& scene, const Senders& senders) {
   return strengths;
 }
 
-CoarseExitance coarseExitance(const Scene& scene, const RayTracer& tracer, const LightSampler& lights,
+CoarseExitance coarseExitance(const Scene& scene, const tracing::RayTracer& tracer, const scene::LightSampler& lights,
                               const Senders& senders, std::span<const double> caustics) {
   CoarseExitance result;
   result.perCell = skyStrengths(scene, senders);
@@ -157,7 +158,8 @@ CoarseExitance coarseExitance(const Scene& scene, const RayTracer& tracer, const
         const UnitPair place = places(k), way = directions(k);
         const SurfacePoint p = senders.point(cell, {place.x, place.y});
         found[i].direct += direct.irradiance(p, tracer, rng, rays[begin / kBlock]) / kPoints;
-        const Hit hit = look(scene, tracer, p, cosineDirection(Frame(p.normal), way.x, way.y), rays[begin / kBlock]);
+        const tracing::Hit hit =
+            look(scene, tracer, p, cosineDirection(Frame(p.normal), way.x, way.y), rays[begin / kBlock]);
         found[i].seen[k] = RadixNode::kNone;
         if (!hit) continue;
         const Vec2 uv = parameterAt(scene[hit.primitive].shape, Vec3(hit.position), hit.triangle);
@@ -187,4 +189,4 @@ CoarseExitance coarseExitance(const Scene& scene, const RayTracer& tracer, const
   return result;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -9,7 +9,7 @@
 #include "particles/senders.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 inline constexpr double kNominalReflectance = 0.5;  // of every diffuse surface
 
@@ -22,7 +22,7 @@ struct CoarseExitance {
 std::vector<float> skyStrengths(const Scene&, const Senders&);
 
 /// `lights` at scale 1; `caustics`: flux that particles from lights bring, by sender cell [W].
-CoarseExitance coarseExitance(const Scene&, const RayTracer&, const LightSampler& lights, const Senders&,
-                              std::span<const double> caustics);
+CoarseExitance coarseExitance(const Scene&, const tracing::RayTracer&, const scene::LightSampler& lights,
+                              const Senders&, std::span<const double> caustics);
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

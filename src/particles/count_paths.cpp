@@ -6,7 +6,7 @@
 #include "base/check.hpp"
 #include "base/random.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 constexpr std::uint64_t kCountSeed = 0x636f756e747a7a7aull;
@@ -44,4 +44,4 @@ void countPaths(const DsLinks& links, double target, Particles& p) {
     std::fill_n(p.link.begin() + p.links[l].firstPath, p.links[l].paths, static_cast<std::uint32_t>(l));
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -1,11 +1,11 @@
 #pragma once
 #include "particles/particles.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// Gives links their numbers of samples: in proportion to their flux, so that all particles carry about the same; where
 /// that is less than one, one by chance, that counts for more. About `target` will arrive at a receiver. More for a
-/// larger target, never fewer: the samples of the smaller one are among them. [algorithm 4, quantum]
+/// larger target, never fewer: the samples of the smaller one are among them. [particles.md]
 void countPaths(const DsLinks&, double target, Particles&);
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

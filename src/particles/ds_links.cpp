@@ -6,7 +6,7 @@
 #include "base/parallel.hpp"
 #include "particles/lookout.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -96,7 +96,7 @@ Verdict judged(const LinkEnds& ends, std::uint64_t key, double threshold, const 
 
 }  // namespace
 
-DsLinks refineDsLinks(const Scene& scene, const RayTracer& tracer, const ParticleEmission& emission,
+DsLinks refineDsLinks(const Scene& scene, const tracing::RayTracer& tracer, const ParticleEmission& emission,
                       const Senders& senders, const Receivers& receivers, const CoarseExitance& exitance,
                       std::span<const std::uint32_t> senderRoots, const DsSettings& settings) {
   DsLinks links;
@@ -156,4 +156,4 @@ DsLinks refineDsLinks(const Scene& scene, const RayTracer& tracer, const Particl
   return links;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

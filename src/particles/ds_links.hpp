@@ -12,7 +12,7 @@
 #include "particles/coarse_exitance.hpp"
 #include "particles/emission.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 struct DsLink {
   LinkEnds ends;
@@ -35,7 +35,8 @@ struct DsSettings {
 };
 
 /// From the given sender nodes to all receivers.
-DsLinks refineDsLinks(const Scene&, const RayTracer&, const ParticleEmission&, const Senders&, const Receivers&,
-                      const CoarseExitance&, std::span<const std::uint32_t> senderRoots, const DsSettings& = {});
+DsLinks refineDsLinks(const Scene&, const tracing::RayTracer&, const ParticleEmission&, const Senders&,
+                      const Receivers&, const CoarseExitance&, std::span<const std::uint32_t> senderRoots,
+                      const DsSettings& = {});
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -16,7 +16,7 @@ double square(double x) { return x * x; }
 
 double farDistance(const Scene& scene) { return 4 * coarse(std::max(bounds(scene).diagonal(), 1e-6)); }
 
-ParticleEmission::ParticleEmission(const Scene& scene, const RayTracer& tracer, const Senders& senders,
+ParticleEmission::ParticleEmission(const Scene& scene, const tracing::RayTracer& tracer, const Senders& senders,
                                    const Receivers& receivers)
     : scene_(scene), tracer_(tracer), senders_(senders), receivers_(receivers), aiming_(scene, receivers) {
   far_ = farDistance(scene);
@@ -83,7 +83,7 @@ void ParticleEmission::fromInfinity(const LinkEnds& link, const EmissionNumbers&
   s.direction = -Vec3f(w);
   s.origin = Vec3f(x.position + far_ * w);
   s.ray.direction = Vec3f(w);
-  s.ray.origin = offsetOrigin(Vec3f(x.position), Vec3f(x.normal), s.ray.direction);
+  s.ray.origin = tracing::offsetOrigin(Vec3f(x.position), Vec3f(x.normal), s.ray.direction);
 }
 
 void ParticleEmission::fromPlace(const LinkEnds& link, const EmissionNumbers& u, double share, FirstSegment& s) const {
@@ -116,7 +116,7 @@ void ParticleEmission::fromPlace(const LinkEnds& link, const EmissionNumbers& u,
     // The length of open segments is not known yet; arrive() puts it in.
     const double distance = a.kind == FirstSegment::Kind::Target ? a.distance : kVeryFar;
     if (cosine > 0) {
-      shape = emittedRadiance(emission(c), a.direction, distance, c.front);
+      shape = scene::emittedRadiance(emission(c), a.direction, distance, c.front);
     } else {
       shape = Rgb(0.0f);
     }
@@ -137,15 +137,15 @@ void ParticleEmission::fromPlace(const LinkEnds& link, const EmissionNumbers& u,
   s.density = static_cast<float>(a.kind == FirstSegment::Kind::Open ? 2 * a.density : a.density);
   if (a.kind == FirstSegment::Kind::Target) {
     s.target = a.target, s.normal = a.normal;
-    s.ray = segment(s.origin, Vec3f(y.normal), Vec3f(a.target), Vec3f(a.normal));
+    s.ray = tracing::segment(s.origin, Vec3f(y.normal), Vec3f(a.target), Vec3f(a.normal));
   } else {
     s.ray.direction = s.direction;
-    s.ray.origin = offsetOrigin(s.origin, Vec3f(y.normal), s.direction);
+    s.ray.origin = tracing::offsetOrigin(s.origin, Vec3f(y.normal), s.direction);
   }
 }
 
 void ParticleEmission::arrive(std::span<const LinkEnds> links, std::span<const FirstSegment> segments,
-                              std::span<Arrival> arrivals, FirstRays& w, std::uint64_t& rays) const {
+                              std::span<FirstHit> arrivals, FirstRays& w, std::uint64_t& rays) const {
   auto& [targets, opens, straight, open, passed, hits] = w;
   targets.clear(), opens.clear(), straight.clear(), open.clear();
   for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -163,7 +163,7 @@ void ParticleEmission::arrive(std::span<const LinkEnds> links, std::span<const F
   for (std::size_t k = 0; k < targets.size(); ++k) {
     const Rgb& share = passed[k].share;
     const FirstSegment& s = segments[targets[k]];
-    Arrival& a = arrivals[targets[k]];
+    FirstHit& a = arrivals[targets[k]];
     a.blocker = passed[k].blocker;
     if (isBlack(share)) continue;
     a.primitive = receivers_.primitive(s.receiverCell);
@@ -178,7 +178,7 @@ void ParticleEmission::arrive(std::span<const LinkEnds> links, std::span<const F
     if (hits[k]) meet(links[opens[k]], segments[opens[k]], hits[k], arrivals[opens[k]]);
 }
 
-void ParticleEmission::meet(const LinkEnds& link, const FirstSegment& s, const Hit& hit, Arrival& a) const {
+void ParticleEmission::meet(const LinkEnds& link, const FirstSegment& s, const tracing::Hit& hit, FirstHit& a) const {
   const RadixNode& node = receivers_.nodes()[link.receiver];
   const std::uint32_t cell = receivers_.cellOf(hit);
   if (cell < node.begin || cell >= node.end) {
@@ -208,4 +208,4 @@ bool ParticleEmission::averted(const LinkEnds& link) const {
   return glm::dot(cone.axis, ball.center - senders_.point(node.begin, {0.5, 0.5}).position) + ball.radius <= 0;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

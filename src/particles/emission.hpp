@@ -15,7 +15,7 @@
 #include "particles/senders.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// One sender node and one receiver node: a link from diffuse or emitted light to specular surfaces (DS).
 struct LinkEnds {
@@ -56,13 +56,13 @@ struct FirstSegment {
   float density = 0;                    // per solid angle, of this strategy where the other might have done the same
   float balance = 1;                    // Target: its share where the other strategy would have met it, too
   Vec3f origin{0.0f}, direction{0.0f};  // of the light
-  Ray ray;                              // to be traced
+  tracing::Ray ray;                     // to be traced
   Vec3 target{0}, normal{0};            // Target: where it arrives
   Rgb flux{0.0f};                       // throughput: of a surface per radiosity [unit^2], of a light per scale [W]
 };
 
 /// Where a particle first meets a receiver.
-struct Arrival {
+struct FirstHit {
   PrimitiveId primitive;  // invalid: nowhere; an open segment then ends at `position`, if its distance is finite
   PrimitiveId blocker;    // what keeps it from arriving, if anything does
   std::uint32_t triangle = 0;
@@ -76,9 +76,9 @@ struct Arrival {
 /// Memory for tracing first segments, used again by the next.
 struct FirstRays {
   std::vector<std::uint32_t> targets, opens;
-  std::vector<Ray> straight, open;
-  std::vector<Passing> passed;
-  std::vector<Hit> hits;
+  std::vector<tracing::Ray> straight, open;
+  std::vector<tracing::Passing> passed;
+  std::vector<tracing::Hit> hits;
 };
 
 /// A distance beyond everything: in steps, so that small motions do not change it.
@@ -87,12 +87,12 @@ double farDistance(const Scene&);
 class ParticleEmission {
  public:
   /// All must outlive this.
-  ParticleEmission(const Scene&, const RayTracer&, const Senders&, const Receivers&);
+  ParticleEmission(const Scene&, const tracing::RayTracer&, const Senders&, const Receivers&);
 
   // Results are written where they stay: to copy what was just written in parts stalls.
   void sample(const LinkEnds&, const EmissionNumbers&, FirstSegment&) const;
   /// Traces first segments: what of each arrives where.
-  void arrive(std::span<const LinkEnds>, std::span<const FirstSegment>, std::span<Arrival>, FirstRays&,
+  void arrive(std::span<const LinkEnds>, std::span<const FirstSegment>, std::span<FirstHit>, FirstRays&,
               std::uint64_t& rays) const;
   /// Whether provably nothing passes from sender to receiver: it lies behind the plane of a flat sender.
   bool averted(const LinkEnds&) const;
@@ -101,15 +101,15 @@ class ParticleEmission {
   Senders::Choice choose(const LinkEnds&, double u) const;
   void fromInfinity(const LinkEnds&, const EmissionNumbers&, double share, FirstSegment&) const;
   void fromPlace(const LinkEnds&, const EmissionNumbers&, double share, FirstSegment&) const;
-  void meet(const LinkEnds&, const FirstSegment&, const Hit&, Arrival&) const;
+  void meet(const LinkEnds&, const FirstSegment&, const tracing::Hit&, FirstHit&) const;
   const Emission& emission(const SenderCell&) const;
 
   const Scene& scene_;
-  const RayTracer& tracer_;
+  const tracing::RayTracer& tracer_;
   const Senders& senders_;
   const Receivers& receivers_;
   Aiming aiming_;
   double far_;  // distance at which suns and skies are drawn from
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -4,7 +4,7 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// One deposit of one particle.
 struct Impact {
@@ -19,6 +19,6 @@ struct Particles;
 
 /// Every impact with today's flux, that is, with the radiosity that its particle's sender has now; in the order of the
 /// particles, which does not depend on the number of threads.
-std::vector<Impact> impacts(const Particles&, const Elements&, const Scene&);
+std::vector<Impact> impacts(const Particles&, const hierarchy::Elements&, const Scene&);
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

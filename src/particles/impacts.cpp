@@ -2,10 +2,10 @@
 #include "hierarchy/side_locator.hpp"
 #include "particles/particles.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
-std::vector<Impact> impacts(const Particles& p, const Elements& elements, const Scene& scene) {
-  const SideLocator locator(elements, scene);
+std::vector<Impact> impacts(const Particles& p, const hierarchy::Elements& elements, const Scene& scene) {
+  const hierarchy::SideLocator locator(elements, scene);
   std::vector<std::uint32_t> first(p.paths() + 1, 0);
   for (std::size_t path = 0; path < p.paths(); ++path) first[path + 1] = first[path] + p.range[path].impacts;
   std::vector<Impact> result(first.back());
@@ -14,7 +14,7 @@ std::vector<Impact> impacts(const Particles& p, const Elements& elements, const 
     const SenderCell& cell = p.senderCells[p.sender[path]];
     Rgb power(0.0f);
     if (cell.kind == SenderKind::Side) {
-      const ElementId side = locator.side(cell.primitive, p.originTriangle[path], cell.front);
+      const hierarchy::ElementId side = locator.side(cell.primitive, p.originTriangle[path], cell.front);
       if (side.valid()) power = elements.radiometry[locator.locate(side, Vec3(p.verticesOf(path)[0])).leaf.index()].B;
     } else {
       power = scene[cell.light].scale;
@@ -27,4 +27,4 @@ std::vector<Impact> impacts(const Particles& p, const Elements& elements, const 
   return result;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -1,13 +1,13 @@
 #include "particles/lookout.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 constexpr std::uint64_t kLookSeed = 0x6c6f6f6b7a7a7a7aull;
 }
 
-Lookout::Lookout(const Scene& scene, const RayTracer& tracer, const ParticleEmission& emission, const Senders& senders,
-                 const Receivers& receivers, const CoarseExitance& exitance)
+Lookout::Lookout(const Scene& scene, const tracing::RayTracer& tracer, const ParticleEmission& emission,
+                 const Senders& senders, const Receivers& receivers, const CoarseExitance& exitance)
     : tracer_(tracer),
       emission_(emission),
       senders_(senders),
@@ -60,7 +60,7 @@ void Lookout::look(const LinkEnds& ends, std::uint64_t key, int count, Looks& lo
   }
   emission_.arrive(w.links, w.segments, w.arrivals, w.rays, w.traced);
   for (int i = 0; i < more; ++i) {
-    const Arrival& a = w.arrivals[i];
+    const FirstHit& a = w.arrivals[i];
     if (!a.primitive.valid()) continue;
     looks.see(exitanceOf(w.segments[i].senderCell) *
               passedOn(a, events(static_cast<std::uint32_t>(first + i)), w.traced));
@@ -73,15 +73,15 @@ double Lookout::albedoOf(const FirstSegment& s, const LinkEnds& ends) const {
 }
 
 /// Gray flux behind the first event, if it meets a surface.
-double Lookout::passedOn(const Arrival& a, const EventNumbers& u, std::uint64_t& rays) const {
+double Lookout::passedOn(const FirstHit& a, const EventNumbers& u, std::uint64_t& rays) const {
   const SurfaceSpot spot{a.primitive, a.triangle, a.position, a.normal, a.front()};
   const auto event = surfaces_.scatter(spot, a.direction, true, u);
   if (!event) return 0;
-  Ray ray;
+  tracing::Ray ray;
   ray.direction = event->direction;
-  ray.origin = offsetOrigin(a.position, a.normal, ray.direction);
+  ray.origin = tracing::offsetOrigin(a.position, a.normal, ray.direction);
   ++rays;
   return tracer_.occluded(ray) ? gray(a.flux * event->weight) : 0;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

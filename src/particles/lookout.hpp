@@ -9,7 +9,7 @@
 #include "particles/coarse_exitance.hpp"
 #include "particles/emission.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// What some looks at a link have seen.
 class Looks {
@@ -41,14 +41,14 @@ class Looks {
 class Lookout {
  public:
   /// All must outlive this.
-  Lookout(const Scene&, const RayTracer&, const ParticleEmission&, const Senders&, const Receivers&,
+  Lookout(const Scene&, const tracing::RayTracer&, const ParticleEmission&, const Senders&, const Receivers&,
           const CoarseExitance&);
 
   /// Memory for looks, used again by the next.
   struct Workspace {
     std::vector<FirstSegment> segments;
     std::vector<LinkEnds> links;
-    std::vector<Arrival> arrivals;
+    std::vector<FirstHit> arrivals;
     FirstRays rays;
     std::uint64_t traced = 0;
   };
@@ -65,9 +65,9 @@ class Lookout {
     return senders_.cells()[cell].kind == SenderKind::Side ? exitance_.perCell[cell] : 1.0;
   }
   double albedoOf(const FirstSegment&, const LinkEnds&) const;
-  double passedOn(const Arrival&, const EventNumbers&, std::uint64_t& rays) const;
+  double passedOn(const FirstHit&, const EventNumbers&, std::uint64_t& rays) const;
 
-  const RayTracer& tracer_;
+  const tracing::RayTracer& tracer_;
   const ParticleEmission& emission_;
   const Senders& senders_;
   const Receivers& receivers_;
@@ -77,4 +77,4 @@ class Lookout {
   std::vector<double> takes_, albedo_;  // area of both sides times albedo, and greatest albedo, by node of receivers
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

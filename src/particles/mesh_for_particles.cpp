@@ -9,7 +9,7 @@
 #include "hierarchy/side_locator.hpp"
 #include "particles/side_index.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -28,27 +28,28 @@ struct Quarter {
 
 /// What has fallen on a leaf.
 struct Tally {
-  ElementId leaf;
+  hierarchy::ElementId leaf;
   std::array<Quarter, 4> quarters;
   std::uint32_t count = 0;
 };
 
 struct Fallen {
-  ElementId leaf;
+  hierarchy::ElementId leaf;
   glm::vec2 uv{0.0f};
   float weight = 0;
 };
 
 /// Impacts on sides that do not keep their mesh, in the order of the particles.
-std::vector<Fallen> fallenOn(const Elements& elements, const Scene& scene, const Particles& p,
+std::vector<Fallen> fallenOn(const hierarchy::Elements& elements, const Scene& scene, const Particles& p,
                              const std::vector<bool>& keep) {
   constexpr std::size_t kBlock = 4096;
   std::vector<std::vector<Fallen>> found((p.paths() + kBlock - 1) / kBlock);
-  const SideLocator locator(elements, scene);
+  const hierarchy::SideLocator locator(elements, scene);
   parallelFor(p.paths(), kBlock, [&](std::size_t path) {
     for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
       if (!keep.empty() && keep[sideIndex(p, i)]) continue;
-      const ElementId side = locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
+      const hierarchy::ElementId side =
+          locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
       if (!side.valid()) continue;
       const float power = p.links[p.link[path]].scale * p.nominal[p.sender[path]];
       found[path / kBlock].push_back({locator.leafAt(side, Vec2(p.uv[i])), p.uv[i], power * gray(p.throughput[i])});
@@ -60,13 +61,13 @@ std::vector<Fallen> fallenOn(const Elements& elements, const Scene& scene, const
 }
 
 /// By leaf, in the order of ids.
-std::vector<Tally> tally(const Elements& elements, std::span<const Fallen> fallen) {
+std::vector<Tally> tally(const hierarchy::Elements& elements, std::span<const Fallen> fallen) {
   std::vector<std::uint32_t> place(elements.size(), Id<void>::kNone);
   std::vector<Tally> tallies;
   for (const Fallen& f : fallen) {
     std::uint32_t& at = place[f.leaf.index()];
     if (at == Id<void>::kNone) at = static_cast<std::uint32_t>(tallies.size()), tallies.emplace_back().leaf = f.leaf;
-    const PatchDomain& d = elements.domain[f.leaf.index()];
+    const hierarchy::PatchDomain& d = elements.domain[f.leaf.index()];
     const int quarter = (f.uv.x > 0.5f * (d.u0 + d.u1) ? 1 : 0) + (f.uv.y > 0.5f * (d.v0 + d.v1) ? 2 : 0);
     tallies[at].quarters[quarter].add(f.weight);
     ++tallies[at].count;
@@ -88,7 +89,7 @@ bool showsDetail(const Tally& t, double area) {
 
 }  // namespace
 
-std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const Particles& p,
+std::size_t subdivideForParticles(hierarchy::Elements& elements, const Scene& scene, const Particles& p,
                                   const std::vector<bool>& coarse, const std::vector<bool>& keep) {
   std::vector<Fallen> fallen = fallenOn(elements, scene, p, keep);
   std::size_t total = 0;
@@ -96,15 +97,15 @@ std::size_t subdivideForParticles(Elements& elements, const Scene& scene, const 
     std::size_t split = 0;
     for (const Tally& t : tally(elements, fallen)) {
       if (t.count < kFewest) continue;
-      const ElementTopology& e = elements.at(t.leaf);
+      const hierarchy::ElementTopology& e = elements.at(t.leaf);
       if (coarse[sideIndex(elements.domain[t.leaf.index()].primitive, e.front)] && e.depth >= kShownDepth) continue;
-      if (showsDetail(t, elements.shape(t.leaf).area)) split += subdivide(elements, scene, t.leaf);
+      if (showsDetail(t, elements.shape(t.leaf).area)) split += hierarchy::subdivide(elements, scene, t.leaf);
     }
     if (split == 0) break;
     total += split;
     // What stays whole now stays so.
     std::erase_if(fallen, [&](const Fallen& f) { return elements.isLeaf(f.leaf); });
-    const SideLocator locator(elements, scene);
+    const hierarchy::SideLocator locator(elements, scene);
     parallelFor(fallen.size(), 4096,
                 [&](std::size_t i) { fallen[i].leaf = locator.leafAt(fallen[i].leaf, Vec2(fallen[i].uv)); });
   }
@@ -134,4 +135,4 @@ std::vector<bool> sidesThatKeepTheirMesh(const Scene& scene, const Particles& p,
   return keep;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -5,16 +5,16 @@
 // Cost: about 0.2 microseconds an impact and level.
 #include "particles/particle_tracing.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// Returns how many patches were split. `coarse`: sides that stay coarse, because textures show their particles; by
 /// 2 * primitive + (front ? 0 : 1). They are split as far as others need to be lit by them, to a thirty-second part.
 /// `keep`: sides that are not looked at, if any.
-std::size_t subdivideForParticles(Elements&, const Scene&, const Particles&, const std::vector<bool>& coarse,
+std::size_t subdivideForParticles(hierarchy::Elements&, const Scene&, const Particles&, const std::vector<bool>& coarse,
                                   const std::vector<bool>& keep = {});
 
 /// Sides for whose particles the mesh need not be looked at anew after these paths were traced: all but those of whose
 /// flux, by nominal senders, new landings bring a tenth or more.
 std::vector<bool> sidesThatKeepTheirMesh(const Scene&, const Particles&, const ParticleUpdate&);
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -168,4 +168,4 @@ bool MovedShapes::meets(const Ring& r, const Vec3& from, const Vec3& to) const {
   return !(glm::length(a) < within && glm::length(b) < within);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

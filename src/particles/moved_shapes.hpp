@@ -8,7 +8,7 @@
 
 #include "particles/segment_box.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 class MovedShapes {
  public:
@@ -55,4 +55,4 @@ class MovedShapes {
   std::vector<Piece> pieces_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -11,7 +11,7 @@
 #include "particles/plan_particles.hpp"
 #include "particles/trace.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -95,7 +95,7 @@ class Motions {
 
 }  // namespace
 
-ParticleTracing::Ends::Ends(const Scene& scene, const RayTracer& tracer)
+ParticleTracing::Ends::Ends(const Scene& scene, const tracing::RayTracer& tracer)
     : lights(scene), senders(scene, lights), receivers(scene), emission(scene, tracer, senders, receivers) {}
 
 ParticleTracing::Look::Look(const Scene& scene)
@@ -103,7 +103,7 @@ ParticleTracing::Look::Look(const Scene& scene)
   for (const Primitive& p : scene.primitives) materialOf.push_back(p.material);
 }
 
-ParticleTracing::ParticleTracing(const Scene& scene, const RayTracer& tracer, const ParticleSettings& settings)
+ParticleTracing::ParticleTracing(const Scene& scene, const tracing::RayTracer& tracer, const ParticleSettings& settings)
     : scene_(scene), tracer_(tracer), settings_(settings), ends_(std::make_unique<Ends>(scene, tracer)), look_(scene) {}
 
 Particles ParticleTracing::trace() {
@@ -250,8 +250,8 @@ ParticleUpdate ParticleTracing::follow(Particles& p, const SceneChange& change) 
   return all_ ? retraceAll(p) : retrace(p, waiting_.size());
 }
 
-Particles traceParticles(const Scene& scene, const RayTracer& tracer, const ParticleSettings& settings) {
+Particles traceParticles(const Scene& scene, const tracing::RayTracer& tracer, const ParticleSettings& settings) {
   return ParticleTracing(scene, tracer, settings).trace();
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

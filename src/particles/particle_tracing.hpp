@@ -18,7 +18,7 @@
 #include "particles/particles.hpp"
 #include "particles/path_watch.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// A path that was traced anew, and what it was: its range still holds that, until particles are made compact.
 struct RetracedPath {
@@ -37,7 +37,7 @@ struct ParticleUpdate {
 class ParticleTracing {
  public:
   /// Both must outlive this.
-  ParticleTracing(const Scene&, const RayTracer&, const ParticleSettings&);
+  ParticleTracing(const Scene&, const tracing::RayTracer&, const ParticleSettings&);
 
   Particles trace();
 
@@ -71,12 +71,12 @@ class ParticleTracing {
  private:
   /// What first segments are drawn from.
   struct Ends {
-    LightSampler lights;
+    scene::LightSampler lights;
     Senders senders;
     Receivers receivers;
     ParticleEmission emission;
 
-    Ends(const Scene&, const RayTracer&);
+    Ends(const Scene&, const tracing::RayTracer&);
   };
   /// What particles depend on besides shapes.
   struct Look {
@@ -95,7 +95,7 @@ class ParticleTracing {
   void addTouched(const Particles&, std::span<const SceneChange::Moved>, const Worth&);
 
   const Scene& scene_;
-  const RayTracer& tracer_;
+  const tracing::RayTracer& tracer_;
   ParticleSettings settings_;
   std::unique_ptr<Ends> ends_;
   Look look_;
@@ -106,4 +106,4 @@ class ParticleTracing {
   std::vector<char> waits_;  // by path
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

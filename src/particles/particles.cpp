@@ -8,7 +8,7 @@
 
 #include "base/random.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -181,4 +181,4 @@ void validate(const Particles& p, const Scene& scene) {
     for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) checkImpact(p, i, scene);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -18,7 +18,7 @@
 #include "particles/impact.hpp"
 #include "particles/path_account.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// Paths of one link are contiguous.
 struct ParticleLink {
@@ -119,6 +119,6 @@ struct ParticleSettings {
 
 /// Traces the particles of a scene. Throws nothing of its own. A scene with edits is judged at rest, with a tracer of
 /// its own.
-Particles traceParticles(const Scene&, const RayTracer&, const ParticleSettings&);
+Particles traceParticles(const Scene&, const tracing::RayTracer&, const ParticleSettings&);
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

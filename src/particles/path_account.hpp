@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <deltalux/units.hpp>
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// Three channels in four bytes: a byte each, and a power of two.
 class PackedRgb {
@@ -51,4 +51,4 @@ enum PathFate : std::uint8_t {
   kCut = 4,       // by the depth limit
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

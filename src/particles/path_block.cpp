@@ -6,7 +6,7 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -64,4 +64,4 @@ void append(std::span<const PathBlock> blocks, std::size_t begin, std::span<cons
               [&](std::size_t b) { append(blocks[b], begin + b * PathBlock::kPaths, only, vertex[b], impact[b], p); });
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

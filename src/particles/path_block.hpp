@@ -7,7 +7,7 @@
 #include "particles/particles.hpp"
 #include "tracing/ray.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// What a block of paths made; vertices and landings in the order in which they happened.
 struct PathBlock {
@@ -50,7 +50,7 @@ struct PathBlock {
     vertices.push_back({path, p, there});
     ++vertexCount[path];
   }
-  void addLanding(std::uint32_t path, const Hit& hit, const glm::vec2& at, const Rgb& flux) {
+  void addLanding(std::uint32_t path, const tracing::Hit& hit, const glm::vec2& at, const Rgb& flux) {
     landings.push_back({path, hit.primitive, 2 * hit.triangle + (hit.front ? 0 : 1), at, flux});
     ++landingCount[path];
   }
@@ -59,4 +59,4 @@ struct PathBlock {
 /// Puts what blocks made of the paths from `begin` on (of `only`, or of all) behind what there is, by path.
 void append(std::span<const PathBlock>, std::size_t begin, std::span<const std::uint32_t> only, Particles&);
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

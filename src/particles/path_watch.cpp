@@ -4,7 +4,7 @@
 
 #include "base/parallel.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 PathWatch::PathWatch(const Particles& p, const Box& region, double margin)
     : region_(region), box_(region, margin), words_((p.paths() + kPathsOfWord - 1) / kPathsOfWord, 0) {
@@ -32,4 +32,4 @@ void PathWatch::renew(const Particles& p, std::span<const std::uint32_t> paths) 
   }
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -6,7 +6,7 @@
 #include "particles/particles.hpp"
 #include "particles/segment_box.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 class PathWatch {
  public:
@@ -32,4 +32,4 @@ class PathWatch {
   std::vector<std::uint64_t> words_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

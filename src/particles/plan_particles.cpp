@@ -5,7 +5,7 @@
 #include "particles/plan_particles.hpp"
 #include "particles/trace.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -38,11 +38,11 @@ void append(DsLinks& links, const DsLinks& more) {
 }
 
 /// Everything but the paths themselves: who sends, the links, and how many paths each gets.
-Particles plan(const Scene& scene, const RayTracer& tracer, const ParticleSettings& settings) {
+Particles plan(const Scene& scene, const tracing::RayTracer& tracer, const ParticleSettings& settings) {
   Particles p;
   const Receivers receivers(scene);
   if (receivers.empty() || settings.count == 0) return p;
-  const LightSampler lights(scene, std::vector<Rgb>(scene.lights.size(), Rgb(1.0f)));
+  const scene::LightSampler lights(scene, std::vector<Rgb>(scene.lights.size(), Rgb(1.0f)));
   Senders senders(scene, lights);
   const ParticleEmission emission(scene, tracer, senders, receivers);
   CoarseExitance exitance{skyStrengths(scene, senders)};
@@ -77,12 +77,12 @@ bool moved(const Scene& scene) {
 
 }  // namespace
 
-Particles planParticles(const Scene& scene, const RayTracer& tracer, const ParticleSettings& settings) {
+Particles planParticles(const Scene& scene, const tracing::RayTracer& tracer, const ParticleSettings& settings) {
   if (!moved(scene)) return plan(scene, tracer, settings);
   Scene rest = scene;
   for (const Placement& p : scene.placements) rest.primitives[p.primitive.index()].shape = p.rest;
   rest.placements.clear();
-  return plan(rest, *makeEmbreeTracer(rest), settings);
+  return plan(rest, *tracing::makeEmbreeTracer(rest), settings);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -6,7 +6,7 @@
 #include "base/check.hpp"
 #include "base/random.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -66,4 +66,4 @@ std::uint32_t appendRadixTree(std::vector<RadixNode>& nodes, std::span<const Cod
   return Builder{nodes, codes, firstLeaf, seed}.build(0, codes.size());
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// Compared word by word, the first counts most.
 using Code = std::array<std::uint32_t, 4>;
@@ -27,4 +27,4 @@ struct RadixNode {
 std::uint32_t appendRadixTree(std::vector<RadixNode>&, std::span<const Code> codes, std::uint32_t firstLeaf,
                               std::uint64_t seed);
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -13,14 +13,14 @@
 #include "particles/surface_normal.hpp"
 #include "scene/stops_light.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
 /// In the order of surfaceSides().
-bool before(const SurfaceSide& a, const SurfaceSide& b) { return a.side() < b.side(); }
+bool before(const hierarchy::SurfaceSide& a, const hierarchy::SurfaceSide& b) { return a.side() < b.side(); }
 
-double areaOf(const Scene& scene, const SurfaceSide& s) {
+double areaOf(const Scene& scene, const hierarchy::SurfaceSide& s) {
   const Shape& shape = scene[s.primitive].shape;
   const auto* mesh = std::get_if<Mesh>(&shape);
   if (!mesh) return area(shape);
@@ -38,7 +38,8 @@ struct Landed {
 /// Looks round from points of surfaces for light.
 class Lookout {
  public:
-  Lookout(const Scene& scene, const RayTracer& tracer, const IsLit& lit) : scene_(scene), tracer_(tracer), lit_(lit) {}
+  Lookout(const Scene& scene, const tracing::RayTracer& tracer, const IsLit& lit)
+      : scene_(scene), tracer_(tracer), lit_(lit) {}
 
   /// Whether anything is seen from here but sides that are dark. A lit side may be dark just there, in a hollow that it
   /// closes: so it must see light itself.
@@ -46,11 +47,11 @@ class Lookout {
     const Frame frame{Vec3(normal)};
     for (int k = 0; k < kRays; ++k) {
       const double u = rng.uniform();
-      Ray ray;
+      tracing::Ray ray;
       ray.direction = Vec3f(cosineDirection(frame, u, rng.uniform()));
-      ray.origin = offsetOrigin(p, normal, ray.direction);
-      const Hit hit = tracer_.closestHit(ray);
-      if (!hit || !stopsLight(scene_.materialOf(hit.primitive))) return true;
+      ray.origin = tracing::offsetOrigin(p, normal, ray.direction);
+      const tracing::Hit hit = tracer_.closestHit(ray);
+      if (!hit || !scene::stopsLight(scene_.materialOf(hit.primitive))) return true;
       if (!lit_(hit.primitive, hit.triangle, hit.front)) continue;
       if (!again || sees(hit.position, hit.front ? hit.normal : -hit.normal, rng, false)) return true;
     }
@@ -59,7 +60,7 @@ class Lookout {
 
  private:
   const Scene& scene_;
-  const RayTracer& tracer_;
+  const tracing::RayTracer& tracer_;
   const IsLit& lit_;
 };
 
@@ -75,19 +76,20 @@ bool startsInLight(const Particles& p, std::uint32_t path, const Scene& scene, c
 
 }  // namespace
 
-void addReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles, const Scene& scene,
-                     const RayTracer& tracer) {
+void addReachedSides(std::vector<hierarchy::SurfaceSide>& sides, const Particles& particles, const Scene& scene,
+                     const tracing::RayTracer& tracer) {
   std::vector<std::uint32_t> all(particles.paths());
   std::iota(all.begin(), all.end(), 0u);
-  const std::vector<SurfaceSide> known = sides;
+  const std::vector<hierarchy::SurfaceSide> known = sides;
   addReachedSides(sides, particles, all, scene, tracer, [&](PrimitiveId primitive, std::uint32_t triangle, bool front) {
-    const SurfaceSide s{primitive, triangle, front, 0, Rgb(0.0f), 0};
+    const hierarchy::SurfaceSide s{primitive, triangle, front, 0, Rgb(0.0f), 0};
     return std::binary_search(known.begin(), known.end(), s, before);
   });
 }
 
-void addReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles, std::span<const std::uint32_t> paths,
-                     const Scene& scene, const RayTracer& tracer, const IsLit& lit) {
+void addReachedSides(std::vector<hierarchy::SurfaceSide>& sides, const Particles& particles,
+                     std::span<const std::uint32_t> paths, const Scene& scene, const tracing::RayTracer& tracer,
+                     const IsLit& lit) {
   const Lookout lookout(scene, tracer, lit);
   std::map<std::pair<PrimitiveId, std::uint32_t>, Landed> landed;  // by primitive, triangle and side
   for (const std::uint32_t path : paths) {
@@ -99,9 +101,9 @@ void addReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles
       if (l.paths.size() < kAsked) l.paths.push_back(path);
     }
   }
-  std::vector<SurfaceSide> added;
+  std::vector<hierarchy::SurfaceSide> added;
   for (const auto& [where, l] : landed) {
-    SurfaceSide s{where.first, where.second >> 1, (where.second & 1) == 0, 0, Rgb(0.0f), 0};
+    hierarchy::SurfaceSide s{where.first, where.second >> 1, (where.second & 1) == 0, 0, Rgb(0.0f), 0};
     if (std::binary_search(sides.begin(), sides.end(), s, before)) continue;
     const auto starts = [&](std::uint32_t path) { return startsInLight(particles, path, scene, lookout); };
     if (!lit(s.primitive, s.triangle, s.front) && std::none_of(l.paths.begin(), l.paths.end(), starts)) continue;
@@ -115,27 +117,27 @@ void addReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles
   std::sort(sides.begin(), sides.end(), before);
 }
 
-void dropReachedSides(std::vector<SurfaceSide>& sides, const Particles& particles) {
+void dropReachedSides(std::vector<hierarchy::SurfaceSide>& sides, const Particles& particles) {
   if (sides.empty()) return;
   DELTALUX_CHECK(std::is_sorted(sides.begin(), sides.end(), before), "in the order of surfaceSides()");
   const PrimitiveId last = sides.back().primitive;
   std::vector<char> asked(last.index() + 1, 0), reached(sides.size(), 0);
-  for (const SurfaceSide& s : sides) asked[s.primitive.index()] = 1;
+  for (const hierarchy::SurfaceSide& s : sides) asked[s.primitive.index()] = 1;
   parallelFor(particles.paths(), 4096, [&](std::size_t path) {
     for (std::uint32_t i = particles.firstImpact(path); i < particles.endImpact(path); ++i) {
       const PrimitiveId primitive = particles.primitive[i];
       if (primitive > last || !asked[primitive.index()]) continue;
       const std::uint32_t side = particles.triangleAndSide[i];
-      const SurfaceSide landed{primitive, side >> 1, (side & 1) == 0, 0, Rgb(0.0f), 0};
+      const hierarchy::SurfaceSide landed{primitive, side >> 1, (side & 1) == 0, 0, Rgb(0.0f), 0};
       const auto at = std::lower_bound(sides.begin(), sides.end(), landed, before);
       if (at != sides.end() && !before(landed, *at))
         std::atomic_ref(reached[static_cast<std::size_t>(at - sides.begin())]).store(1, std::memory_order_relaxed);
     }
   });
-  std::vector<SurfaceSide> others;
+  std::vector<hierarchy::SurfaceSide> others;
   for (std::size_t i = 0; i < sides.size(); ++i)
     if (!reached[i]) others.push_back(sides[i]);
   sides = std::move(others);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -3,7 +3,7 @@
 
 #include "particles/receivers.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 std::uint32_t Receivers::choose(const RadixNode& node, double u) const {
   const double target = cumulative_[node.begin] + u * weightOf(node);
@@ -55,7 +55,7 @@ ReceiverPoint Receivers::curvedPoint(std::uint32_t cell, const Vec2& u) const {
   return {p.position, p.normal};
 }
 
-std::uint32_t Receivers::cellOf(const Hit& hit) const {
+std::uint32_t Receivers::cellOf(const tracing::Hit& hit) const {
   const std::uint32_t first = surfaceOf_[hit.primitive.index()];
   if (first == RadixNode::kNone) return RadixNode::kNone;
   const Surface& s = surfaces_[first + hit.triangle];
@@ -72,4 +72,4 @@ std::uint32_t Receivers::cellOf(const Hit& hit) const {
   return s.firstCell + cellAt(s.size, s.halvings, at);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

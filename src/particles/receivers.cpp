@@ -5,7 +5,7 @@
 
 #include "scene/edit/plan.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -80,13 +80,13 @@ float specularAlbedo(const Material& material) {
 Receivers::Receivers(const Scene& scene) : scene_(scene), surfaceOf_(scene.primitives.size(), RadixNode::kNone) {
   double total = 0;
   for (std::size_t i = 0; i < scene.primitives.size(); ++i)
-    total += deltalux::area(edits::restShape(scene, PrimitiveId(i)));
+    total += deltalux::area(scene::edits::restShape(scene, PrimitiveId(i)));
   const double limit = coarse(total) / kCellsOfScene;
   const std::vector<std::uint32_t> top = topObjects(scene);
   std::vector<std::pair<Code, Cell>> cells;
   std::vector<double> areas;  // at rest, by surface
   for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
-    const Shape& rest = edits::restShape(scene, PrimitiveId(i));
+    const Shape& rest = scene::edits::restShape(scene, PrimitiveId(i));
     if (!isSpecular(scene.materialOf(PrimitiveId(i))) || !(deltalux::area(rest) > 0)) continue;
     surfaceOf_[i] = static_cast<std::uint32_t>(surfaces_.size());
     const auto* mesh = std::get_if<Mesh>(&rest);
@@ -106,7 +106,7 @@ Receivers::Receivers(const Scene& scene) : scene_(scene), surfaceOf_(scene.primi
     codes.push_back(cells[i].first);
     cells_.push_back(cell);
     const double area = areas[cell.surface] * cell.rect.measure();
-    cumulative_.push_back(cumulative_.back() + deltalux::weightOf(area, surfaces_[cell.surface].albedo));
+    cumulative_.push_back(cumulative_.back() + particles::weightOf(area, surfaces_[cell.surface].albedo));
   }
   appendRadixTree(nodes_, codes, 0, kSeed);
   bounds_.resize(nodes_.size()), holdsAll_.assign(nodes_.size(), 1);
@@ -114,7 +114,7 @@ Receivers::Receivers(const Scene& scene) : scene_(scene), surfaceOf_(scene.primi
   for (std::size_t n = 0; n < nodes_.size(); ++n)
     if (nodes_[n].isLeaf()) leaf_[nodes_[n].begin] = static_cast<std::uint32_t>(n);
   for (std::uint32_t c = 0; c < cells_.size(); ++c)
-    bounds_[leaf_[c]] = boundOf(cells_[c], edits::restShape(scene, primitive(c)));
+    bounds_[leaf_[c]] = boundOf(cells_[c], scene::edits::restShape(scene, primitive(c)));
   boundNodes();
   restBounds_ = bounds_;
   std::vector<PrimitiveId> edited;
@@ -243,4 +243,4 @@ std::size_t Receivers::memoryBytes() const {
          holdsAll_.capacity() + leaf_.capacity() * 4 + cumulative_.capacity() * 8 + surfaceOf_.capacity() * 4;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -12,7 +12,7 @@
 #include "particles/surface_cells.hpp"
 #include "tracing/ray.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 struct BoundingSphere {
   Vec3 center{0};
@@ -62,7 +62,7 @@ class Receivers {
   ReceiverPoint curvedPoint(std::uint32_t cell, const Vec2& u) const;
 
   /// The cell that holds the point a ray has hit; kNone when its surface receives no particles.
-  std::uint32_t cellOf(const Hit&) const;
+  std::uint32_t cellOf(const tracing::Hit&) const;
 
   std::size_t memoryBytes() const;
 
@@ -111,4 +111,4 @@ class Receivers {
 /// Greatest share of incident light that a surface passes on other than diffusely.
 float specularAlbedo(const Material&);
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

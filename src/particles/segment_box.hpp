@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <deltalux/math.hpp>
 
-namespace deltalux {
+namespace deltalux::particles {
 
 class SegmentBox {
  public:
@@ -34,4 +34,4 @@ class SegmentBox {
   Vec3f center_, half_, lower_, upper_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -6,7 +6,7 @@
 #include "particles/senders.hpp"
 #include "scene/edit/plan.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 /// A few digits only, see Receivers.
@@ -43,7 +43,7 @@ void Senders::rememberRest() {
     const SenderCell &first = cells_[node.begin], &last = cells_[node.end - 1];
     if (normals_[n].cosine < 1 || first.primitive != last.primitive || first.front != last.front) continue;
     near.normal = normals_[n].axis;
-    const SurfacePoint p = samplePoint(edits::restShape(scene_, first.primitive), first.rect.at({0.5, 0.5}));
+    const SurfacePoint p = samplePoint(scene::edits::restShape(scene_, first.primitive), first.rect.at({0.5, 0.5}));
     near.offset = glm::dot(near.normal, p.position);
   }
 }
@@ -72,4 +72,4 @@ Senders::Choice Senders::chooseNear(std::uint32_t at, const BoundingSphere& towa
   return {nodes_[at].begin, chance};
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -8,7 +8,7 @@
 #include "particles/side_index.hpp"
 #include "scene/edit/plan.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -24,9 +24,10 @@ bool isDiffuse(const Material& m, bool front) {
 
 }  // namespace
 
-Senders::Senders(const Scene& scene, const LightSampler& lights) : scene_(scene), lights_(lights) {
+Senders::Senders(const Scene& scene, const scene::LightSampler& lights) : scene_(scene), lights_(lights) {
   double total = 0;
-  for (std::size_t i = 0; i < scene.primitives.size(); ++i) total += area(edits::restShape(scene, PrimitiveId(i)));
+  for (std::size_t i = 0; i < scene.primitives.size(); ++i)
+    total += area(scene::edits::restShape(scene, PrimitiveId(i)));
   for (std::size_t i = 0; i < scene.lights.size(); ++i) beams_.push_back(beamOf(LightId(i)));
   for (std::size_t i = 0; i < scene.lights.size(); ++i) addLight(LightId(i), coarse(total) / kLampsOfScene);
   lightTrees_ = roots_.size();
@@ -38,7 +39,7 @@ Senders::Senders(const Scene& scene, const LightSampler& lights) : scene_(scene)
   for (std::size_t n = 0; n < nodes_.size(); ++n)
     if (nodes_[n].isLeaf()) leaf_[nodes_[n].begin] = static_cast<std::uint32_t>(n);
   const auto restOf = [&](const SenderCell& c) {
-    return c.primitive.valid() ? &edits::restShape(scene, c.primitive) : nullptr;
+    return c.primitive.valid() ? &scene::edits::restShape(scene, c.primitive) : nullptr;
   };
   for (std::uint32_t c = 0; c < cells_.size(); ++c) {
     restMeasure_.push_back(cells_[c].measure);
@@ -77,7 +78,7 @@ void Senders::addLight(LightId id, double limit) {
   c.light = id;
   if (const auto* areaLight = std::get_if<AreaLight>(&emitter)) {
     const Material& material = scene_.materialOf(areaLight->primitive);
-    const Shape& shape = edits::restShape(scene_, areaLight->primitive);
+    const Shape& shape = scene::edits::restShape(scene_, areaLight->primitive);
     const double whole = area(shape);
     if (!material.emission || !(whole > 0)) return;
     c.kind = SenderKind::Lamp;
@@ -118,7 +119,7 @@ void Senders::addSurfaces(double limit) {
   firstCell_.assign(2 * scene_.primitives.size(), RadixNode::kNone);
   std::vector<std::pair<Code, SenderCell>> cells;
   for (std::size_t i = 0; i < scene_.primitives.size(); ++i) {
-    const Shape& rest = edits::restShape(scene_, PrimitiveId(i));
+    const Shape& rest = scene::edits::restShape(scene_, PrimitiveId(i));
     const Material& material = scene_.materialOf(PrimitiveId(i));
     const double whole = area(rest);
     if (!(whole > 0)) continue;
@@ -144,7 +145,7 @@ std::uint32_t Senders::cellOf(PrimitiveId p, std::uint32_t triangle, bool front,
   const std::uint32_t first = firstCell_[2 * p.index() + (front ? 0 : 1)];
   const int halves = halvings_[p.index()];
   if (first == RadixNode::kNone || halves == 0) return first;
-  const Shape& shape = edits::restShape(scene_, p);
+  const Shape& shape = scene::edits::restShape(scene_, p);
   return first + cellAt(sampleSize(shape), halves, sampleNumbers(shape, triangle, uv));
 }
 
@@ -260,4 +261,4 @@ std::size_t Senders::memoryBytes() const {
          cumulative_.capacity() * 8 + roots_.capacity() * 4;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -9,7 +9,7 @@
 #include "particles/surface_cells.hpp"
 #include "scene/light_sampling.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 enum class SenderKind : std::uint8_t {
   Side,   // one side of a surface with a diffuse part: sends its radiosity
@@ -31,7 +31,7 @@ struct SenderCell {
 class Senders {
  public:
   /// Both must outlive this.
-  Senders(const Scene&, const LightSampler&);
+  Senders(const Scene&, const scene::LightSampler&);
   /// Takes in where these primitives are now. Returns by cell whether it moved.
   std::vector<char> follow(std::span<const PrimitiveId>);
 
@@ -104,7 +104,7 @@ class Senders {
   Beam beamOf(LightId) const;
 
   const Scene& scene_;
-  const LightSampler& lights_;
+  const scene::LightSampler& lights_;
   std::vector<SenderCell> cells_;
   std::vector<float> restMeasure_;   // by cell
   std::vector<std::uint32_t> leaf_;  // by cell: its node
@@ -121,4 +121,4 @@ class Senders {
   std::vector<std::uint8_t> halvings_;    // by primitive
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -2,7 +2,7 @@
 // The two sides of every primitive in one order, for tables by side.
 #include "particles/particles.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 inline std::size_t sideIndex(PrimitiveId primitive, bool front) { return 2 * primitive.index() + (front ? 0 : 1); }
 
@@ -11,4 +11,4 @@ inline std::size_t sideIndex(const Particles& p, std::uint32_t impact) {
   return sideIndex(p.primitive[impact], (p.triangleAndSide[impact] & 1) == 0);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -1,13 +1,13 @@
 #pragma once
 // Points of a rectangle uniform in the solid angle under which another point sees it: a sender next to a mirror or a
 // floor then has bounded weights, however close it is.
-// [UFK13: Urena, Fajardo, King 2013, "An Area-Preserving Parametrization for Spherical Rectangles"]
+// [UFK13]
 #include <algorithm>
 #include <deltalux/math.hpp>
 
 #include "base/unit_circle.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// A rectangle: corner, unit edge directions at right angles, lengths.
 struct Rectangle {
@@ -56,4 +56,4 @@ class SolidAngleRectangle {
   double x0_ = 0, x1_ = 0, y0_ = 0, y1_ = 0, z_ = 0, b0_ = 0, b1_ = 0, k_ = 0, omega_ = 0;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -5,7 +5,7 @@
 #include "base/parallel.hpp"
 #include "hierarchy/most_returned.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -13,14 +13,14 @@ constexpr double kByChance = 2;  // times what surfaces could send: more is no m
 constexpr std::size_t kBlock = 64;
 
 /// By which what comes back exceeds what a patch of that area may get.
-double excess(const Feedback& f, double area, const ElementLight& light) {
-  const double byReturn = f.flux / std::max<double>(mostReturned(light) - 1, 1e-6);
+double excess(const Feedback& f, double area, const hierarchy::ElementLight& light) {
+  const double byReturn = f.flux / std::max<double>(hierarchy::mostReturned(light) - 1, 1e-6);
   return std::min(f.once, std::max(f.often / kByChance, byReturn)) / std::max(area, 1e-30);
 }
 
 }  // namespace
 
-void PatchTree::list(const Elements& elements, ElementId top) {
+void PatchTree::list(const hierarchy::Elements& elements, hierarchy::ElementId top) {
   places.assign(1, {top, 0});
   if (elements.isLeaf(top)) return;
   places.clear();
@@ -29,7 +29,7 @@ void PatchTree::list(const Elements& elements, ElementId top) {
     const auto here = static_cast<std::uint32_t>(places.size());
     places.push_back(stack.back());
     stack.pop_back();
-    const ElementId e = places[here].element;
+    const hierarchy::ElementId e = places[here].element;
     for (std::size_t i = elements.at(e).childCount; i-- > 0;) stack.push_back({elements.child(e, i), here});
   }
 }
@@ -43,7 +43,7 @@ struct SpreadLevels::Cut {
   bool tooMuch = false;  // for so small a patch, or one below
 };
 
-void SpreadLevels::choose(std::span<const ElementId> surfaces, const Elements& elements,
+void SpreadLevels::choose(std::span<const hierarchy::ElementId> surfaces, const hierarchy::Elements& elements,
                           const std::vector<LandingSums>& sums) {
   of_.resize(elements.size(), kNone);
   damping_.resize(elements.size(), 1.0f);
@@ -57,11 +57,11 @@ void SpreadLevels::choose(std::span<const ElementId> surfaces, const Elements& e
   });
 }
 
-void SpreadLevels::choose(const Elements& elements, const std::vector<LandingSums>& sums, const PatchTree& tree,
-                          std::vector<Cut>& cuts) {
+void SpreadLevels::choose(const hierarchy::Elements& elements, const std::vector<LandingSums>& sums,
+                          const PatchTree& tree, std::vector<Cut>& cuts) {
   cuts.assign(tree.places.size(), {});
   for (std::size_t i = cuts.size(); i-- > 0;) {
-    const ElementId e = tree.places[i].element;
+    const hierarchy::ElementId e = tree.places[i].element;
     Cut& cut = cuts[i];
     const bool split = !elements.isLeaf(e) && sums[e.index()].count == 0;
     cut.sums += sums[e.index()];
@@ -79,10 +79,10 @@ void SpreadLevels::choose(const Elements& elements, const std::vector<LandingSum
   }
   // From above: once a patch is whole, so is everything in it.
   for (std::size_t i = 0; i < cuts.size(); ++i) {
-    const ElementId e = tree.places[i].element;
+    const hierarchy::ElementId e = tree.places[i].element;
     const std::uint32_t above = i == 0 ? kNone : of_[tree.places[tree.places[i].parent].element.index()];
     of_[e.index()] = above != kNone ? above : cuts[i].whole ? e.value : kNone;
   }
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -19,7 +19,7 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// What an element can get back of what surfaces all around send, when each has a radiosity of 1.
 struct Feedback {
@@ -50,12 +50,12 @@ struct LandingSums {
 /// A patch and all below it, in an order in which everything below a patch stands right behind it.
 struct PatchTree {
   struct Place {
-    ElementId element;
+    hierarchy::ElementId element;
     std::uint32_t parent;  // place
   };
   std::vector<Place> places;
 
-  void list(const Elements&, ElementId top);
+  void list(const hierarchy::Elements&, hierarchy::ElementId top);
 };
 
 class SpreadLevels {
@@ -63,20 +63,21 @@ class SpreadLevels {
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
   /// Cuts the trees of these input-level patches, each listed once. `sums`: by element.
-  void choose(std::span<const ElementId> surfaces, const Elements&, const std::vector<LandingSums>& sums);
+  void choose(std::span<const hierarchy::ElementId> surfaces, const hierarchy::Elements&,
+              const std::vector<LandingSums>& sums);
 
   /// The element that the particles of `e` are spread over; none for what stands above one.
-  std::uint32_t of(ElementId e) const { return of_[e.index()]; }
+  std::uint32_t of(hierarchy::ElementId e) const { return of_[e.index()]; }
   /// Share that is taken of what surfaces send to such an element.
   double damping(std::uint32_t level) const { return damping_[level]; }
   std::size_t memoryBytes() const { return 4 * (of_.capacity() + damping_.capacity()); }
 
  private:
   struct Cut;
-  void choose(const Elements&, const std::vector<LandingSums>&, const PatchTree&, std::vector<Cut>&);
+  void choose(const hierarchy::Elements&, const std::vector<LandingSums>&, const PatchTree&, std::vector<Cut>&);
 
   std::vector<std::uint32_t> of_;  // by element
   std::vector<float> damping_;     // by element
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

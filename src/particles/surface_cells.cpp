@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -138,4 +138,4 @@ std::vector<std::uint32_t> topObjects(const Scene& scene) {
   return top;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -4,7 +4,7 @@
 #include <deltalux/scene.hpp>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// A rectangle of a unit square: of a surface's parameters, of its frame, or of the numbers that sample it.
 struct UnitRect {
@@ -40,4 +40,4 @@ double coarse(double x);
 /// The object at the top of the tree that a primitive belongs to; primitives without one are their own.
 std::vector<std::uint32_t> topObjects(const Scene&);
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

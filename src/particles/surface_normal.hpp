@@ -2,7 +2,7 @@
 // The normal of a shape where a path has been.
 #include <deltalux/shape.hpp>
 
-namespace deltalux {
+namespace deltalux::particles {
 
 /// Unit normal of the front at a point of the surface, for meshes that of `triangle`.
 inline Vec3 normalAt(const Shape& shape, const Vec3& p, std::uint32_t triangle) {
@@ -14,4 +14,4 @@ inline Vec3 normalAt(const Shape& shape, const Vec3& p, std::uint32_t triangle) 
   return pointAt(shape, parameterAt(shape, p)).normal;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

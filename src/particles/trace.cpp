@@ -10,7 +10,7 @@
 #include "particles/bounce.hpp"
 #include "particles/path_block.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
@@ -18,7 +18,7 @@ constexpr std::size_t kBlock = PathBlock::kPaths;
 
 class Tracing {
  public:
-  Tracing(const Scene& scene, const RayTracer& tracer, const ParticleEmission& emission, Particles& particles,
+  Tracing(const Scene& scene, const tracing::RayTracer& tracer, const ParticleEmission& emission, Particles& particles,
           int maxDepth, std::span<const std::uint32_t> only)
       : tracer_(tracer),
         emission_(emission),
@@ -76,12 +76,12 @@ class Tracing {
   struct Memory {
     std::vector<Walker> walkers;
     std::vector<std::uint32_t> going;  // places of those on their way
-    std::vector<Ray> rays;
-    std::vector<Hit> hits;
+    std::vector<tracing::Ray> rays;
+    std::vector<tracing::Hit> hits;
     struct First {
       std::vector<FirstSegment> segments;
       std::vector<LinkEnds> ends;
-      std::vector<Arrival> arrivals;
+      std::vector<FirstHit> arrivals;
       FirstRays rays;
     } first;
   };
@@ -121,7 +121,7 @@ class Tracing {
       const FirstSegment& s = segments[i];
       if (s.kind == FirstSegment::Kind::None) continue;
       const auto path = static_cast<std::uint32_t>(i);
-      const Arrival& a = arrivals[i];
+      const FirstHit& a = arrivals[i];
       r.addVertex(path, s.origin, {});
       if (!a.primitive.valid()) {
         if (s.kind == FirstSegment::Kind::Open) r.fate[path] = kFirstEnd;
@@ -138,7 +138,7 @@ class Tracing {
     }
   }
 
-  void start(Walker& w, std::size_t global, std::uint32_t path, const Arrival& a, PathBlock& r) const {
+  void start(Walker& w, std::size_t global, std::uint32_t path, const FirstHit& a, PathBlock& r) const {
     const ParticleLink& link = particles_.links[particles_.link[global]];
     w.path = path;
     w.index = static_cast<std::uint32_t>(global - link.firstPath);
@@ -160,7 +160,7 @@ class Tracing {
   }
 
   /// The next event at the walker's surface; false when the path ends there.
-  bool bounce(Walker& w, const EventNumbers& u, Ray& ray, PathBlock& r) const {
+  bool bounce(Walker& w, const EventNumbers& u, tracing::Ray& ray, PathBlock& r) const {
     const Rgb before = w.throughput;
     const auto event = surfaces_.scatter(w.spot, w.direction, w.depth == 0, u);
     w.throughput = event ? before * event->weight : Rgb(0.0f);
@@ -180,7 +180,7 @@ class Tracing {
       return false;
     }
     ray.direction = w.direction;
-    ray.origin = offsetOrigin(w.spot.position, w.spot.normal, ray.direction);
+    ray.origin = tracing::offsetOrigin(w.spot.position, w.spot.normal, ray.direction);
     return true;
   }
 
@@ -194,7 +194,7 @@ class Tracing {
     }
   }
 
-  /// Russian roulette on what the path carries relative to what it began with; colours are kept. [algorithm 4]
+  /// Russian roulette on what the path carries relative to what it began with; colours are kept.
   bool survives(Walker& w, double u) const {
     constexpr int kPatience = 8;
     constexpr double kWorth = 0.25;        // share of it that is still followed without a question
@@ -207,7 +207,7 @@ class Tracing {
   }
 
   /// Where the walker arrives next; false when the path ends there.
-  bool meet(Walker& w, const Hit& hit, PathBlock& r) const {
+  bool meet(Walker& w, const tracing::Hit& hit, PathBlock& r) const {
     if (!hit) {
       r.addVertex(w.path, w.spot.position + far_ * w.direction, {});
       r.accounts[w.path].left += w.throughput;
@@ -223,7 +223,7 @@ class Tracing {
     return false;
   }
 
-  const RayTracer& tracer_;
+  const tracing::RayTracer& tracer_;
   const ParticleEmission& emission_;
   Particles& particles_;
   ParticleSurfaces surfaces_;
@@ -246,8 +246,8 @@ void reserveFor(std::size_t count, std::size_t done, std::size_t before, Arrays&
   (reserve(arrays), ...);
 }
 
-void trace(const Scene& scene, const RayTracer& tracer, const ParticleEmission& emission, int maxDepth, Particles& p,
-           std::span<const std::uint32_t> only, std::size_t count) {
+void trace(const Scene& scene, const tracing::RayTracer& tracer, const ParticleEmission& emission, int maxDepth,
+           Particles& p, std::span<const std::uint32_t> only, std::size_t count) {
   DELTALUX_CHECK(maxDepth < 0xffff, "at most 65534 events");
   constexpr std::size_t kTogether = 128;  // blocks whose memory is used again by the next
   Tracing tracing(scene, tracer, emission, p, maxDepth, only);
@@ -266,14 +266,14 @@ void trace(const Scene& scene, const RayTracer& tracer, const ParticleEmission& 
 
 }  // namespace
 
-void tracePaths(const Scene& scene, const RayTracer& tracer, const ParticleEmission& emission, int maxDepth,
+void tracePaths(const Scene& scene, const tracing::RayTracer& tracer, const ParticleEmission& emission, int maxDepth,
                 Particles& p) {
   trace(scene, tracer, emission, maxDepth, p, {}, p.paths());
 }
 
-void retracePaths(const Scene& scene, const RayTracer& tracer, const ParticleEmission& emission, int maxDepth,
+void retracePaths(const Scene& scene, const tracing::RayTracer& tracer, const ParticleEmission& emission, int maxDepth,
                   Particles& p, std::span<const std::uint32_t> paths) {
   if (!paths.empty()) trace(scene, tracer, emission, maxDepth, p, paths, paths.size());
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -11,30 +11,30 @@
 #include "hierarchy/side_locator.hpp"
 #include "particles/surface_normal.hpp"
 
-namespace deltalux {
+namespace deltalux::particles {
 
 namespace {
 
 constexpr std::size_t kBlock = 1024;
 
 /// By element: whether particles are placed there when they start or land on it.
-std::vector<char> placesOf(const Elements& elements) {
+std::vector<char> placesOf(const hierarchy::Elements& elements) {
   std::vector<char> places(elements.size());
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = elements.isReceivingLeaf(ElementId(i));
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = elements.isReceivingLeaf(hierarchy::ElementId(i));
   return places;
 }
 
-std::vector<ElementId> surfacesOf(const Elements& elements) {
-  std::vector<ElementId> surfaces;
+std::vector<hierarchy::ElementId> surfacesOf(const hierarchy::Elements& elements) {
+  std::vector<hierarchy::ElementId> surfaces;
   for (std::size_t i = 0; i < elements.size(); ++i)
-    if (elements.receives(ElementId(i)) && elements.topology[i].depth == 0) surfaces.emplace_back(i);
+    if (elements.receives(hierarchy::ElementId(i)) && elements.topology[i].depth == 0) surfaces.emplace_back(i);
   return surfaces;
 }
 
 bool earlier(const RetracedPath& a, const RetracedPath& b) { return a.path < b.path; }
 
 /// Whether a path first meets a side that no light reaches: it starts under what stands there.
-bool startsInTheDark(const Particles& p, std::size_t path, const SideLocator& locator, const Scene& scene) {
+bool startsInTheDark(const Particles& p, std::size_t path, const hierarchy::SideLocator& locator, const Scene& scene) {
   const PrimitiveId met = p.metBy(path)[1];
   if (!met.valid()) return false;
   const Shape& shape = scene[met].shape;
@@ -48,20 +48,22 @@ bool startsInTheDark(const Particles& p, std::size_t path, const SideLocator& lo
 
 }  // namespace
 
-std::uint32_t ParticleTransfer::locateSender(const Particles& p, std::size_t path, const SideLocator& locator,
-                                             const Scene& scene) const {
+std::uint32_t ParticleTransfer::locateSender(const Particles& p, std::size_t path,
+                                             const hierarchy::SideLocator& locator, const Scene& scene) const {
   const SenderCell& cell = p.senderCells[p.sender[path]];
   if (cell.kind != SenderKind::Side) return cell.light.value;
-  const ElementId side = locator.side(cell.primitive, p.originTriangle[path], cell.front);
+  const hierarchy::ElementId side = locator.side(cell.primitive, p.originTriangle[path], cell.front);
   if (!side.valid() || startsInTheDark(p, path, locator, scene)) return kNone;
   return static_cast<std::uint32_t>(lights_) + locator.locate(side, Vec3(p.verticesOf(path)[0])).leaf.value;
 }
 
-void ParticleTransfer::locate(const Particles& p, std::size_t path, const SideLocator& locator, const Scene& scene) {
+void ParticleTransfer::locate(const Particles& p, std::size_t path, const hierarchy::SideLocator& locator,
+                              const Scene& scene) {
   if (!(p.fate[path] & kArrived)) return;
   senderOf_[path] = locateSender(p, path, locator, scene);
   for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
-    const ElementId side = locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
+    const hierarchy::ElementId side =
+        locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
     elementOf_[i] = side.valid() ? locator.leafAt(side, Vec2(p.uv[i])).value : kNone;
   }
 }
@@ -76,13 +78,13 @@ void ParticleTransfer::visit(const Particles& p, std::size_t path, std::uint32_t
                   link.albedo});
 }
 
-ParticleTransfer::ParticleTransfer(const Particles& p, const Elements& elements, const Scene& scene)
+ParticleTransfer::ParticleTransfer(const Particles& p, const hierarchy::Elements& elements, const Scene& scene)
     : lights_(scene.lights.size()),
       senderOf_(p.paths(), kNone),
       elementOf_(p.impactSlots(), kNone),
       places_(placesOf(elements)) {
   resizeWithRoom(entries_, elements.size()), resizeWithRoom(sums_, elements.size());
-  const SideLocator locator(elements, scene);
+  const hierarchy::SideLocator locator(elements, scene);
   parallelFor(p.paths(), kBlock, [&](std::size_t path) { locate(p, path, locator, scene); });
 
   // By element; each sums its own in the order of the particles.
@@ -108,7 +110,7 @@ ParticleTransfer::ParticleTransfer(const Particles& p, const Elements& elements,
   });
   levels_.choose(surfacesOf(elements), elements, sums_);
   for (std::size_t e = 0; e < entries_.size(); ++e)
-    if (!entries_[e].empty()) surfaces_.push_back(surfaceOf(elements, ElementId(e)));
+    if (!entries_[e].empty()) surfaces_.push_back(hierarchy::surfaceOf(elements, hierarchy::ElementId(e)));
   sortUnique(surfaces_);
 }
 
@@ -136,8 +138,8 @@ std::vector<RetracedPath> ParticleTransfer::misplaced(const Particles& p, const 
   return paths;
 }
 
-std::vector<ElementId> ParticleTransfer::follow(const Particles& p, const ParticleUpdate& update,
-                                                const Elements& elements, const Scene& scene) {
+std::vector<hierarchy::ElementId> ParticleTransfer::follow(const Particles& p, const ParticleUpdate& update,
+                                                           const hierarchy::Elements& elements, const Scene& scene) {
   DELTALUX_CHECK(!update.all && senderOf_.size() == p.paths() && elementOf_.size() <= p.impactSlots(),
                  "the particles of before");
   resizeWithRoom(entries_, elements.size()), resizeWithRoom(sums_, elements.size());
@@ -163,7 +165,7 @@ std::vector<ElementId> ParticleTransfer::follow(const Particles& p, const Partic
       else
         remove(l), touched[l.element] = 1;
     });
-  const SideLocator locator(elements, scene);
+  const hierarchy::SideLocator locator(elements, scene);
   parallelFor(paths.size(), 64, [&](std::size_t i) { locate(p, paths[i].path, locator, scene); });
   for (const RetracedPath& r : paths)
     visit(p, r.path, senderOf_[r.path], p.sender[r.path], p.range[r.path], [&](const Landing& l) {
@@ -173,23 +175,26 @@ std::vector<ElementId> ParticleTransfer::follow(const Particles& p, const Partic
         add(l), touched[l.element] = 1;
     });
 
-  std::vector<ElementId> changed;  // in particles, or in patches
+  std::vector<hierarchy::ElementId> changed;  // in particles, or in patches
   for (std::size_t i = 0; i < touched.size(); ++i) {
     const bool other = places_[i] != (i < before.size() ? before[i] : 0);
-    if ((touched[i] || other) && elements.receives(ElementId(i))) changed.push_back(surfaceOf(elements, ElementId(i)));
-    if (touched[i]) surfaces_.push_back(surfaceOf(elements, ElementId(i)));
+    if ((touched[i] || other) && elements.receives(hierarchy::ElementId(i)))
+      changed.push_back(hierarchy::surfaceOf(elements, hierarchy::ElementId(i)));
+    if (touched[i]) surfaces_.push_back(hierarchy::surfaceOf(elements, hierarchy::ElementId(i)));
   }
   sortUnique(changed), sortUnique(surfaces_);
   levels_.choose(changed, elements, sums_);
-  std::erase_if(changed, [&](ElementId e) { return !std::binary_search(surfaces_.begin(), surfaces_.end(), e); });
+  std::erase_if(changed,
+                [&](hierarchy::ElementId e) { return !std::binary_search(surfaces_.begin(), surfaces_.end(), e); });
   return changed;
 }
 
-std::vector<ElementId> ParticleTransfer::followPatches(const Elements& elements, std::span<const ElementId> patches) {
-  std::vector<ElementId> under;
-  for (const ElementId e : patches) under.push_back(surfaceOf(elements, e));
+std::vector<hierarchy::ElementId> ParticleTransfer::followPatches(const hierarchy::Elements& elements,
+                                                                  std::span<const hierarchy::ElementId> patches) {
+  std::vector<hierarchy::ElementId> under;
+  for (const hierarchy::ElementId e : patches) under.push_back(hierarchy::surfaceOf(elements, e));
   sortUnique(under);
-  std::erase_if(under, [&](ElementId e) {
+  std::erase_if(under, [&](hierarchy::ElementId e) {
     return !elements.receives(e) || !std::binary_search(surfaces_.begin(), surfaces_.end(), e);
   });
   levels_.choose(under, elements, sums_);
@@ -222,13 +227,13 @@ void ParticleTransfer::remove(const Landing& l) {
   if (all.empty()) s = {};
 }
 
-Rgb ParticleTransfer::power(std::size_t path, const Elements& elements, const Scene& scene) const {
+Rgb ParticleTransfer::power(std::size_t path, const hierarchy::Elements& elements, const Scene& scene) const {
   const std::uint32_t sender = senderOf_[path];
   if (sender == kNone) return Rgb(0.0f);
   return sender < lights_ ? scene.lights[sender].scale : elements.radiometry[sender - lights_].B;
 }
 
-void ParticleTransfer::apply(Elements& elements, const Scene& scene) const {
+void ParticleTransfer::apply(hierarchy::Elements& elements, const Scene& scene) const {
   DELTALUX_CHECK(places_.size() == elements.size(), "the mesh that particles were placed on");
   std::vector<Rgb> B(elements.size());
   for (std::size_t i = 0; i < B.size(); ++i) {
@@ -239,8 +244,8 @@ void ParticleTransfer::apply(Elements& elements, const Scene& scene) const {
   apply(surfaces_, elements, {B, scene}, std::numeric_limits<float>::infinity(), marks);
 }
 
-void ParticleTransfer::apply(std::span<const ElementId> surfaces, Elements& elements, const Sources& sources,
-                             float least, std::vector<char>& marks) const {
+void ParticleTransfer::apply(std::span<const hierarchy::ElementId> surfaces, hierarchy::Elements& elements,
+                             const Sources& sources, float least, std::vector<char>& marks) const {
   parallelBlocks(surfaces.size(), 16, [&](std::size_t begin, std::size_t end) {
     PatchTree tree;
     for (std::size_t i = begin; i < end; ++i) {
@@ -251,7 +256,7 @@ void ParticleTransfer::apply(std::span<const ElementId> surfaces, Elements& elem
   });
 }
 
-void ParticleTransfer::apply(const PatchTree& tree, Elements& elements, const Sources& sources, float least,
+void ParticleTransfer::apply(const PatchTree& tree, hierarchy::Elements& elements, const Sources& sources, float least,
                              std::vector<char>& marks) const {
   for (std::size_t begin = 0, end = 0; begin < tree.places.size(); begin = end) {
     const std::uint32_t level = levels_.of(tree.places[begin].element);
@@ -264,9 +269,9 @@ void ParticleTransfer::apply(const PatchTree& tree, Elements& elements, const So
       for (const Entry& entry : entries_[tree.places[i].element.index()])
         flux += entry.sender < lights_ ? entry.flux * RgbSum(sources.scene.lights[entry.sender].scale)
                                        : damping * entry.flux * RgbSum(sources.B[entry.sender - lights_]);
-    const Rgb E(flux / std::max<double>(elements.shape(ElementId(level)).litArea(), 1e-30));
+    const Rgb E(flux / std::max<double>(elements.shape(hierarchy::ElementId(level)).litArea(), 1e-30));
     for (std::size_t i = begin; i < end; ++i) {
-      const ElementId e = tree.places[i].element;
+      const hierarchy::ElementId e = tree.places[i].element;
       if (!elements.isLeaf(e)) continue;
       Rgb& particle = elements.radiometry[e.index()].particle;
       if (maxChannel(glm::abs(E - particle)) > least * std::max(maxChannel(E), maxChannel(particle)))
@@ -288,4 +293,4 @@ std::size_t ParticleTransfer::memoryBytes() const {
          pairs() * sizeof(Entry);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

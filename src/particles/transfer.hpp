@@ -1,8 +1,8 @@
 #pragma once
 // Particles as one more sparse transfer: E(receiver) = sum of T B(sender), senders being leaf patches and lights. Made
 // once a mesh; every iteration then costs a multiplication per pair of sender and receiver that particles connect, and
-// no ray. The one writer of ElementLight::particle. [GD01 2.1, "placed at an appropriate level in the hierarchy"; at
-// which: spread_levels.hpp]
+// no ray. The one writer of ElementLight::particle. [GD01 2.1, "placed at an appropriate level in the hierarchy"]; at
+// which: spread_levels.hpp
 //
 // Retraced paths, and those whose ends lie on patches that were split, are taken out and put in one by one; levels are
 // chosen anew, and light is written, surface by surface, so that settling need only look at surfaces where particles or
@@ -12,25 +12,31 @@
 #include "particles/particle_tracing.hpp"
 #include "particles/spread_levels.hpp"
 
-namespace deltalux {
+namespace deltalux::hierarchy {
 
 class SideLocator;
+
+}  // namespace deltalux::hierarchy
+
+namespace deltalux::particles {
 
 class ParticleTransfer {
  public:
   /// Finds where the particles start and land on today's mesh.
-  ParticleTransfer(const Particles&, const Elements&, const Scene&);
+  ParticleTransfer(const Particles&, const hierarchy::Elements&, const Scene&);
 
   /// Takes in what was traced anew, and that elements were split, woken, put to sleep or added. Not for updates of all
   /// particles, or compacted ones: then make a new one. Returns the surfaces that particles lie otherwise on.
-  std::vector<ElementId> follow(const Particles&, const ParticleUpdate&, const Elements&, const Scene&);
+  std::vector<hierarchy::ElementId> follow(const Particles&, const ParticleUpdate&, const hierarchy::Elements&,
+                                           const Scene&);
 
   /// Takes in that these patches reflect otherwise or are covered otherwise. Returns their surfaces with particles on
   /// them, which may lie otherwise by that.
-  std::vector<ElementId> followPatches(const Elements&, std::span<const ElementId> patches);
+  std::vector<hierarchy::ElementId> followPatches(const hierarchy::Elements&,
+                                                  std::span<const hierarchy::ElementId> patches);
 
   /// Writes E of particles at every leaf from today's radiosities and the scale of lights.
-  void apply(Elements&, const Scene&) const;
+  void apply(hierarchy::Elements&, const Scene&) const;
 
   /// Radiosity by element, and the scale of lights.
   struct Sources {
@@ -39,17 +45,17 @@ class ParticleTransfer {
   };
   /// Writes E of particles at every leaf of these surfaces; marks the leaves, in an array by element, whose E changes
   /// by more than `least`, relatively.
-  void apply(std::span<const ElementId> surfaces, Elements&, const Sources&, float least,
+  void apply(std::span<const hierarchy::ElementId> surfaces, hierarchy::Elements&, const Sources&, float least,
              std::vector<char>& marks) const;
 
   /// Input-level patches that particles land on, or did, ascending.
-  const std::vector<ElementId>& surfaces() const { return surfaces_; }
+  const std::vector<hierarchy::ElementId>& surfaces() const { return surfaces_; }
   /// sender(ElementId) for every patch that sends particles to the surface; some come more than once.
   template <class Sender>
-  void visitSenders(ElementId surface, const Elements&, const Sender& sender) const;
+  void visitSenders(hierarchy::ElementId surface, const hierarchy::Elements&, const Sender& sender) const;
 
   /// Radiosity of the element, or scale of the light, that sends a path; black when it has no element. [W/m2, or 1]
-  Rgb power(std::size_t path, const Elements&, const Scene&) const;
+  Rgb power(std::size_t path, const hierarchy::Elements&, const Scene&) const;
 
   /// Whether an impact of a path that arrived lies on an element.
   bool placed(std::size_t impact) const { return elementOf_[impact] != kNone; }
@@ -74,15 +80,15 @@ class ParticleTransfer {
     float albedo;  // of its link
   };
 
-  std::uint32_t locateSender(const Particles&, std::size_t path, const SideLocator&, const Scene&) const;
-  void locate(const Particles&, std::size_t path, const SideLocator&, const Scene&);
+  std::uint32_t locateSender(const Particles&, std::size_t path, const hierarchy::SideLocator&, const Scene&) const;
+  void locate(const Particles&, std::size_t path, const hierarchy::SideLocator&, const Scene&);
   template <class Visit>
   void visit(const Particles&, std::size_t path, std::uint32_t sender, std::uint32_t cell, const PathRange&,
              const Visit&) const;
   void add(const Landing&);
   void remove(const Landing&);
   std::vector<RetracedPath> misplaced(const Particles&, const ParticleUpdate&) const;
-  void apply(const PatchTree&, Elements&, const Sources&, float least, std::vector<char>& marks) const;
+  void apply(const PatchTree&, hierarchy::Elements&, const Sources&, float least, std::vector<char>& marks) const;
 
   std::size_t lights_ = 0;
   double lost_ = 0;
@@ -91,17 +97,18 @@ class ParticleTransfer {
   std::vector<std::vector<Entry>> entries_;  // by element: ascending by sender
   std::vector<LandingSums> sums_;            // by element
   std::vector<char> places_;                 // by element: whether particles can start and land there
-  std::vector<ElementId> surfaces_;
+  std::vector<hierarchy::ElementId> surfaces_;
   SpreadLevels levels_;
 };
 
 template <class Sender>
-void ParticleTransfer::visitSenders(ElementId surface, const Elements& elements, const Sender& sender) const {
+void ParticleTransfer::visitSenders(hierarchy::ElementId surface, const hierarchy::Elements& elements,
+                                    const Sender& sender) const {
   PatchTree tree;
   tree.list(elements, surface);
   for (const PatchTree::Place& p : tree.places)
     for (const Entry& e : entries_[p.element.index()])
-      if (e.sender >= lights_) sender(ElementId(e.sender - lights_));
+      if (e.sender >= lights_) sender(hierarchy::ElementId(e.sender - lights_));
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::particles

@@ -9,14 +9,15 @@
 #include "hierarchy/below.hpp"
 #include "radiosity/line_space.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 class ArrivingLinks {
  public:
   /// `changed`: the topmost changed links. Elements must outlive this.
-  ArrivingLinks(const Elements& elements, const Links& links, std::span<const LinkId> changed)
+  ArrivingLinks(const hierarchy::Elements& elements, const hierarchy::Links& links,
+                std::span<const hierarchy::LinkId> changed)
       : elements_(elements), flags_(elements.size()) {
-    for (const LinkId id : changed) {
+    for (const hierarchy::LinkId id : changed) {
       const bool ofLights = elements.at(links[id].sender).emitter;
       changed_[ofLights].push_back({links[id].receiver, id});
       markBelow(links[id].receiver, ofLights);
@@ -28,16 +29,18 @@ class ArrivingLinks {
   /// visit(element, whether from lights, whether from surfaces) of all at which some arrive, or above which.
   template <class Visit>
   void forEach(const Visit& visit) const {
-    flags_.forEach([&](std::size_t e, char flags) { visit(ElementId(e), flags & kBelow << 1, flags & kBelow); });
+    flags_.forEach(
+        [&](std::size_t e, char flags) { visit(hierarchy::ElementId(e), flags & kBelow << 1, flags & kBelow); });
   }
 
   /// From the leaf upwards.
-  std::vector<LinkId> changedAt(ElementId leaf, bool ofLights) const {
-    std::vector<LinkId> out;
+  std::vector<hierarchy::LinkId> changedAt(hierarchy::ElementId leaf, bool ofLights) const {
+    std::vector<hierarchy::LinkId> out;
     const auto& list = changed_[ofLights];
-    for (ElementId e = leaf; e.valid() && flags_[e.index()] & kBelow << ofLights; e = elements_.at(e).parent) {
+    for (hierarchy::ElementId e = leaf; e.valid() && flags_[e.index()] & kBelow << ofLights;
+         e = elements_.at(e).parent) {
       if (!(flags_[e.index()] & kOwn << ofLights)) continue;
-      auto it = std::lower_bound(list.begin(), list.end(), std::pair(e, LinkId(0u)));
+      auto it = std::lower_bound(list.begin(), list.end(), std::pair(e, hierarchy::LinkId(0u)));
       for (; it != list.end() && it->first == e; ++it) out.push_back(it->second);
     }
     return out;
@@ -47,23 +50,23 @@ class ArrivingLinks {
   // Shifted by one for links from lights.
   static constexpr int kBelow = 1, kOwn = 4;
 
-  void add(ElementId e, int flag, bool ofLights) {
+  void add(hierarchy::ElementId e, int flag, bool ofLights) {
     char& flags = flags_.at(e.index());
     flags = static_cast<char>(flags | flag << ofLights);
   }
 
   /// What is marked has all below it marked.
-  void markBelow(ElementId top, bool ofLights) {
-    forEachBelow(elements_, top, [&](ElementId e) {
+  void markBelow(hierarchy::ElementId top, bool ofLights) {
+    hierarchy::forEachBelow(elements_, top, [&](hierarchy::ElementId e) {
       if (flags_[e.index()] & kBelow << ofLights) return false;
       add(e, kBelow, ofLights);
       return true;
     });
   }
 
-  const Elements& elements_;
-  PagedArray<char> flags_;                                            // by element
-  std::array<std::vector<std::pair<ElementId, LinkId>>, 2> changed_;  // by receiver
+  const hierarchy::Elements& elements_;
+  PagedArray<char> flags_;                                                                  // by element
+  std::array<std::vector<std::pair<hierarchy::ElementId, hierarchy::LinkId>>, 2> changed_;  // by receiver
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -7,19 +7,20 @@
 #include "hierarchy/element.hpp"
 #include "radiosity/shaft.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// Clusters and input-level patches that may stand between the ends of a link.
-using Blockers = std::vector<ElementId>;
+using Blockers = std::vector<hierarchy::ElementId>;
 
 /// What is left of `candidates` between receiver and sender. Clusters that meet the shaft are opened while the list is
 /// short. Appends to `out`.
-void shrinkBlockers(const Elements&, const Scene&, ElementId receiver, ElementId sender, const ElementId* candidates,
-                    std::size_t count, Blockers& out);
+void shrinkBlockers(const hierarchy::Elements&, const Scene&, hierarchy::ElementId receiver,
+                    hierarchy::ElementId sender, const hierarchy::ElementId* candidates, std::size_t count,
+                    Blockers& out);
 
 /// Whether one opaque polygon of `candidates` separates every point of the receiver's box from every point of the
 /// sender's box.
-bool provablyBlocked(const Elements&, const Scene&, ElementId receiver, ElementId sender, const ElementId* candidates,
-                     std::size_t count);
+bool provablyBlocked(const hierarchy::Elements&, const Scene&, hierarchy::ElementId receiver,
+                     hierarchy::ElementId sender, const hierarchy::ElementId* candidates, std::size_t count);
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

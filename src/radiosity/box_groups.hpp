@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 class BoxGroups {
  public:
@@ -67,4 +67,4 @@ class BoxGroups {
   std::vector<std::vector<Part>> levels_ = std::vector<std::vector<Part>>(1);  // the parts, groups, groups of groups
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

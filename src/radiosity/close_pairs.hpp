@@ -11,27 +11,28 @@
 #include "base/random.hpp"
 #include "radiosity/sender_sampling.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// Whether rays between two patches are worth being drawn so.
-bool areClose(const Elements&, ElementId a, ElementId b);
+bool areClose(const hierarchy::Elements&, hierarchy::ElementId a, hierarchy::ElementId b);
 
 /// One candidate: a point of either end, and what it weighs.
 struct ClosePair {
-  PatchPoint from, to;
+  hierarchy::PatchPoint from, to;
   double weight = 0;
 };
 
 inline constexpr int kClosePairs = 8;
 
 /// Candidate `i` from the point `from` to a leaf patch, by two numbers in [0,1).
-ClosePair closePair(const Elements&, const Scene&, const PatchPoint& from, ElementId patch, int i, double a, double b);
+ClosePair closePair(const hierarchy::Elements&, const Scene&, const hierarchy::PatchPoint& from,
+                    hierarchy::ElementId patch, int i, double a, double b);
 
 /// From a point of `pointAt` (of two numbers in [0,1)) to one of a leaf patch; none when all candidates face away.
 /// Its weight is that of all candidates: in the mean the kernel.
 template <class PointAt>
-std::optional<ClosePair> sampleClosePair(const Elements& elements, const Scene& scene, const PointAt& pointAt,
-                                         ElementId patch, SampleKey key, int index) {
+std::optional<ClosePair> sampleClosePair(const hierarchy::Elements& elements, const Scene& scene,
+                                         const PointAt& pointAt, hierarchy::ElementId patch, SampleKey key, int index) {
   std::array<ClosePair, kClosePairs> pairs;
   double total = 0;
   for (int i = 0; i < kClosePairs; ++i) {
@@ -47,4 +48,4 @@ std::optional<ClosePair> sampleClosePair(const Elements& elements, const Scene& 
   return *picked;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -5,7 +5,7 @@
 #include "hierarchy/build.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 struct CoarseReport {
   std::uint64_t rays = 0;
@@ -13,6 +13,6 @@ struct CoarseReport {
 };
 
 /// The sides that light can reach, with mean free path and a first estimate of irradiance.
-std::vector<SurfaceSide> coarseSolution(const Scene&, const RayTracer&, CoarseReport* = nullptr);
+std::vector<hierarchy::SurfaceSide> coarseSolution(const Scene&, const tracing::RayTracer&, CoarseReport* = nullptr);
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -11,7 +11,7 @@
 #include "hierarchy/below.hpp"
 #include "radiosity/side_estimator.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -51,7 +51,8 @@ std::vector<Box> joined(std::span<const Box> boxes) {
 
 class Search {
  public:
-  Search(const Scene& scene, const RayTracer& tracer, const Elements& elements, std::span<const PrimitiveId> moved)
+  Search(const Scene& scene, const tracing::RayTracer& tracer, const hierarchy::Elements& elements,
+         std::span<const PrimitiveId> moved)
       : scene_(scene),
         tracer_(tracer),
         elements_(elements),
@@ -64,16 +65,17 @@ class Search {
 
   /// Of what moved: all dark sides but those that only see the like.
   void lookAtMoved() {
-    std::vector<Side> dark;
+    std::vector<hierarchy::Side> dark;
     for (const PrimitiveId primitive : moved_)
-      forEachSide(scene_, primitive, [&](const Side& s) {
+      hierarchy::forEachSide(scene_, primitive, [&](const hierarchy::Side& s) {
         if (!isLit(s)) dark.push_back(s);
       });
     std::vector<char> open(dark.size(), 0);
     parallelFor(dark.size(), 8, [&](std::size_t i) {
       const auto met = estimator_.firstMet(dark[i], kLooks);
-      open[i] = std::any_of(met.begin(), met.end(),
-                            [&](const Hit& hit) { return !hit || !moves(hit.primitive) || isLit(sideOf(hit)); });
+      open[i] = std::any_of(met.begin(), met.end(), [&](const tracing::Hit& hit) {
+        return !hit || !moves(hit.primitive) || isLit(sideOf(hit));
+      });
     });
     for (std::size_t i = 0; i < dark.size(); ++i)
       if (open[i]) candidates_.push_back(dark[i]);
@@ -81,12 +83,12 @@ class Search {
 
   /// At what stands at the ends of lines through these boxes.
   void lookAlongLines(std::span<const Box> boxes) {
-    std::vector<Ray> rays;
+    std::vector<tracing::Ray> rays;
     for (std::size_t b = 0; b < boxes.size(); ++b) {
       Rng rng(combineKeys(kLineKey, b));
       const Box box = widened(boxes[b]);
       for (std::size_t k = 0; k < kLines; ++k) {
-        Ray ray;
+        tracing::Ray ray;
         const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
         ray.origin = Vec3f(box.lower + Vec3(x, y, z) * box.extent());
         const double c = 2 * rng.uniform() - 1, s = std::sqrt(std::max(0.0, 1 - c * c)), phi = 2 * kPi * rng.uniform();
@@ -96,37 +98,37 @@ class Search {
         rays.push_back(ray);
       }
     }
-    std::vector<Hit> hits(rays.size());
+    std::vector<tracing::Hit> hits(rays.size());
     parallelBlocks(rays.size(), 256, [&](std::size_t begin, std::size_t end) {
       tracer_.closestHits(std::span(rays).subspan(begin, end - begin), std::span(hits).subspan(begin, end - begin));
     });
-    for (const Hit& hit : hits)
+    for (const tracing::Hit& hit : hits)
       if (hit) add(sideOf(hit));
   }
 
   /// Estimates what was found, and what those of it that light reaches have met, until there is no more.
-  std::vector<SurfaceSide> uncovered() {
+  std::vector<hierarchy::SurfaceSide> uncovered() {
     while (!candidates_.empty()) {
       sortUnique(candidates_);
       estimate(std::exchange(candidates_, {}));
     }
-    return found([&](const Side& s) { return isReached(s); });
+    return found([&](const hierarchy::Side& s) { return isReached(s); });
   }
 
   /// Lit sides of what moved, and within its bounds, that light no longer reaches.
-  std::vector<SurfaceSide> covered() {
+  std::vector<hierarchy::SurfaceSide> covered() {
     std::vector<Box> ofMoved;
     for (const PrimitiveId primitive : moved_) ofMoved.push_back(bounds(scene_[primitive].shape));
     std::vector<Box> within;
     for (const Box& box : joined(ofMoved)) within.push_back(widened(box));
-    std::vector<Side> closed;
-    for (const ElementId root : elements_.sceneRoots())
-      forEachBelow(elements_, root, [&](ElementId e) {
+    std::vector<hierarchy::Side> closed;
+    for (const hierarchy::ElementId root : elements_.sceneRoots())
+      hierarchy::forEachBelow(elements_, root, [&](hierarchy::ElementId e) {
         const Box own = elements_.box(e);
         if (elements_.isCluster(e))
           return std::any_of(within.begin(), within.end(), [&](const Box& box) { return box.overlaps(own); });
         if (!isAwake(e) || elements_.at(e).blocker) return false;
-        const Side s = elements_.sideOf(e);
+        const hierarchy::Side s = elements_.sideOf(e);
         if (std::any_of(within.begin(), within.end(),
                         [&](const Box& box) { return holds(box, own) && noRayLeaves(widened(box, kNear), s); }))
           closed.push_back(s);
@@ -135,43 +137,43 @@ class Search {
     std::sort(closed.begin(), closed.end());
     estimates_.clear();
     estimate(closed);
-    return found([&](const Side& s) { return !isReached(s); });
+    return found([&](const hierarchy::Side& s) { return !isReached(s); });
   }
 
  private:
   static std::size_t sideCount(const Scene& scene) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < scene.primitives.size(); ++i)
-      forEachSide(scene, PrimitiveId(i), [&](const Side&) { ++count; });
+      hierarchy::forEachSide(scene, PrimitiveId(i), [&](const hierarchy::Side&) { ++count; });
     return count;
   }
-  Side sideOf(const Hit& hit) const { return deltalux::sideOf(scene_, hit); }
+  hierarchy::Side sideOf(const tracing::Hit& hit) const { return deltalux::radiosity::sideOf(scene_, hit); }
   bool moves(PrimitiveId primitive) const { return std::binary_search(moved_.begin(), moved_.end(), primitive); }
-  bool isAwake(ElementId e) const {
+  bool isAwake(hierarchy::ElementId e) const {
     return elements_.shape(e).area > 0 && !std::binary_search(elements_.asleep.begin(), elements_.asleep.end(), e);
   }
   /// It has elements that are awake.
-  bool isLit(const Side& s) const {
-    const ElementId e = elements_.sides.at(s);
+  bool isLit(const hierarchy::Side& s) const {
+    const hierarchy::ElementId e = elements_.sides.at(s);
     return e.valid() && isAwake(e);
   }
   /// By what is estimated.
-  bool isReached(const Side& side) const {
-    return deltalux::isReached(scene_, side, [&](const Side& s) { return reached_.contains(s); });
+  bool isReached(const hierarchy::Side& side) const {
+    return deltalux::radiosity::isReached(scene_, side, [&](const hierarchy::Side& s) { return reached_.contains(s); });
   }
   static bool holds(const Box& box, const Box& inner) { return box.contains(inner.lower) && box.contains(inner.upper); }
   /// Those that meet nothing are of sides that lie upon others, or of a scene that is open: no light comes from there
   /// without a sky.
-  bool noRayLeaves(const Box& box, const Side& side) const {
+  bool noRayLeaves(const Box& box, const hierarchy::Side& side) const {
     const auto met = estimator_.firstMet(side, kLooks);
     return std::all_of(met.begin(), met.end(),
-                       [&](const Hit& hit) { return hit ? box.contains(Vec3(hit.position)) : !openSky_; });
+                       [&](const tracing::Hit& hit) { return hit ? box.contains(Vec3(hit.position)) : !openSky_; });
   }
-  void add(const Side& side) {
+  void add(const hierarchy::Side& side) {
     if (!estimates_.contains(side) && !isLit(side)) candidates_.push_back(side);
   }
   /// Sides, each of them once; finds further candidates.
-  void estimate(const std::vector<Side>& sides) {
+  void estimate(const std::vector<hierarchy::Side>& sides) {
     std::vector<SideEstimate> estimates(sides.size());
     parallelFor(sides.size(), 4, [&](std::size_t i) { estimates[i] = estimator_.estimate(sides[i]); });
     for (const SideEstimate& e : estimates) {
@@ -181,31 +183,31 @@ class Search {
     }
     for (SideEstimate& e : estimates) {
       sortUnique(e.met);
-      for (const Side& s : e.met) add(s);
+      for (const hierarchy::Side& s : e.met) add(s);
     }
   }
   template <class Wanted>
-  std::vector<SurfaceSide> found(const Wanted& wanted) const {
-    std::vector<SurfaceSide> sides;
+  std::vector<hierarchy::SurfaceSide> found(const Wanted& wanted) const {
+    std::vector<hierarchy::SurfaceSide> sides;
     for (const auto& [side, estimated] : estimates_)
       if (wanted(side)) sides.push_back(estimated);
     return sides;
   }
 
   const Scene& scene_;
-  const RayTracer& tracer_;
-  const Elements& elements_;
+  const tracing::RayTracer& tracer_;
+  const hierarchy::Elements& elements_;
   SideEstimator estimator_;
   std::vector<PrimitiveId> moved_;  // ascending
   bool openSky_;
-  std::vector<Side> candidates_;
-  std::map<Side, SurfaceSide> estimates_;
-  std::set<Side> reached_;
+  std::vector<hierarchy::Side> candidates_;
+  std::map<hierarchy::Side, hierarchy::SurfaceSide> estimates_;
+  std::set<hierarchy::Side> reached_;
 };
 
 }  // namespace
 
-CoveredSides coveredSides(const Scene& scene, const RayTracer& tracer, const Elements& elements,
+CoveredSides coveredSides(const Scene& scene, const tracing::RayTracer& tracer, const hierarchy::Elements& elements,
                           std::span<const PrimitiveId> moved, std::span<const Box> left) {
   Search search(scene, tracer, elements, moved);
   search.lookAtMoved();
@@ -216,4 +218,4 @@ CoveredSides coveredSides(const Scene& scene, const RayTracer& tracer, const Ele
   return sides;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -14,16 +14,16 @@
 #include "hierarchy/build.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// Both in the order of surfaceSides().
 struct CoveredSides {
-  std::vector<SurfaceSide> uncovered;  // reached, without elements or with sleeping ones
-  std::vector<SurfaceSide> covered;    // no longer reached, with elements
+  std::vector<hierarchy::SurfaceSide> uncovered;  // reached, without elements or with sleeping ones
+  std::vector<hierarchy::SurfaceSide> covered;    // no longer reached, with elements
 };
 
 /// Scene and tracer as they are now; `moved`: what moved or was added; `left`: bounds of where things were.
-CoveredSides coveredSides(const Scene&, const RayTracer&, const Elements&, std::span<const PrimitiveId> moved,
-                          std::span<const Box> left);
+CoveredSides coveredSides(const Scene&, const tracing::RayTracer&, const hierarchy::Elements&,
+                          std::span<const PrimitiveId> moved, std::span<const Box> left);
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

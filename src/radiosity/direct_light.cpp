@@ -6,7 +6,7 @@
 #include "hierarchy/patch.hpp"
 #include "tracing/shadow_ray.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -16,7 +16,8 @@ constexpr TestRays kFreeTests{256, 64, 512};  // from a free point, which sees s
 
 }  // namespace
 
-DirectLight::DirectLight(const Scene& scene, const Elements& elements, const Links& links, const RayTracer& tracer)
+DirectLight::DirectLight(const Scene& scene, const hierarchy::Elements& elements, const hierarchy::Links& links,
+                         const tracing::RayTracer& tracer)
     : scene_(scene), elements_(elements), tracer_(tracer), lights_(scene), senders_(elements, links, scene) {}
 
 /// A sender and what test rays say of it.
@@ -48,10 +49,10 @@ void DirectLight::promoteNeighbours(std::vector<Trial>& trials) const {
   for (Trial& t : trials) {
     t.promising = t.hits > 0 || (t.sender.rays > 0 && t.sender.open > 0);
     if (t.promising || !elements_.isDistant(t.sender.sender)) continue;
-    const ElementGeometry& g = elements_.shape(t.sender.sender);
+    const hierarchy::ElementGeometry& g = elements_.shape(t.sender.sender);
     for (const Trial& other : trials) {
       if (other.hits == 0 || !elements_.isDistant(other.sender.sender)) continue;
-      const ElementGeometry& o = elements_.shape(other.sender.sender);
+      const hierarchy::ElementGeometry& o = elements_.shape(other.sender.sender);
       if (glm::dot(g.center, o.center) > std::cos(std::min(1.1f * (g.radius + o.radius), float(kPi))))
         t.promising = true;
     }
@@ -84,10 +85,10 @@ SenderChoice DirectLight::tested(const std::vector<PossibleSender>& senders, con
   return choice;
 }
 
-SenderChoice DirectLight::choiceAt(ElementId leaf, const TestRays& tests) const {
+SenderChoice DirectLight::choiceAt(hierarchy::ElementId leaf, const TestRays& tests) const {
   return tested(senders_.at(leaf), tests, elements_.key[leaf.index()], [&](std::uint32_t i, std::uint64_t key) {
     const UnitPair u = scrambledSobol(i, combineKeys(key, 1));
-    const PatchPoint p = samplePatch(elements_, scene_, leaf, u.x, u.y);
+    const hierarchy::PatchPoint p = hierarchy::samplePatch(elements_, scene_, leaf, u.x, u.y);
     return Receiver{Vec3(p.position), Vec3(p.normal)};
   });
 }
@@ -118,16 +119,17 @@ std::optional<LightArrival> DirectLight::shadowRay(const SenderList& choice, con
   return result;
 }
 
-std::optional<LightArrival> DirectLight::arrival(ElementId sender, const Receiver& x, const Vec2& u) const {
+std::optional<LightArrival> DirectLight::arrival(hierarchy::ElementId sender, const Receiver& x, const Vec2& u) const {
   const auto sample = sampleSender(sender, x, u);
   if (!sample || !(glm::dot(sample->direction, x.normal) > 0)) return std::nullopt;
   const Rgb V = tracer_.transmittance(
-      deltalux::shadowRay(x.position, x.normal, sample->direction, sample->distance, sample->normal));
+      deltalux::tracing::shadowRay(x.position, x.normal, sample->direction, sample->distance, sample->normal));
   if (isBlack(V)) return std::nullopt;
   return LightArrival{sample->direction, elements_.light[sample->sender.index()], V * sample->E};
 }
 
-std::optional<DirectLight::SenderSample> DirectLight::sampleSender(ElementId e, const Receiver& x, Vec2 u) const {
+std::optional<DirectLight::SenderSample> DirectLight::sampleSender(hierarchy::ElementId e, const Receiver& x,
+                                                                   Vec2 u) const {
   float chance = 1;
   if (elements_.isCluster(e)) e = pickLight(e, Vec3f(x.position), u.x, chance);
   if (!e.valid()) return std::nullopt;
@@ -148,7 +150,7 @@ std::optional<DirectLight::SenderSample> DirectLight::sampleSender(ElementId e, 
 }
 
 /// An emitter that shines from both sides has an element for each, and each speaks for its own side.
-bool DirectLight::ownSide(ElementId e, const Vec3& y, const Vec3& normal) const {
+bool DirectLight::ownSide(hierarchy::ElementId e, const Vec3& y, const Vec3& normal) const {
   if (!elements_.isPatch(e)) return true;
   const Primitive& primitive = scene_[elements_.domain[e.index()].primitive];
   if (!scene_[primitive.material].emission->bothSides) return true;
@@ -156,14 +158,15 @@ bool DirectLight::ownSide(ElementId e, const Vec3& y, const Vec3& normal) const 
   return (glm::dot(front, normal) > 0) == elements_.at(e).front;
 }
 
-std::optional<DirectLight::SenderSample> DirectLight::samplePart(ElementId e, const Receiver& x, const Vec2& u) const {
-  const ElementGeometry& g = elements_.shape(e);
+std::optional<DirectLight::SenderSample> DirectLight::samplePart(hierarchy::ElementId e, const Receiver& x,
+                                                                 const Vec2& u) const {
+  const hierarchy::ElementGeometry& g = elements_.shape(e);
   const LightId light = elements_.light[e.index()];
   if (elements_.isDistant(e)) {
-    const Vec3 w(directionOf(elements_, scene_, e, u.x, u.y));
+    const Vec3 w(hierarchy::directionOf(elements_, scene_, e, u.x, u.y));
     return SenderSample{e, w, kInfinity, Vec3(0.0), g.area * lights_.radianceFrom(light, w)};
   }
-  const PatchPoint y = samplePatch(elements_, scene_, e, u.x, u.y);
+  const hierarchy::PatchPoint y = hierarchy::samplePatch(elements_, scene_, e, u.x, u.y);
   const Vec3 d = Vec3(y.position) - x.position;
   const double squared = glm::dot(d, d);
   if (!(squared > 0)) return std::nullopt;
@@ -175,15 +178,15 @@ std::optional<DirectLight::SenderSample> DirectLight::samplePart(ElementId e, co
   return SenderSample{e, w, distance, Vec3(y.normal), static_cast<float>(g.area * cosine / squared) * L};
 }
 
-ElementId DirectLight::pickLight(ElementId e, const Vec3f& x, double& u, float& chance) const {
+hierarchy::ElementId DirectLight::pickLight(hierarchy::ElementId e, const Vec3f& x, double& u, float& chance) const {
   // What a child sends this way; a little is credited to all, so that none is impossible.
-  const auto strength = [&](ElementId c) {
-    const ElementGeometry& g = elements_.shape(c);
+  const auto strength = [&](hierarchy::ElementId c) {
+    const hierarchy::ElementGeometry& g = elements_.shape(c);
     const Vec3f d = x - g.center;
     const float squared = std::max(glm::dot(d, d), 1e-20f);
     const float near = squared + g.radius * g.radius;
     if (elements_.isCluster(c)) {
-      const DirectionalRgb& I = elements_.cluster(c).intensity;
+      const hierarchy::DirectionalRgb& I = elements_.cluster(c).intensity;
       return (gray(I.at(d / std::sqrt(squared))) + 0.1f * gray(glm::max(I.c[0], Rgb(0.0f)))) / near;
     }
     const float B = gray(elements_.radiometry[c.index()].B);
@@ -196,7 +199,7 @@ ElementId DirectLight::pickLight(ElementId e, const Vec3f& x, double& u, float& 
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) sum += strength(elements_.child(e, i));
     if (!(sum > 0)) return {};
     double rest = u * sum;
-    ElementId picked;
+    hierarchy::ElementId picked;
     float part = 0;
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) {
       const float s = strength(elements_.child(e, i));
@@ -242,4 +245,4 @@ ProbeResult DirectLight::measure(const SenderChoice& choice, const Receiver& x, 
   return result;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

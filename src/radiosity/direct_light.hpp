@@ -13,15 +13,15 @@
 #include "scene/light_sampling.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// Senders with their shares of the rays, summed.
 struct SenderList {
-  std::vector<ElementId> senders;
+  std::vector<hierarchy::ElementId> senders;
   std::vector<float> cumulative;
 
   float total() const { return cumulative.empty() ? 0.0f : cumulative.back(); }
-  void add(ElementId sender, float share) {
+  void add(hierarchy::ElementId sender, float share) {
     senders.push_back(sender);
     cumulative.push_back(total() + share);
   }
@@ -56,16 +56,16 @@ struct LightArrival {
 class DirectLight {
  public:
   /// All must outlive this.
-  DirectLight(const Scene&, const Elements&, const Links&, const RayTracer&);
+  DirectLight(const Scene&, const hierarchy::Elements&, const hierarchy::Links&, const tracing::RayTracer&);
 
-  const LightSampler& lights() const { return lights_; }
+  const scene::LightSampler& lights() const { return lights_; }
   /// Senders of a leaf patch, as seen from points all over it by `tests` rays, shared by what senders may bring.
-  SenderChoice choiceAt(ElementId leaf, const TestRays& tests = {}) const;
+  SenderChoice choiceAt(hierarchy::ElementId leaf, const TestRays& tests = {}) const;
   /// Senders of a free point, out of all lights.
   SenderChoice choiceAt(const Receiver&) const;
 
   /// What a shadow ray finds of one sender by the numbers `u` in [0,1)^2, uniform ones; nullopt when it is blocked.
-  std::optional<LightArrival> arrival(ElementId sender, const Receiver&, const Vec2& u) const;
+  std::optional<LightArrival> arrival(hierarchy::ElementId sender, const Receiver&, const Vec2& u) const;
   /// visit(LightArrival) for each of `rays` shadow rays (at least 2) that is not blocked: the sum of all of them is the
   /// estimate. `index` and `key` name the stratified numbers to use.
   template <class Visit>
@@ -88,7 +88,7 @@ class DirectLight {
   /// A point of a sender: unit direction, distance (infinite for distant ones), normal there, and what arrives at a
   /// plane facing it, over the density.
   struct SenderSample {
-    ElementId sender;
+    hierarchy::ElementId sender;
     Vec3 direction;
     double distance;
     Vec3 normal;
@@ -105,17 +105,17 @@ class DirectLight {
   template <class ReceiverAt>
   SenderChoice tested(const std::vector<PossibleSender>&, const TestRays&, std::uint64_t key,
                       const ReceiverAt& receiver) const;
-  std::optional<SenderSample> sampleSender(ElementId, const Receiver&, Vec2 u) const;
-  bool ownSide(ElementId, const Vec3& y, const Vec3& normal) const;
-  std::optional<SenderSample> samplePart(ElementId, const Receiver&, const Vec2& u) const;
+  std::optional<SenderSample> sampleSender(hierarchy::ElementId, const Receiver&, Vec2 u) const;
+  bool ownSide(hierarchy::ElementId, const Vec3& y, const Vec3& normal) const;
+  std::optional<SenderSample> samplePart(hierarchy::ElementId, const Receiver&, const Vec2& u) const;
   /// A light of a cluster of lights, and the chance that it was picked; `u` is used up in part.
-  ElementId pickLight(ElementId, const Vec3f& x, double& u, float& chance) const;
+  hierarchy::ElementId pickLight(hierarchy::ElementId, const Vec3f& x, double& u, float& chance) const;
 
   const Scene& scene_;
-  const Elements& elements_;
-  const RayTracer& tracer_;
-  LightSampler lights_;
+  const hierarchy::Elements& elements_;
+  const tracing::RayTracer& tracer_;
+  scene::LightSampler lights_;
   DirectSenders senders_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

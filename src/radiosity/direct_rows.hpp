@@ -5,7 +5,7 @@
 
 #include "radiosity/direct_sampler.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 struct DirectRowsReport {
   std::uint64_t rays = 0, split = 0;
@@ -13,11 +13,12 @@ struct DirectRowsReport {
 
 /// Samples the direct rows of `leaves`, splitting those of `elements` where light varies; calls keep(leaf, row) with
 /// each that stays, and sets its exposure.
-DirectRowsReport sampleDirectRows(std::vector<ElementId> leaves, Elements& elements, const Links&, const Scene&,
-                                  const RayTracer&, const LeafTransferSettings&,
-                                  const std::function<void(ElementId, TransferRow)>& keep);
+DirectRowsReport sampleDirectRows(std::vector<hierarchy::ElementId> leaves, hierarchy::Elements& elements,
+                                  const hierarchy::Links&, const Scene&, const tracing::RayTracer&,
+                                  const LeafTransferSettings&,
+                                  const std::function<void(hierarchy::ElementId, TransferRow)>& keep);
 
 /// Whether what an update has found of the leaf's direct light may be worth a split.
-bool mayVary(const Elements&, ElementId leaf, const DirectUpdate&, const LeafTransferSettings&);
+bool mayVary(const hierarchy::Elements&, hierarchy::ElementId leaf, const DirectUpdate&, const LeafTransferSettings&);
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

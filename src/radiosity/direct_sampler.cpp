@@ -8,7 +8,7 @@
 #include "radiosity/kernel.hpp"
 #include "radiosity/sender_sampling.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -19,7 +19,8 @@ constexpr float kUnseenShare = 0.5f;  // most rays of one light that the links n
 
 }  // namespace
 
-DirectSampler::DirectSampler(const Scene& scene, const Elements& elements, const Links& links, const RayTracer& tracer)
+DirectSampler::DirectSampler(const Scene& scene, const hierarchy::Elements& elements, const hierarchy::Links& links,
+                             const tracing::RayTracer& tracer)
     : scene_(scene),
       elements_(elements),
       links_(links),
@@ -29,14 +30,16 @@ DirectSampler::DirectSampler(const Scene& scene, const Elements& elements, const
       lights_(scene, std::vector<Rgb>(scene.lights.size(), Rgb(1.0f))),
       places_(elements) {}
 
-bool DirectSampler::curved(ElementId sender) const { return elements_.isPatch(sender) && !elements_.at(sender).flat; }
+bool DirectSampler::curved(hierarchy::ElementId sender) const {
+  return elements_.isPatch(sender) && !elements_.at(sender).flat;
+}
 
-std::uint64_t DirectSampler::rayKey(ElementId leaf, ElementId sender) const {
+std::uint64_t DirectSampler::rayKey(hierarchy::ElementId leaf, hierarchy::ElementId sender) const {
   return combineKeys(combineKeys(elements_.key[leaf.index()], 5), elements_.key[sender.index()]);
 }
 
-void DirectSampler::setKernel(ElementId leaf, Term& t) const {
-  const ElementNodes& n = elements_.nodes[leaf.index()];
+void DirectSampler::setKernel(hierarchy::ElementId leaf, Term& t) const {
+  const hierarchy::ElementNodes& n = elements_.nodes[leaf.index()];
   for (std::size_t q = 0; q < 4; ++q) {
     if (n.weight[q] <= 0) continue;
     t.at[q] = static_cast<float>(kernelAtPoint(elements_, scene_, n.position[q], n.normal[q], t.sender));
@@ -44,7 +47,7 @@ void DirectSampler::setKernel(ElementId leaf, Term& t) const {
   }
 }
 
-DirectSampler::Term DirectSampler::term(ElementId leaf, const PossibleSender& s) const {
+DirectSampler::Term DirectSampler::term(hierarchy::ElementId leaf, const PossibleSender& s) const {
   Term t;
   t.link = s.link, t.sender = s.sender;
   t.clear = s.rays == 0 && s.open >= 1.0f;
@@ -57,7 +60,7 @@ DirectSampler::Term DirectSampler::term(ElementId leaf, const PossibleSender& s)
 }
 
 /// What no ray of the links saw gets no more rays than what was seen.
-std::vector<DirectSampler::Term> DirectSampler::terms(ElementId leaf,
+std::vector<DirectSampler::Term> DirectSampler::terms(hierarchy::ElementId leaf,
                                                       const std::vector<PossibleSender>& senders) const {
   std::vector<Term> out;
   float seen = 0;
@@ -73,7 +76,7 @@ std::vector<DirectSampler::Term> DirectSampler::terms(ElementId leaf,
   return out;
 }
 
-DirectRow DirectSampler::at(ElementId leaf, int rays) const {
+DirectRow DirectSampler::at(hierarchy::ElementId leaf, int rays) const {
   const std::vector<Term> all = terms(leaf, senders_.at(leaf));
   float total = 0;
   for (const Term& t : all) total += t.known() ? 0.0f : t.weight;
@@ -93,7 +96,8 @@ DirectRow DirectSampler::at(ElementId leaf, int rays) const {
   return row;
 }
 
-void DirectSampler::deal(ElementId leaf, const std::vector<Term>& terms, float step, Sampled& sampled) const {
+void DirectSampler::deal(hierarchy::ElementId leaf, const std::vector<Term>& terms, float step,
+                         Sampled& sampled) const {
   sampled.row.weightPerRay = step;
   std::vector<Term> few;
   for (const Term& t : terms) {
@@ -117,7 +121,8 @@ void DirectSampler::deal(ElementId leaf, const std::vector<Term>& terms, float s
   addPool(sampled);
 }
 
-void DirectSampler::dealFew(ElementId leaf, const std::vector<Term>& few, float step, Sampled& sampled) const {
+void DirectSampler::dealFew(hierarchy::ElementId leaf, const std::vector<Term>& few, float step,
+                            Sampled& sampled) const {
   const Roundings roundings(elements_, leaf);
   double weight = 0;
   std::uint64_t key = 0;
@@ -137,7 +142,7 @@ void DirectSampler::dealFew(ElementId leaf, const std::vector<Term>& few, float 
 }
 
 /// Distant lights by their direction.
-std::uint64_t DirectSampler::placeOf(ElementId sender) const {
+std::uint64_t DirectSampler::placeOf(hierarchy::ElementId sender) const {
   const Vec3f& at = elements_.shape(sender).center;
   if (!elements_.isDistant(sender)) return places_.code(at);
   return places_.code(Vec3f(elements_.sceneBox.center()) +
@@ -160,15 +165,15 @@ void DirectSampler::addPool(Sampled& out) const {
   out.pool = {};
 }
 
-double DirectSampler::mean(ElementId leaf, const Sampled& sampled) const {
-  const ElementNodes& n = elements_.nodes[leaf.index()];
+double DirectSampler::mean(hierarchy::ElementId leaf, const Sampled& sampled) const {
+  const hierarchy::ElementNodes& n = elements_.nodes[leaf.index()];
   double mean = 0;
   for (std::size_t q = 0; q < 4; ++q) mean += n.weight[q] * sampled.E[q];
   return mean;
 }
 
-double DirectSampler::variation(ElementId leaf, const Sampled& sampled) const {
-  const ElementNodes& n = elements_.nodes[leaf.index()];
+double DirectSampler::variation(hierarchy::ElementId leaf, const Sampled& sampled) const {
+  const hierarchy::ElementNodes& n = elements_.nodes[leaf.index()];
   const double middle = mean(leaf, sampled);
   double chance = 0, between = 0;
   for (std::size_t q = 0; q < 4; ++q) {
@@ -179,20 +184,21 @@ double DirectSampler::variation(ElementId leaf, const Sampled& sampled) const {
   return std::sqrt(std::max(0.0, between - chance));
 }
 
-bool DirectSampler::sampledByAngle(ElementId sender) const {
-  const ElementTopology& t = elements_.at(sender);
-  return t.kind == ElementKind::Patch && !t.flat && t.depth == 0;
+bool DirectSampler::sampledByAngle(hierarchy::ElementId sender) const {
+  const hierarchy::ElementTopology& t = elements_.at(sender);
+  return t.kind == hierarchy::ElementKind::Patch && !t.flat && t.depth == 0;
 }
 
 /// Of an emitting surface whose light is as it was read.
-Rgb DirectSampler::wholeB(ElementId sender) const {
+Rgb DirectSampler::wholeB(hierarchy::ElementId sender) const {
   const auto& emission = scene_.materialOf(elements_.domain[sender.index()].primitive).emission;
   return emission ? float(kPi) * emission->radiance : Rgb(0.0f);
 }
 
-DirectSampler::Shot DirectSampler::shoot(ElementId leaf, ElementId sender, std::uint64_t key, int i) const {
+DirectSampler::Shot DirectSampler::shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, std::uint64_t key,
+                                         int i) const {
   const auto u = stratified4(key, i);
-  const PatchPoint x = samplePatch(elements_, scene_, leaf, u[2], u[3]);
+  const hierarchy::PatchPoint x = hierarchy::samplePatch(elements_, scene_, leaf, u[2], u[3]);
   Shot shot;
   shot.quadrant = (u[2] < 0.5 ? 0u : 1u) + (u[3] < 0.5 ? 0u : 2u);
   if (sampledByAngle(sender)) {
@@ -200,23 +206,23 @@ DirectSampler::Shot DirectSampler::shoot(ElementId leaf, ElementId sender, std::
     const double cosine = s ? glm::dot(s->direction, Vec3(x.normal)) : 0.0;
     if (!(cosine > 0) || !(s->pdf > 0)) return shot;
     shot.radiance = static_cast<float>(cosine / s->pdf) * s->radiance;
-    shot.ray = segment(x.position, x.normal, x.position + Vec3f(s->distance * s->direction), Vec3f(s->normal));
+    shot.ray = tracing::segment(x.position, x.normal, x.position + Vec3f(s->distance * s->direction), Vec3f(s->normal));
     shot.weight = 1;
   } else if (elements_.isDistant(sender)) {
-    const Vec3f w = directionOf(elements_, scene_, sender, u[0], u[1]);
+    const Vec3f w = hierarchy::directionOf(elements_, scene_, sender, u[0], u[1]);
     shot.weight = pointKernel(elements_, scene_, x.position, x.normal, sender, w, Vec3f(0.0f));
-    shot.ray.origin = offsetOrigin(x.position, x.normal, w);
+    shot.ray.origin = tracing::offsetOrigin(x.position, x.normal, w);
     shot.ray.direction = w;
   } else {
-    const PatchPoint y = samplePoint(elements_, scene_, sender, u[0], u[1]);
+    const hierarchy::PatchPoint y = samplePoint(elements_, scene_, sender, u[0], u[1]);
     shot.weight = pointKernel(elements_, scene_, x.position, x.normal, sender, y.position, y.normal);
-    shot.ray = segment(x.position, x.normal, y.position, y.normal);
+    shot.ray = tracing::segment(x.position, x.normal, y.position, y.normal);
   }
   return shot;
 }
 
 /// Where a ray ends, or leaves the scene's box.
-Vec3f DirectSampler::endOf(const Ray& ray) const {
+Vec3f DirectSampler::endOf(const tracing::Ray& ray) const {
   const Vec3f lower(elements_.sceneBox.lower), upper(elements_.sceneBox.upper);
   float far = ray.tFar;
   for (int axis = 0; axis < 3; ++axis) {
@@ -228,12 +234,12 @@ Vec3f DirectSampler::endOf(const Ray& ray) const {
 }
 
 /// Notes where the rays of a row's term go.
-void DirectSampler::remember(ElementId sender, const Passage& p, TransferRow& row) const {
+void DirectSampler::remember(hierarchy::ElementId sender, const Passage& p, TransferRow& row) const {
   row.reach.add(p.reach);
   if (elements_.isPatch(sender)) row.reach.objects.add(scene_, elements_.domain[sender.index()].primitive);
 }
 
-DirectSampler::Passage DirectSampler::pass(ElementId leaf, const Term& t, int rays, std::uint64_t key,
+DirectSampler::Passage DirectSampler::pass(hierarchy::ElementId leaf, const Term& t, int rays, std::uint64_t key,
                                            std::uint64_t& traced) const {
   const bool byAngle = sampledByAngle(t.sender);
   Passage p;
@@ -242,11 +248,11 @@ DirectSampler::Passage DirectSampler::pass(ElementId leaf, const Term& t, int ra
     const Shot shot = shoot(leaf, t.sender, key, i);
     p.used += byAngle || shot.weight > 0;
     if (!(shot.weight > 0)) continue;
-    Passing through;
+    tracing::Passing through;
     if (!t.clear) through = tracer_.passing(shot.ray), ++traced;
     const Rgb V = byAngle ? through.share * shot.radiance : through.share;
     passed += shot.weight * RgbSum(V);
-    if (endsAtOne(scene_, through))
+    if (tracing::endsAtOne(scene_, through))
       p.reach.objects.add(scene_, through.blocker);
     else
       p.reach.add(elements_.shape(leaf), endOf(shot.ray));
@@ -262,7 +268,7 @@ DirectSampler::Passage DirectSampler::pass(ElementId leaf, const Term& t, int ra
   return p;
 }
 
-void DirectSampler::sample(ElementId leaf, const Term& t, int rays, float gain, Sampled& out) const {
+void DirectSampler::sample(hierarchy::ElementId leaf, const Term& t, int rays, float gain, Sampled& out) const {
   const Rgb B = elements_.radiometry[t.sender.index()].B;
   const Passage s = pass(leaf, t, rays, rayKey(leaf, t.sender), out.rays);
   out.row.terms.push_back({t.link, t.sender, gain, static_cast<std::uint16_t>(rays), 0, t.clear});
@@ -296,4 +302,4 @@ void DirectSampler::sample(ElementId leaf, const Term& t, int rays, float gain, 
   out.row.transfers.push_back({t.sender, gain * s.T});
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

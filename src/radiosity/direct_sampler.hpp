@@ -22,7 +22,7 @@
 #include "scene/light_sampling.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// The row of one leaf.
 struct DirectRow {
@@ -45,21 +45,22 @@ struct DirectUpdate {
 class DirectSampler {
  public:
   /// All must outlive this.
-  DirectSampler(const Scene&, const Elements&, const Links&, const RayTracer&);
+  DirectSampler(const Scene&, const hierarchy::Elements&, const hierarchy::Links&, const tracing::RayTracer&);
 
   /// By about `rays` shadow rays.
-  DirectRow at(ElementId leaf, int rays) const;
+  DirectRow at(hierarchy::ElementId leaf, int rays) const;
   /// Traces those terms of the leaf's row again whose rays meet what has moved, and samples lights anew whose links are
   /// others by now; rays are dealt to them as the row has dealt them, `rays` in all. `changed`: the topmost changed
   /// links of lights that arrive at the leaf or above it.
-  DirectUpdate update(ElementId leaf, int rays, const LinkChanges&, std::span<const LinkId> changed, const SpaceChange&,
-                      TransferRow&, std::uint64_t& traced) const;
+  DirectUpdate update(hierarchy::ElementId leaf, int rays, const LinkChanges&,
+                      std::span<const hierarchy::LinkId> changed, const SpaceChange&, TransferRow&,
+                      std::uint64_t& traced) const;
 
  private:
   static constexpr int kFacingTries = 8;  // more points of a light when some face away
   struct Term {
-    LinkId link;
-    ElementId sender;
+    hierarchy::LinkId link;
+    hierarchy::ElementId sender;
     bool curved = false, clear = false, seen = false;
     float K = 0;
     std::array<float, 4> at{};  // K at the leaf's nodes
@@ -92,48 +93,50 @@ class DirectSampler {
   /// One shadow ray. A light that is sampled by solid angle brings its radiance, as it was read, times cosine over
   /// density.
   struct Shot {
-    Ray ray;
+    tracing::Ray ray;
     double weight = 0;  // not above 0: light and place do not face each other
     Rgb radiance{0.0f};
     std::size_t quadrant = 0;
   };
 
-  std::vector<Term> terms(ElementId leaf, const std::vector<PossibleSender>&) const;
-  Term term(ElementId leaf, const PossibleSender&) const;
-  void setKernel(ElementId leaf, Term&) const;
-  std::uint64_t rayKey(ElementId leaf, ElementId sender) const;
-  bool curved(ElementId sender) const;
-  bool sampledByAngle(ElementId sender) const;
-  Rgb wholeB(ElementId sender) const;
-  Vec3f endOf(const Ray&) const;
-  void remember(ElementId sender, const Passage&, TransferRow&) const;
-  Shot shoot(ElementId leaf, ElementId sender, std::uint64_t key, int i) const;
-  bool meets(ElementId leaf, const RowTerm&, const SpaceChange&) const;
-  std::vector<std::uint32_t> meeting(ElementId leaf, const LinkChanges&, const SpaceChange&, const TransferRow&) const;
-  Passage pass(ElementId leaf, const Term&, int rays, std::uint64_t key, std::uint64_t& traced) const;
+  std::vector<Term> terms(hierarchy::ElementId leaf, const std::vector<PossibleSender>&) const;
+  Term term(hierarchy::ElementId leaf, const PossibleSender&) const;
+  void setKernel(hierarchy::ElementId leaf, Term&) const;
+  std::uint64_t rayKey(hierarchy::ElementId leaf, hierarchy::ElementId sender) const;
+  bool curved(hierarchy::ElementId sender) const;
+  bool sampledByAngle(hierarchy::ElementId sender) const;
+  Rgb wholeB(hierarchy::ElementId sender) const;
+  Vec3f endOf(const tracing::Ray&) const;
+  void remember(hierarchy::ElementId sender, const Passage&, TransferRow&) const;
+  Shot shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, std::uint64_t key, int i) const;
+  bool meets(hierarchy::ElementId leaf, const RowTerm&, const SpaceChange&) const;
+  std::vector<std::uint32_t> meeting(hierarchy::ElementId leaf, const LinkChanges&, const SpaceChange&,
+                                     const TransferRow&) const;
+  Passage pass(hierarchy::ElementId leaf, const Term&, int rays, std::uint64_t key, std::uint64_t& traced) const;
   /// Deals rays out over terms, one for `step` of weight; over those that are worth less than one by halves
   /// (ray_shares.hpp), as many to each half as it is worth: of the sky, of which leaves see hundreds of cells, no part
   /// is met too often or too seldom by chance.
-  void deal(ElementId leaf, const std::vector<Term>&, float step, Sampled&) const;
-  void sample(ElementId leaf, const Term&, int rays, float gain, Sampled&) const;
-  void dealFew(ElementId leaf, const std::vector<Term>&, float step, Sampled&) const;
-  std::uint64_t placeOf(ElementId sender) const;
+  void deal(hierarchy::ElementId leaf, const std::vector<Term>&, float step, Sampled&) const;
+  void sample(hierarchy::ElementId leaf, const Term&, int rays, float gain, Sampled&) const;
+  void dealFew(hierarchy::ElementId leaf, const std::vector<Term>&, float step, Sampled&) const;
+  std::uint64_t placeOf(hierarchy::ElementId sender) const;
   void addPool(Sampled&) const;
-  double mean(ElementId leaf, const Sampled&) const;
-  double variation(ElementId leaf, const Sampled&) const;
-  Passage tracedAgain(ElementId leaf, const RowTerm&, std::uint64_t& traced) const;
-  bool sampleChanged(ElementId leaf, int rays, std::span<const LinkId> changed, float gone, TransferRow&, DirectUpdate&,
-                     std::uint64_t& traced) const;
-  bool dealtOver(const LinkChanges&, std::span<const LinkId> changed, const SpaceChange&, const RowTerm&) const;
+  double mean(hierarchy::ElementId leaf, const Sampled&) const;
+  double variation(hierarchy::ElementId leaf, const Sampled&) const;
+  Passage tracedAgain(hierarchy::ElementId leaf, const RowTerm&, std::uint64_t& traced) const;
+  bool sampleChanged(hierarchy::ElementId leaf, int rays, std::span<const hierarchy::LinkId> changed, float gone,
+                     TransferRow&, DirectUpdate&, std::uint64_t& traced) const;
+  bool dealtOver(const LinkChanges&, std::span<const hierarchy::LinkId> changed, const SpaceChange&,
+                 const RowTerm&) const;
 
   const Scene& scene_;
-  const Elements& elements_;
-  const Links& links_;
-  const RayTracer& tracer_;
+  const hierarchy::Elements& elements_;
+  const hierarchy::Links& links_;
+  const tracing::RayTracer& tracer_;
   Exposure exposure_;
   DirectSenders senders_;
-  LightSampler lights_;
+  scene::LightSampler lights_;
   PlaceCodes places_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -5,7 +5,7 @@
 #include "radiosity/kernel.hpp"
 #include "radiosity/links_below.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 constexpr std::uint32_t kFewLights = 4096;  // clusters of no more than these are told apart
@@ -13,8 +13,8 @@ constexpr float kLeastCosine = 0.1f;        // credited to senders only part of 
 constexpr float kLeastKernel = 0.02f;  // of the sender's solid angle: its few nodes may all face away, or lie below
 
 /// Transfer that a sender of unknown orientation is credited with.
-float leastKernel(const Elements& elements, const Vec3f& x, ElementId sender) {
-  const ElementGeometry& g = elements.shape(sender);
+float leastKernel(const hierarchy::Elements& elements, const Vec3f& x, hierarchy::ElementId sender) {
+  const hierarchy::ElementGeometry& g = elements.shape(sender);
   if (elements.isDistant(sender)) return kLeastKernel * g.area;
   if (!elements.isPatch(sender)) return 0.0f;
   const Vec3f d = g.center - x;
@@ -22,60 +22,63 @@ float leastKernel(const Elements& elements, const Vec3f& x, ElementId sender) {
 }
 }  // namespace
 
-float shownStrength(const Elements& elements, ElementId e) { return gray(elements.radiometry[e.index()].B); }
+float shownStrength(const hierarchy::Elements& elements, hierarchy::ElementId e) {
+  return gray(elements.radiometry[e.index()].B);
+}
 
-float creditedStrength(const Elements& elements, ElementId e) {
+float creditedStrength(const hierarchy::Elements& elements, hierarchy::ElementId e) {
   return std::max(shownStrength(elements, e), elements.radiometry[e.index()].typical);
 }
 
-void creditLights(Elements& elements) {
+void creditLights(hierarchy::Elements& elements) {
   for (std::size_t i = 0; i < elements.size(); ++i)
-    if (const ElementId e(i); elements.light[i].valid() && !elements.isCluster(e)) {
+    if (const hierarchy::ElementId e(i); elements.light[i].valid() && !elements.isCluster(e)) {
       float& credit = elements.radiometry[i].typical;
       credit = std::max(credit, shownStrength(elements, e) / kBrighter);
     }
 }
 
-DirectSenders::DirectSenders(const Elements& elements, const Links& links, const Scene& scene, Strength strengthOf)
+DirectSenders::DirectSenders(const hierarchy::Elements& elements, const hierarchy::Links& links, const Scene& scene,
+                             Strength strengthOf)
     : elements_(elements), links_(links), scene_(scene), strengthOf_(strengthOf), lightCount_(elements.size()) {
-  for (const ElementId e : elements.inputs) {
+  for (const hierarchy::ElementId e : elements.inputs) {
     if (!elements.at(e).emitter || elements.isDistant(e)) continue;
-    for (ElementId up = e; up.valid(); up = elements.at(up).parent) ++lightCount_.at(up.index());
+    for (hierarchy::ElementId up = e; up.valid(); up = elements.at(up).parent) ++lightCount_.at(up.index());
   }
 }
 
-void DirectSenders::addLights(ElementId e, ElementId leaf, const PossibleSender& by,
+void DirectSenders::addLights(hierarchy::ElementId e, hierarchy::ElementId leaf, const PossibleSender& by,
                               std::vector<PossibleSender>& out) const {
   if (elements_.isCluster(e) && lightCount_[e.index()] <= kFewLights) {
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) addLights(elements_.child(e, i), leaf, by, out);
     return;
   }
-  const ElementGeometry& g = elements_.shape(leaf);
+  const hierarchy::ElementGeometry& g = elements_.shape(leaf);
   const Vec3f normal = g.normalCone > 0 ? g.normal : Vec3f(0.0f);
   const double K = kernelAtPoint(elements_, scene_, g.center, normal, e);
   const float potential = std::max(static_cast<float>(K), leastKernel(elements_, g.center, e)) * strength(leaf, e);
   if (potential > 0) out.push_back({by.link, e, potential, by.open, by.rays});
 }
 
-float DirectSenders::strength(ElementId receiver, ElementId sender) const {
+float DirectSenders::strength(hierarchy::ElementId receiver, hierarchy::ElementId sender) const {
   if (!elements_.isCluster(sender)) return strengthOf_(elements_, sender);
   const Vec3f between = elements_.shape(receiver).center - elements_.shape(sender).center;
   const float distance = glm::length(between);
-  const DirectionalRgb& intensity = elements_.cluster(sender).intensity;
+  const hierarchy::DirectionalRgb& intensity = elements_.cluster(sender).intensity;
   return gray(intensity.at(distance > 0 ? between / distance : Vec3f(0, 0, 1)));
 }
 
-void DirectSenders::addLink(LinkId id, ElementId leaf, std::vector<PossibleSender>& out) const {
-  const Link& l = links_[id];
-  const ElementId e = l.receiver;
-  const ElementGeometry& g = elements_.shape(leaf);
-  const bool sampled = l.visibility == Visibility::Sampled;
+void DirectSenders::addLink(hierarchy::LinkId id, hierarchy::ElementId leaf, std::vector<PossibleSender>& out) const {
+  const hierarchy::Link& l = links_[id];
+  const hierarchy::ElementId e = l.receiver;
+  const hierarchy::ElementGeometry& g = elements_.shape(leaf);
+  const bool sampled = l.visibility == hierarchy::Visibility::Sampled;
   PossibleSender a{id, l.sender, 0.0f, sampled ? maxChannel(l.V) : 1.0f, sampled ? l.samples : std::uint8_t{0}};
   if (elements_.isCluster(l.sender) && lightCount_[l.sender.index()] <= kFewLights)
     return addLights(l.sender, leaf, a, out);
   a.potential = std::max(l.K, leastKernel(elements_, elements_.shape(e).center, l.sender)) * strength(e, l.sender);
   if (elements_.isCluster(e)) {
-    const ElementGeometry& s = elements_.shape(l.sender);
+    const hierarchy::ElementGeometry& s = elements_.shape(l.sender);
     const bool distant = elements_.isDistant(l.sender);
     const Vec3f between = distant ? s.center : s.center - g.center;
     const float distance = std::max(glm::length(between), 1e-20f);
@@ -89,16 +92,17 @@ void DirectSenders::addLink(LinkId id, ElementId leaf, std::vector<PossibleSende
   if (a.potential > 0) out.push_back(a);
 }
 
-std::vector<PossibleSender> DirectSenders::at(ElementId leaf) const {
+std::vector<PossibleSender> DirectSenders::at(hierarchy::ElementId leaf) const {
   std::vector<PossibleSender> out;
-  for (ElementId e = leaf; e.valid(); e = elements_.at(e).parent)
-    for (LinkId id = links_.first(e, true); id.valid(); id = links_[id].nextArriving) addLink(id, leaf, out);
+  for (hierarchy::ElementId e = leaf; e.valid(); e = elements_.at(e).parent)
+    for (hierarchy::LinkId id = links_.first(e, true); id.valid(); id = links_[id].nextArriving) addLink(id, leaf, out);
   return joined(out);
 }
 
-std::vector<PossibleSender> DirectSenders::over(std::span<const LinkId> links, ElementId leaf) const {
+std::vector<PossibleSender> DirectSenders::over(std::span<const hierarchy::LinkId> links,
+                                                hierarchy::ElementId leaf) const {
   std::vector<PossibleSender> out;
-  for (const LinkId id : links)
+  for (const hierarchy::LinkId id : links)
     if (links_[id].carries()) addLink(id, leaf, out);
   return joined(out);
 }
@@ -129,22 +133,22 @@ std::vector<PossibleSender> DirectSenders::joined(const std::vector<PossibleSend
 std::vector<PossibleSender> DirectSenders::at(const Vec3f& x, const Vec3f& normal) const {
   std::vector<PossibleSender> out;
   if (elements_.lightRoot.valid()) collectAll(elements_.lightRoot, x, normal, out);
-  for (const ElementId e : elements_.distant) collectAll(e, x, normal, out);
+  for (const hierarchy::ElementId e : elements_.distant) collectAll(e, x, normal, out);
   return out;
 }
 
-void DirectSenders::collectAll(ElementId e, const Vec3f& x, const Vec3f& normal,
+void DirectSenders::collectAll(hierarchy::ElementId e, const Vec3f& x, const Vec3f& normal,
                                std::vector<PossibleSender>& out) const {
   if (elements_.isCluster(e)) {
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) collectAll(elements_.child(e, i), x, normal, out);
     return;
   }
   double K = kernelAtPoint(elements_, scene_, x, normal, e);
-  const ElementGeometry& g = elements_.shape(e);
+  const hierarchy::ElementGeometry& g = elements_.shape(e);
   const bool above = elements_.isDistant(e) || glm::dot(g.center - x, normal) + g.radius > 0;
   if (above) K = std::max(K, double(leastKernel(elements_, x, e)));
   const float potential = static_cast<float>(K) * strengthOf_(elements_, e);
   if (potential > 0) out.push_back({{}, e, potential, 1.0f, 0});
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

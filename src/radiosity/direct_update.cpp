@@ -7,7 +7,7 @@
 #include "radiosity/links_below.hpp"
 #include "radiosity/row_terms.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -19,8 +19,8 @@ float raysOf(const RowTerm& t) { return static_cast<float>(t.index) / t.gain; }
 
 }  // namespace
 
-bool DirectSampler::meets(ElementId leaf, const RowTerm& t, const SpaceChange& space) const {
-  const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(t.sender);
+bool DirectSampler::meets(hierarchy::ElementId leaf, const RowTerm& t, const SpaceChange& space) const {
+  const hierarchy::ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(t.sender);
   if (elements_.isDistant(t.sender) ? !space.meetsBeam(r.center, r.radius, s.center, s.radius)
                                     : !space.meets(r.center, r.radius, s.center, s.radius))
     return false;
@@ -36,15 +36,17 @@ bool DirectSampler::meets(ElementId leaf, const RowTerm& t, const SpaceChange& s
 }
 
 /// Whether changed links cover the term by now.
-bool DirectSampler::dealtOver(const LinkChanges& links, std::span<const LinkId> changed, const SpaceChange& space,
-                              const RowTerm& t) const {
+bool DirectSampler::dealtOver(const LinkChanges& links, std::span<const hierarchy::LinkId> changed,
+                              const SpaceChange& space, const RowTerm& t) const {
   if (changeOf(links, t.link) == LinkChange::Changed || space.moved(t.sender)) return true;
-  return links_[t.link].state == LinkState::Interior && std::any_of(changed.begin(), changed.end(), [&](LinkId id) {
+  return links_[t.link].state == hierarchy::LinkState::Interior &&
+         std::any_of(changed.begin(), changed.end(), [&](hierarchy::LinkId id) {
            return holds(elements_, links_[toWholeLight(links_, elements_, id)].sender, t.sender);
          });
 }
 
-DirectSampler::Passage DirectSampler::tracedAgain(ElementId leaf, const RowTerm& t, std::uint64_t& traced) const {
+DirectSampler::Passage DirectSampler::tracedAgain(hierarchy::ElementId leaf, const RowTerm& t,
+                                                  std::uint64_t& traced) const {
   Term same;
   same.sender = t.sender, same.curved = curved(t.sender);
   setKernel(leaf, same);
@@ -52,10 +54,10 @@ DirectSampler::Passage DirectSampler::tracedAgain(ElementId leaf, const RowTerm&
 }
 
 /// Terms whose rays meet what moved, in ascending order.
-std::vector<std::uint32_t> DirectSampler::meeting(ElementId leaf, const LinkChanges& links, const SpaceChange& space,
-                                                  const TransferRow& row) const {
+std::vector<std::uint32_t> DirectSampler::meeting(hierarchy::ElementId leaf, const LinkChanges& links,
+                                                  const SpaceChange& space, const TransferRow& row) const {
   std::vector<std::uint32_t> out;
-  const ElementGeometry& g = elements_.shape(leaf);
+  const hierarchy::ElementGeometry& g = elements_.shape(leaf);
   if (elements_.at(leaf).flat && space.behind(g.center, g.normal)) return out;
   for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
     const RowTerm& t = row.terms[i];
@@ -64,8 +66,9 @@ std::vector<std::uint32_t> DirectSampler::meeting(ElementId leaf, const LinkChan
   return out;
 }
 
-DirectUpdate DirectSampler::update(ElementId leaf, int rays, const LinkChanges& links, std::span<const LinkId> changed,
-                                   const SpaceChange& space, TransferRow& row, std::uint64_t& traced) const {
+DirectUpdate DirectSampler::update(hierarchy::ElementId leaf, int rays, const LinkChanges& links,
+                                   std::span<const hierarchy::LinkId> changed, const SpaceChange& space,
+                                   TransferRow& row, std::uint64_t& traced) const {
   DirectUpdate update;
   const std::vector<std::uint32_t> again = meeting(leaf, links, space, row);
   update.any = !again.empty() || !changed.empty();
@@ -104,15 +107,15 @@ DirectUpdate DirectSampler::update(ElementId leaf, int rays, const LinkChanges& 
 
 /// Appends terms over changed links; false when the row should rather be sampled anew as a whole. `gone`: the rays of
 /// the terms that were taken out.
-bool DirectSampler::sampleChanged(ElementId leaf, int rays, std::span<const LinkId> changed, float gone,
-                                  TransferRow& row, DirectUpdate& update, std::uint64_t& traced) const {
+bool DirectSampler::sampleChanged(hierarchy::ElementId leaf, int rays, std::span<const hierarchy::LinkId> changed,
+                                  float gone, TransferRow& row, DirectUpdate& update, std::uint64_t& traced) const {
   const float all = static_cast<float>(rays);
   if (gone > kMostGone * all) return false;
-  std::vector<LinkId> active;
-  std::vector<LinkId> tops;
-  for (const LinkId id : changed) tops.push_back(toWholeLight(links_, elements_, id));
+  std::vector<hierarchy::LinkId> active;
+  std::vector<hierarchy::LinkId> tops;
+  for (const hierarchy::LinkId id : changed) tops.push_back(toWholeLight(links_, elements_, id));
   sortUnique(tops);
-  for (const LinkId top : tops) activeBelow(links_, elements_, top, leaf, active);
+  for (const hierarchy::LinkId top : tops) activeBelow(links_, elements_, top, leaf, active);
   const std::vector<Term> fresh = terms(leaf, senders_.over(active, leaf));
   float weight = 0;
   for (const Term& t : fresh) weight += t.known() ? 0.0f : t.weight;
@@ -132,4 +135,4 @@ bool DirectSampler::sampleChanged(ElementId leaf, int rays, std::span<const Link
   return true;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

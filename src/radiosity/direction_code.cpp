@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 DirectionCode directionCode(const Vec3f& direction) {
   const float scale = 1.0f / (std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z));
@@ -16,4 +16,4 @@ DirectionCode directionCode(const Vec3f& direction) {
   return {byte(x), byte(y)};
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <deltalux/math.hpp>
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 struct DirectionCode {
   std::int8_t x = 0, y = 0;
@@ -27,4 +27,4 @@ inline Vec3f direction(DirectionCode code) {
   return {x < 0 ? x + below : x - below, y < 0 ? y + below : y - below, z};
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -8,7 +8,7 @@
 #include "radiosity/sender_sampling.hpp"
 #include "scene/stops_light.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -21,19 +21,19 @@ constexpr int kRays = 4;  // of a point, all of which must meet sides without an
 
 }  // namespace
 
-Exposure::Exposure(const Scene& scene, const Elements& elements, const RayTracer& tracer)
+Exposure::Exposure(const Scene& scene, const hierarchy::Elements& elements, const tracing::RayTracer& tracer)
     : scene_(scene), elements_(elements), tracer_(tracer), points_(kManyPoints) {
   std::size_t leaves = 0;  // as far as it matters
   for (std::size_t i = 0; i < elements.size() && leaves * kManyPoints < kInAll; ++i)
-    leaves += elements.isReceivingLeaf(ElementId(i));
+    leaves += elements.isReceivingLeaf(hierarchy::ElementId(i));
   while (points_ < 16 * kManyPoints && static_cast<std::size_t>(points_) * leaves < kInAll) points_ *= 2;
 }
 
-float Exposure::of(ElementId leaf) const {
+float Exposure::of(hierarchy::ElementId leaf) const {
   const std::uint64_t key = combineKeys(elements_.key[leaf.index()], 7);
   const auto isCovered = [&](int i) {
     const auto u = stratified4(key, i);
-    const PatchPoint p = samplePatch(elements_, scene_, leaf, u[0], u[1]);
+    const hierarchy::PatchPoint p = hierarchy::samplePatch(elements_, scene_, leaf, u[0], u[1]);
     return covered(p.position, p.normal, elements_.shape(leaf).radius, combineKeys(key, static_cast<std::uint64_t>(i)));
   };
   const auto count = [&](int first, int end) {
@@ -48,14 +48,15 @@ float Exposure::of(ElementId leaf) const {
 }
 
 /// Whether any of some lines closely over the leaf meets something: they find a table's foot that points would miss.
-bool Exposure::stoodUpon(ElementId leaf) const {
+bool Exposure::stoodUpon(hierarchy::ElementId leaf) const {
   if (!elements_.at(leaf).flat) return false;
-  const ElementGeometry& g = elements_.shape(leaf);
-  const PatchDomain& d = elements_.domain[leaf.index()];
+  const hierarchy::ElementGeometry& g = elements_.shape(leaf);
+  const hierarchy::PatchDomain& d = elements_.domain[leaf.index()];
   const auto meets = [&](float height, double u0, double v0, double u1, double v1) {
-    const PatchPoint a = pointOn(elements_, scene_, leaf, u0, v0), b = pointOn(elements_, scene_, leaf, u1, v1);
+    const hierarchy::PatchPoint a = hierarchy::pointOn(elements_, scene_, leaf, u0, v0),
+                                b = hierarchy::pointOn(elements_, scene_, leaf, u1, v1);
     const Vec3f up = height * g.radius * g.normal;
-    return tracer_.occluded(segment(a.position + up, Vec3f(0.0f), b.position + up, Vec3f(0.0f)));
+    return tracer_.occluded(tracing::segment(a.position + up, Vec3f(0.0f), b.position + up, Vec3f(0.0f)));
   };
   for (int i = 0; i < kLines; ++i) {
     const double at = (i + 0.5) / kLines, u = d.u0 + at * (d.u1 - d.u0), v = d.v0 + at * (d.v1 - d.v0);
@@ -70,15 +71,15 @@ bool Exposure::covered(const Vec3f& p, const Vec3f& normal, float near, std::uin
   for (int k = 0; k < kRays; ++k) {
     const auto u = stratified4(key, k);
     const Vec3f w(cosineDirection(frame, u[0], u[1]));
-    Ray ray;
-    ray.origin = offsetOrigin(p, normal, w);
+    tracing::Ray ray;
+    ray.origin = tracing::offsetOrigin(p, normal, w);
     ray.direction = w;
-    const Hit hit = tracer_.closestHit(ray);
-    if (!hit || !stopsLight(scene_.materialOf(hit.primitive))) return false;
+    const tracing::Hit hit = tracer_.closestHit(ray);
+    if (!hit || !scene::stopsLight(scene_.materialOf(hit.primitive))) return false;
     if (elements_.side(hit.primitive, hit.triangle, hit.front).valid()) return false;
     if (hit.t < near) return true;
   }
   return true;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -10,24 +10,24 @@
 #include "hierarchy/element.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 class Exposure {
  public:
   /// All must outlive this.
-  Exposure(const Scene&, const Elements&, const RayTracer&);
+  Exposure(const Scene&, const hierarchy::Elements&, const tracing::RayTracer&);
 
   /// Share of the leaf's area, above 0; 1 when nothing of it is seen exposed.
-  float of(ElementId leaf) const;
+  float of(hierarchy::ElementId leaf) const;
 
  private:
-  bool stoodUpon(ElementId leaf) const;
+  bool stoodUpon(hierarchy::ElementId leaf) const;
   bool covered(const Vec3f& p, const Vec3f& normal, float near, std::uint64_t key) const;
 
   const Scene& scene_;
-  const Elements& elements_;
-  const RayTracer& tracer_;
+  const hierarchy::Elements& elements_;
+  const tracing::RayTracer& tracer_;
   int points_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -5,9 +5,9 @@
 
 #include "radiosity/rounding.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
-bool turnsAway(const ElementGeometry& patch, const ElementGeometry& from) {
+bool turnsAway(const hierarchy::ElementGeometry& patch, const hierarchy::ElementGeometry& from) {
   const float cosine = patch.normalCone;
   if (!(cosine > 0)) return false;
   const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
@@ -24,4 +24,4 @@ bool turnsAway(const ElementGeometry& patch, const ElementGeometry& from) {
   return reach <= roundingAlong(axis, patch, from);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 double formFactorToPolygon(const Vec3f& x, const Vec3f& n, std::span<const Vec3f> polygon) {
   constexpr std::size_t kMax = 64;
@@ -28,4 +28,4 @@ double formFactorToPolygon(const Vec3f& x, const Vec3f& n, std::span<const Vec3f
   return std::min(1.0, std::abs(sum) / (2 * kPi));
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

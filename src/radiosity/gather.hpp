@@ -5,31 +5,31 @@
 // is summed by one thread in one order: the result does not depend on the thread count.
 #include "hierarchy/link.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// Active links by receiver, reduced to what gathering needs.
 class GatherPlan {
  public:
-  GatherPlan(const Links&, const Elements&);
+  GatherPlan(const hierarchy::Links&, const hierarchy::Elements&);
 
   std::size_t size() const { return transfers_.size(); }
   std::size_t memoryBytes() const;
 
   /// Fills directGathered of every element (and of clusters their directional fields).
-  void gatherDirect(Elements&) const;
+  void gatherDirect(hierarchy::Elements&) const;
   /// Fills indirectGathered from the present B and intensities.
-  void gatherIndirect(Elements&) const;
+  void gatherIndirect(hierarchy::Elements&) const;
 
  private:
   struct Transfer {
-    ElementId sender;
+    hierarchy::ElementId sender;
     Rgb T;  // K V
   };
-  void gather(Elements&, bool direct) const;
+  void gather(hierarchy::Elements&, bool direct) const;
 
-  std::vector<ElementId> receivers_;          // those with links, ascending
+  std::vector<hierarchy::ElementId> receivers_;  // those with links, ascending
   std::vector<std::uint32_t> begin_, split_;  // per receiver: first transfer, first indirect one; begin_ has one more
   std::vector<Transfer> transfers_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

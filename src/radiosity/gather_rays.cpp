@@ -2,23 +2,23 @@
 
 #include <algorithm>
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
 constexpr int kMostDoubled = 6;  // where leaves are few
 constexpr int kMostOfLeaf = 8;   // times the settings'
 
-MeanLeaf held(ElementId leaf, const Elements& elements) {
+MeanLeaf held(hierarchy::ElementId leaf, const hierarchy::Elements& elements) {
   const double A = elements.shape(leaf).litArea();
   return {A, A * double(gray(elements.radiometry[leaf.index()].indirect))};
 }
 
 }  // namespace
 
-MeanLeaf meanOf(std::span<const ElementId> leaves, const Elements& elements) {
+MeanLeaf meanOf(std::span<const hierarchy::ElementId> leaves, const hierarchy::Elements& elements) {
   MeanLeaf mean;
-  for (const ElementId leaf : leaves) {
+  for (const hierarchy::ElementId leaf : leaves) {
     const MeanLeaf one = held(leaf, elements);
     mean.area += one.area / static_cast<double>(leaves.size());
     mean.light += one.light / static_cast<double>(leaves.size());
@@ -32,7 +32,7 @@ GatherRays::GatherRays(const LeafTransferSettings& settings, std::size_t leaves,
   for (int i = 0; i < kMostDoubled && all() < static_cast<std::size_t>(settings.inAll); ++i) fewest_ *= 2;
 }
 
-int GatherRays::of(ElementId leaf, const Elements& elements) const {
+int GatherRays::of(hierarchy::ElementId leaf, const hierarchy::Elements& elements) const {
   const MeanLeaf own = held(leaf, elements);
   const double most = std::max(own.area / std::max(mean_.area, 1e-30), own.light / std::max(mean_.light, 1e-30));
   int rays = fewest_;
@@ -40,4 +40,4 @@ int GatherRays::of(ElementId leaf, const Elements& elements) const {
   return rays;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -7,7 +7,7 @@
 
 #include "radiosity/leaf_row.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// What leaves hold in the mean.
 struct MeanLeaf {
@@ -15,18 +15,18 @@ struct MeanLeaf {
   double light = 0;  // that falls on it from other leaves, gray [W in unit^2 as area]
 };
 
-MeanLeaf meanOf(std::span<const ElementId> leaves, const Elements&);
+MeanLeaf meanOf(std::span<const hierarchy::ElementId> leaves, const hierarchy::Elements&);
 
 class GatherRays {
  public:
   /// `leaves`: how many there are.
   GatherRays(const LeafTransferSettings&, std::size_t leaves, const MeanLeaf&);
 
-  int of(ElementId leaf, const Elements&) const;
+  int of(hierarchy::ElementId leaf, const hierarchy::Elements&) const;
 
  private:
   int fewest_, most_;
   MeanLeaf mean_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -6,7 +6,7 @@
 
 #include "radiosity/separation.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -32,13 +32,13 @@ struct Plane {
 /// Convex regions, each within some planes, in which all of a box is hidden.
 class Umbras {
  public:
-  Umbras(const Elements& elements, const Scene& scene, const Box& region)
+  Umbras(const hierarchy::Elements& elements, const Scene& scene, const Box& region)
       : elements_(elements),
         scene_(scene),
         region_(region),
         middle_(region.center()),
         corners_(cornersOf(region.lower, region.upper)) {
-    for (const ElementId root : elements.sceneRoots()) collect(root);
+    for (const hierarchy::ElementId root : elements.sceneRoots()) collect(root);
     std::sort(umbras_.begin(), umbras_.end(), [](const Umbra& a, const Umbra& b) {
       return a.covered != b.covered ? a.covered > b.covered : a.first < b.first;
     });
@@ -47,33 +47,33 @@ class Umbras {
   std::vector<HiddenElement> hidden() {
     for (std::uint32_t u = 0; u < umbras_.size(); ++u) candidates_.push_back(u);
     const std::size_t all = candidates_.size();
-    for (const ElementId root : elements_.sceneRoots()) find(root, 0, all);
+    for (const hierarchy::ElementId root : elements_.sceneRoots()) find(root, 0, all);
     return std::move(hidden_);
   }
 
  private:
   struct Umbra {
     std::uint32_t first, count;  // of planes
-    ElementId occluder;
+    hierarchy::ElementId occluder;
     float covered;  // solid angle, about
   };
   enum class Place : char { Outside, Across, Inside };
 
-  void collect(ElementId e) {
-    const ElementGeometry& g = elements_.shape(e);
+  void collect(hierarchy::ElementId e) {
+    const hierarchy::ElementGeometry& g = elements_.shape(e);
     const Vec3 away = glm::max(glm::max(region_.lower - Vec3(g.upper), Vec3(g.lower) - region_.upper), Vec3(0.0));
     if (kPi * g.radius * g.radius < kLeastCovered * glm::dot(away, away)) return;
     if (elements_.isPatch(e)) return collectPatch(e);
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) collect(elements_.child(e, i));
   }
 
-  void collectPatch(ElementId e) {
-    const ElementTopology& t = elements_.at(e);
-    const PatchDomain& d = elements_.domain[e.index()];
+  void collectPatch(hierarchy::ElementId e) {
+    const hierarchy::ElementTopology& t = elements_.at(e);
+    const hierarchy::PatchDomain& d = elements_.domain[e.index()];
     if (!t.flat || t.blocker || !(elements_.shape(e).area > 0) || isThinGlass(scene_.materialOf(d.primitive))) return;
     if (d.primitive == last_ && d.triangle == lastTriangle_) return;  // its other side
     last_ = d.primitive, lastTriangle_ = d.triangle;
-    const PlaneFrame& f = elements_.frames[d.frame];
+    const hierarchy::PlaneFrame& f = elements_.frames[d.frame];
     std::vector<Vec3> outline;
     for (const Vec2& q : elements_.outline(e)) outline.push_back(f.at(q));
     if (outline.size() <= kMostEdges && isConvex(outline, f.normal)) return add(e, outline, f.normal);
@@ -87,7 +87,7 @@ class Umbras {
   }
 
   /// The umbra of a convex polygon.
-  void add(ElementId occluder, std::span<const Vec3> outline, Vec3 normal) {
+  void add(hierarchy::ElementId occluder, std::span<const Vec3> outline, Vec3 normal) {
     Vec3 area(0.0), center(0.0);
     for (std::size_t i = 0; i < outline.size(); ++i) {
       area += 0.5 * glm::cross(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);
@@ -128,7 +128,7 @@ class Umbras {
     return kSlack * std::max({size.x, size.y, size.z, 1e-3});
   }
 
-  Place placeOf(const ElementGeometry& g, const Umbra& umbra) const {
+  Place placeOf(const hierarchy::ElementGeometry& g, const Umbra& umbra) const {
     const Vec3f middle = 0.5f * (g.upper + g.lower), half = 0.5f * (g.upper - g.lower);
     Place place = Place::Inside;
     for (std::uint32_t i = 0; i < umbra.count; ++i) {
@@ -141,8 +141,8 @@ class Umbras {
   }
 
   /// `begin` to `end`: of the candidates, the umbras that the parent meets. Its own are taken off again.
-  void find(ElementId e, std::size_t begin, std::size_t end) {
-    const ElementGeometry& g = elements_.shape(e);
+  void find(hierarchy::ElementId e, std::size_t begin, std::size_t end) {
+    const hierarchy::ElementGeometry& g = elements_.shape(e);
     const std::size_t own = candidates_.size();
     for (std::size_t i = begin; i < end; ++i) {
       const Umbra& umbra = umbras_[candidates_[i]];
@@ -160,7 +160,7 @@ class Umbras {
     candidates_.resize(own);
   }
 
-  const Elements& elements_;
+  const hierarchy::Elements& elements_;
   const Scene& scene_;
   const Box region_;
   const Vec3 middle_;
@@ -175,9 +175,9 @@ class Umbras {
 
 }  // namespace
 
-std::vector<HiddenElement> hiddenElements(const Elements& elements, const Scene& scene, const Box& region) {
+std::vector<HiddenElement> hiddenElements(const hierarchy::Elements& elements, const Scene& scene, const Box& region) {
   if (region.empty()) return {};
   return Umbras(elements, scene, region).hidden();
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -8,15 +8,15 @@
 // triangles. Cost: some nanoseconds a polygon around the region, some hundred an element asked.
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 struct HiddenElement {
-  ElementId element;
-  ElementId occluder;  // a flat patch of the input level
+  hierarchy::ElementId element;
+  hierarchy::ElementId occluder;  // a flat patch of the input level
 };
 
 /// The topmost elements of the scene's trees that are known to be hidden from `region`, down to little parts of
 /// surfaces, each with what hides it. What lies in the region hides nothing.
-std::vector<HiddenElement> hiddenElements(const Elements&, const Scene&, const Box& region);
+std::vector<HiddenElement> hiddenElements(const hierarchy::Elements&, const Scene&, const Box& region);
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -6,7 +6,7 @@
 #include "radiosity/kernel.hpp"
 #include "radiosity/rounding.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -17,8 +17,8 @@ constexpr int kPoints = 16;     // of the smaller of two patches
 constexpr float kGauss = 0.57735027f;  // place of the two nodes that integrate cubics, from the middle to the end
 constexpr float kMostPieces = 6.0f;    // of a rectangle that is longer than wide
 
-bool isRectangle(const Elements& elements, ElementId patch) {
-  const ElementNodes& n = elements.nodes[patch.index()];
+bool isRectangle(const hierarchy::Elements& elements, hierarchy::ElementId patch) {
+  const hierarchy::ElementNodes& n = elements.nodes[patch.index()];
   return elements.outline(patch).size() == 4 &&
          std::all_of(n.weight, n.weight + 4, [](float w) { return std::abs(w - 0.25f) < 1e-4f; });
 }
@@ -26,7 +26,8 @@ bool isRectangle(const Elements& elements, ElementId patch) {
 /// Visits where Gauss has the nodes of a whole rectangle, 2 x 2; where it is longer than wide and `pieces` are asked
 /// for, of each of some about as long as they are wide.
 template <class Visit>
-void forEachGaussNode(const ElementGeometry& g, const ElementNodes& n, bool pieces, const Visit& visit) {
+void forEachGaussNode(const hierarchy::ElementGeometry& g, const hierarchy::ElementNodes& n, bool pieces,
+                      const Visit& visit) {
   Vec3f u = n.position[1] - n.position[0], v = n.position[2] - n.position[0];  // halves of the sides
   if (glm::dot(u, u) < glm::dot(v, v)) std::swap(u, v);
   const float ratio = glm::length(u) / std::max(glm::length(v), 1e-30f);
@@ -40,7 +41,7 @@ void forEachGaussNode(const ElementGeometry& g, const ElementNodes& n, bool piec
 }
 
 /// Whether the plane of a flat patch runs through another: nodes of that may all lie behind it.
-bool crosses(const ElementGeometry& g, const ElementGeometry& plane) {
+bool crosses(const hierarchy::ElementGeometry& g, const hierarchy::ElementGeometry& plane) {
   const Vec3f half = 0.5f * (g.upper - g.lower);
   const float extent = glm::dot(half, glm::abs(plane.normal));
   const float above = glm::dot(0.5f * (g.upper + g.lower) - plane.center, plane.normal);
@@ -54,8 +55,8 @@ bool crosses(const ElementGeometry& g, const ElementGeometry& plane) {
 /// that, the other way round, or, where the leaf is narrow, at many points. What faces a part of it may face none of
 /// its nodes: at many points, too. What is curved and close has its light go between other places than nodes: then
 /// between many points.
-float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear) const {
-  const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(sender);
+float IndirectSampler::kernelAtLeaf(hierarchy::ElementId leaf, hierarchy::ElementId sender, bool clear) const {
+  const hierarchy::ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(sender);
   const bool flat = elements_.at(leaf).flat;
   const bool close = exact(sender) && areClose(elements_, leaf, sender);
   if (close && !flat && clear) return kernelOverPoints(leaf, sender);
@@ -73,9 +74,9 @@ float IndirectSampler::kernelAtLeaf(ElementId leaf, ElementId sender, bool clear
   return kernelOverNodes(leaf, sender);
 }
 
-float IndirectSampler::kernelOverNodes(ElementId at, ElementId of) const {
-  const ElementGeometry& g = elements_.shape(at);
-  const ElementNodes& n = elements_.nodes[at.index()];
+float IndirectSampler::kernelOverNodes(hierarchy::ElementId at, hierarchy::ElementId of) const {
+  const hierarchy::ElementGeometry& g = elements_.shape(at);
+  const hierarchy::ElementNodes& n = elements_.nodes[at.index()];
   double K = 0;
   const auto add = [&](const Vec3f& x, const Vec3f& normal, float weight) {
     if (weight > 0) K += weight * kernelAtPoint(elements_, scene_, x, normal, of);
@@ -91,33 +92,33 @@ float IndirectSampler::kernelOverNodes(ElementId at, ElementId of) const {
 
 /// At points of the smaller of the two, each of which knows the part of the other that it faces. By chance, right in
 /// the mean.
-float IndirectSampler::kernelOverPoints(ElementId leaf, ElementId sender) const {
+float IndirectSampler::kernelOverPoints(hierarchy::ElementId leaf, hierarchy::ElementId sender) const {
   const float A = elements_.shape(leaf).area, ofSender = elements_.shape(sender).area;
   const bool turned = elements_.at(leaf).flat && ofSender < A;
-  const ElementId at = turned ? sender : leaf, of = turned ? leaf : sender;
+  const hierarchy::ElementId at = turned ? sender : leaf, of = turned ? leaf : sender;
   const std::uint64_t key = combineKeys(combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]), 12);
   double sum = 0;
   for (int k = 0; k < kPoints; ++k) {
     const auto u = stratified4(key, k);
-    const PatchPoint x = samplePatch(elements_, scene_, at, u[0], u[1]);
+    const hierarchy::PatchPoint x = hierarchy::samplePatch(elements_, scene_, at, u[0], u[1]);
     sum += kernelAtPoint(elements_, scene_, x.position, x.normal, of);
   }
   return static_cast<float>(sum / kPoints) * (turned ? ofSender / A : 1.0f);
 }
 
 /// From points of the smaller of the two. By chance, right in the mean.
-float IndirectSampler::kernelOverPairs(ElementId leaf, ElementId sender, int sets) const {
+float IndirectSampler::kernelOverPairs(hierarchy::ElementId leaf, hierarchy::ElementId sender, int sets) const {
   const float A = elements_.shape(leaf).area, ofSender = elements_.shape(sender).area;
   const bool turned = ofSender < A;
-  const ElementId from = turned ? sender : leaf, to = turned ? leaf : sender;
+  const hierarchy::ElementId from = turned ? sender : leaf, to = turned ? leaf : sender;
   const std::uint64_t key = combineKeys(combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]), 11);
   double sum = 0;
   for (int k = 0; k < sets * kClosePairs; ++k) {
     const auto u = stratified4(key, k);
-    const PatchPoint x = samplePatch(elements_, scene_, from, u[2], u[3]);
+    const hierarchy::PatchPoint x = hierarchy::samplePatch(elements_, scene_, from, u[2], u[3]);
     sum += closePair(elements_, scene_, x, to, k % kClosePairs, u[0], u[1]).weight;
   }
   return static_cast<float>(sum / sets) * (turned ? ofSender / A : 1.0f);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

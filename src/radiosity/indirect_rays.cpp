@@ -7,7 +7,7 @@
 #include "radiosity/indirect_sampler.hpp"
 #include "radiosity/visibility.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -20,35 +20,35 @@ constexpr float kBlocked = 0x1.fffffep-1f;  // of a ray: furthest place of what 
 /// Where rays of a leaf start: at a point that is given, or anywhere on it.
 struct IndirectSampler::Place {
   const IndirectSampler& sampler;
-  ElementId leaf;
-  const PatchPoint* given;
+  hierarchy::ElementId leaf;
+  const hierarchy::PatchPoint* given;
 
-  PatchPoint operator()(double a, double b) const {
-    return given ? *given : samplePatch(sampler.elements_, sampler.scene_, leaf, a, b);
+  hierarchy::PatchPoint operator()(double a, double b) const {
+    return given ? *given : hierarchy::samplePatch(sampler.elements_, sampler.scene_, leaf, a, b);
   }
 };
 
 /// All rays between the two draw by it.
-SampleKey IndirectSampler::rayKey(ElementId leaf, ElementId sender) const {
+SampleKey IndirectSampler::rayKey(hierarchy::ElementId leaf, hierarchy::ElementId sender) const {
   const LeafGroup group = groupOf(elements_, leaf);
   return {combineKeys(group.key, elements_.key[sender.index()]), group.place};
 }
 
-bool IndirectSampler::isClosePatch(ElementId leaf, ElementId sender) const {
+bool IndirectSampler::isClosePatch(hierarchy::ElementId leaf, hierarchy::ElementId sender) const {
   return elements_.isPatch(sender) && areClose(elements_, leaf, sender);  // also when it has been split since
 }
 
-SenderSample IndirectSampler::along(const ClosePair& pair, ElementId sender) const {
+SenderSample IndirectSampler::along(const ClosePair& pair, hierarchy::ElementId sender) const {
   SenderSample s;
   s.leaf = sender, s.weight = pair.weight / elements_.shape(sender).area;
-  s.ray = segment(pair.from.position, pair.from.normal, pair.to.position, pair.to.normal);
+  s.ray = tracing::segment(pair.from.position, pair.from.normal, pair.to.position, pair.to.normal);
   return s;
 }
 
 /// To a flat sender where the kernel between the whole leaf and the whole sender does not tell that of the parts that
 /// see each other: from a curved leaf, or where one of the two is covered in part, since what is not covered is closer
 /// to what it sees than the whole is.
-SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, int index) const {
+SenderSample IndirectSampler::shootMeasuring(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index) const {
   const Place place{*this, leaf, nullptr};
   const SampleKey key = rayKey(leaf, sender);
   SenderSample s;
@@ -63,18 +63,20 @@ SenderSample IndirectSampler::shootMeasuring(ElementId leaf, ElementId sender, i
 
 /// From a sender close by to the leaf: where the sender is curved, or the smaller of the two, so that few points of the
 /// leaf see much of it. Each candidate has a point of the sender of its own: parts of it may lie behind the leaf.
-SenderSample IndirectSampler::shootBack(ElementId leaf, ElementId sender, int index, bool measures) const {
-  const auto from = [&](double a, double b) { return samplePatch(elements_, scene_, sender, a, b); };
+SenderSample IndirectSampler::shootBack(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index,
+                                        bool measures) const {
+  const auto from = [&](double a, double b) { return hierarchy::samplePatch(elements_, scene_, sender, a, b); };
   const auto pair = sampleClosePair(elements_, scene_, from, leaf, rayKey(leaf, sender), index);
   if (!pair) return {};
   SenderSample s;
   s.leaf = sender, s.weight = pair->weight / elements_.shape(leaf).area;
-  s.ray = segment(pair->to.position, pair->to.normal, pair->from.position, pair->from.normal);
+  s.ray = tracing::segment(pair->to.position, pair->to.normal, pair->from.position, pair->from.normal);
   s.measures = measures;
   return s;
 }
 
-SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index, bool measures) const {
+SenderSample IndirectSampler::shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index,
+                                    bool measures) const {
   if (!(elements_.shape(sender).area > 0)) return {};  // removed
   const bool curved = !exact(sender);
   const bool back = (curved && elements_.at(leaf).flat) || elements_.shape(sender).area < elements_.shape(leaf).area;
@@ -83,7 +85,8 @@ SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index,
   return shoot(leaf, sender, index, nullptr);
 }
 
-SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index, const PatchPoint* at) const {
+SenderSample IndirectSampler::shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index,
+                                    const hierarchy::PatchPoint* at) const {
   const SampleKey key = rayKey(leaf, sender);
   const Place place{*this, leaf, at};
   if (isClosePatch(leaf, sender)) {
@@ -100,7 +103,8 @@ SenderSample IndirectSampler::shoot(ElementId leaf, ElementId sender, int index,
 }
 
 /// Of a few pairs of points one in proportion to its kernel; their mean is its weight [TCE05].
-SenderSample IndirectSampler::shootMeasured(ElementId sender, SampleKey key, int index, const Place& place) const {
+SenderSample IndirectSampler::shootMeasured(hierarchy::ElementId sender, SampleKey key, int index,
+                                            const Place& place) const {
   std::array<SenderSample, kTries> samples;
   double total = 0;
   for (int i = 0; i < kTries; ++i) {
@@ -123,23 +127,23 @@ IndirectSampler::Found IndirectSampler::find(const Dealt& d, const SenderSample&
   const float K = isKnown ? d.term.K : elements_.shape(d.term.sender).area * static_cast<float>(s.weight);
   if (d.term.open >= 1.0f) return {Rgb(d.gain * K), &s.ray};
   ++traced;
-  const Passing p = tracer_.passing(s.ray);
-  if (!endsAtOne(scene_, p)) return {d.gain * K * p.share, &s.ray};
+  const tracing::Passing p = tracer_.passing(s.ray);
+  if (!tracing::endsAtOne(scene_, p)) return {d.gain * K * p.share, &s.ray};
   return {Rgb(0.0f), &s.ray, std::min(p.t / s.ray.tFar, kBlocked), p.blocker};
 }
 
-void IndirectSampler::remember(ElementId leaf, std::size_t term, const Found& f, TransferRow& row) const {
-  const ElementGeometry& g = elements_.shape(leaf);
+void IndirectSampler::remember(hierarchy::ElementId leaf, std::size_t term, const Found& f, TransferRow& row) const {
+  const hierarchy::ElementGeometry& g = elements_.shape(leaf);
   const Vec3f from = 0.5f * (g.lower + g.upper);
   row.rays.resize(row.terms.size());
-  const Vec3f d = f.ray ? f.seen * (at(*f.ray, f.ray->tFar) - from) : Vec3f(0.0f);
+  const Vec3f d = f.ray ? f.seen * (tracing::at(*f.ray, f.ray->tFar) - from) : Vec3f(0.0f);
   row.rays[term] = f.ray ? rayCode(d, f.seen < 1) : rayCode({}, 0, true);
   if (f.ray && !f.blocker.valid()) return row.reach.add(g, from + d);
   row.reach.objects.add(scene_, elements_.domain[row.terms[term].sender.index()].primitive);
   if (f.blocker.valid()) row.reach.objects.add(scene_, f.blocker);
 }
 
-void IndirectSampler::append(ElementId leaf, const Dealt& d, TransferRow& row, std::uint64_t& traced) const {
+void IndirectSampler::append(hierarchy::ElementId leaf, const Dealt& d, TransferRow& row, std::uint64_t& traced) const {
   const bool measured = measures(leaf, d.term.sender);
   const SenderSample s = known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index, measured);
   const Found found = find(d, s, traced);
@@ -150,4 +154,4 @@ void IndirectSampler::append(ElementId leaf, const Dealt& d, TransferRow& row, s
   if (some) row.transfers.push_back({d.term.sender, found.T});
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

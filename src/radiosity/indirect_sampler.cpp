@@ -12,7 +12,7 @@
 #include "radiosity/sender_sampling.hpp"
 #include "radiosity/visibility.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -26,7 +26,8 @@ constexpr float kLookedAt = 8;        // times its rays' worth: chance that what
 
 /// The mean of d^2 over a leaf that its parts would see a sender by: a long one that the sender is close to is seen
 /// from there, not from its middle.
-float squaredDistance(const ElementGeometry& leaf, const Vec3f& x, const ElementGeometry& sender) {
+float squaredDistance(const hierarchy::ElementGeometry& leaf, const Vec3f& x,
+                      const hierarchy::ElementGeometry& sender) {
   const Vec3f d = sender.center - x;
   const float squared = std::max(glm::dot(d, d), sender.radius * sender.radius);
   const Vec3f near = sender.center - glm::clamp(sender.center, leaf.lower, leaf.upper);
@@ -37,8 +38,9 @@ float squaredDistance(const ElementGeometry& leaf, const Vec3f& x, const Element
 
 /// Transfer that clusters and curved senders are credited with, of the kernel K over their nodes: those may all face
 /// away where some part does not.
-float atLeast(const Elements& elements, ElementId leaf, const Vec3f& x, ElementId sender, float K) {
-  const ElementGeometry& g = elements.shape(sender);
+float atLeast(const hierarchy::Elements& elements, hierarchy::ElementId leaf, const Vec3f& x,
+              hierarchy::ElementId sender, float K) {
+  const hierarchy::ElementGeometry& g = elements.shape(sender);
   const float least = kLeastKernel * (K > 0 ? 1.0f : kNoneFaces);
   return std::max(K, least * (elements.isCluster(sender) ? 1.0f : g.area / float(kPi)) /
                          squaredDistance(elements.shape(leaf), x, g));
@@ -46,46 +48,48 @@ float atLeast(const Elements& elements, ElementId leaf, const Vec3f& x, ElementI
 
 }  // namespace
 
-IndirectSampler::IndirectSampler(const Scene& scene, const Elements& elements, const Links& links,
-                                 const RayTracer& tracer)
+IndirectSampler::IndirectSampler(const Scene& scene, const hierarchy::Elements& elements, const hierarchy::Links& links,
+                                 const tracing::RayTracer& tracer)
     : scene_(scene), elements_(elements), tracer_(tracer), links_(links), grid_(elements) {}
 
 /// Radiosity that senders are credited with; so what is all but dark gets no few heavy samples either.
-float IndirectSampler::faintest(ElementId receiver) const {
-  const ElementLight& here = elements_.radiometry[receiver.index()];
+float IndirectSampler::faintest(hierarchy::ElementId receiver) const {
+  const hierarchy::ElementLight& here = elements_.radiometry[receiver.index()];
   return static_cast<float>(kFaintLight) * std::max(gray(here.indirect), here.tolerance);
 }
 
 /// What all around the place together are worth at present: rays dealt out later go by weights of their own time.
-float IndirectSampler::level(ElementId receiver) const {
+float IndirectSampler::level(hierarchy::ElementId receiver) const {
   constexpr float kLeast = 1e-20f;
   return std::max(gray(elements_.radiometry[receiver.index()].indirect) + faintest(receiver), kLeast);
 }
 
-float IndirectSampler::strength(ElementId receiver, ElementId sender) const {
+float IndirectSampler::strength(hierarchy::ElementId receiver, hierarchy::ElementId sender) const {
   const float faint = faintest(receiver);
   if (!elements_.isCluster(sender)) {
-    const ElementLight& there = elements_.radiometry[sender.index()];
+    const hierarchy::ElementLight& there = elements_.radiometry[sender.index()];
     return isBlack(there.rho + there.tau) ? 0.0f : gray(there.B) + faint;
   }
   const Vec3f w = elements_.shape(receiver).center - elements_.shape(sender).center;
-  const DirectionalRgb& intensity = elements_.cluster(sender).intensity;
+  const hierarchy::DirectionalRgb& intensity = elements_.cluster(sender).intensity;
   const float mean = 0.28209479f * std::max(0.0f, gray(intensity.c[0]));
   const float facing = glm::length(w) > 0 ? std::max(gray(intensity.at(glm::normalize(w))), 0.25f * mean) : mean;
   return facing + faint * elements_.shape(sender).area / (4 * float(kPi));
 }
 
-bool IndirectSampler::exact(ElementId sender) const { return elements_.isPatch(sender) && elements_.at(sender).flat; }
+bool IndirectSampler::exact(hierarchy::ElementId sender) const {
+  return elements_.isPatch(sender) && elements_.at(sender).flat;
+}
 
 /// Whether nothing can come from a sender that may be credited with more than its nodes show.
-bool IndirectSampler::averted(ElementId leaf, ElementId sender) const {
-  const ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(sender);
+bool IndirectSampler::averted(hierarchy::ElementId leaf, hierarchy::ElementId sender) const {
+  const hierarchy::ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(sender);
   return turnsAway(r, s) || (elements_.isPatch(sender) && turnsAway(s, r));
 }
 
 template <class KernelOf>
-IndirectSampler::Term IndirectSampler::term(ElementId leaf, LinkId link, ElementId sender, float open,
-                                            const KernelOf& kernelOf) const {
+IndirectSampler::Term IndirectSampler::term(hierarchy::ElementId leaf, hierarchy::LinkId link,
+                                            hierarchy::ElementId sender, float open, const KernelOf& kernelOf) const {
   Term t{link, sender, 0.0f, open, 0.0f};
   const float B = strength(leaf, sender);
   const bool measured = !exact(sender) || (open < 1.0f && measures(leaf, sender));  // by rays: K only shares them out
@@ -99,24 +103,27 @@ IndirectSampler::Term IndirectSampler::term(ElementId leaf, LinkId link, Element
 }
 
 template <class KernelOf>
-void IndirectSampler::add(ElementId leaf, LinkId id, const KernelOf& kernelOf, std::vector<Term>& out) const {
-  const Link& l = links_[id];
+void IndirectSampler::add(hierarchy::ElementId leaf, hierarchy::LinkId id, const KernelOf& kernelOf,
+                          std::vector<Term>& out) const {
+  const hierarchy::Link& l = links_[id];
   if (!l.carries() || l.fromLight) return;
   const Term t = term(leaf, id, l.sender, openness(l), kernelOf);
   if (t.weight > 0) out.push_back(t);
 }
 
 template <class KernelOf>
-std::vector<IndirectSampler::Term> IndirectSampler::allTerms(ElementId leaf, const KernelOf& kernelOf) const {
+std::vector<IndirectSampler::Term> IndirectSampler::allTerms(hierarchy::ElementId leaf,
+                                                             const KernelOf& kernelOf) const {
   std::vector<Term> all;
-  for (ElementId r = leaf; r.valid(); r = elements_.at(r).parent)
-    for (LinkId id = links_.first(r, false); id.valid(); id = links_[id].nextArriving) add(leaf, id, kernelOf, all);
+  for (hierarchy::ElementId r = leaf; r.valid(); r = elements_.at(r).parent)
+    for (hierarchy::LinkId id = links_.first(r, false); id.valid(); id = links_[id].nextArriving)
+      add(leaf, id, kernelOf, all);
   return all;
 }
 
 /// What a term of clusters or curved patches close by counts as when it is asked whether to take it apart: where most
 /// of it comes from few places, its kernel, of nodes, may miss those.
-float IndirectSampler::closeWeight(ElementId leaf, const Term& t) const {
+float IndirectSampler::closeWeight(hierarchy::ElementId leaf, const Term& t) const {
   if (exact(t.sender) || !areClose(elements_, leaf, t.sender)) return 0.0f;
   const float A = elements_.shape(t.sender).area, most = elements_.isCluster(t.sender) ? 4 * float(kPi) : A;
   const float K = kCloseShare * most / std::max(A, elements_.shape(leaf).area);
@@ -124,7 +131,7 @@ float IndirectSampler::closeWeight(ElementId leaf, const Term& t) const {
 }
 
 template <class KernelOf>
-std::vector<IndirectSampler::Term> IndirectSampler::apart(ElementId leaf, std::vector<Term> whole, float ray,
+std::vector<IndirectSampler::Term> IndirectSampler::apart(hierarchy::ElementId leaf, std::vector<Term> whole, float ray,
                                                           const KernelOf& kernelOf) const {
   std::vector<Term> parts;
   while (!whole.empty()) {
@@ -145,7 +152,8 @@ std::vector<IndirectSampler::Term> IndirectSampler::apart(ElementId leaf, std::v
 
 /// What a part of a sender may bring to the middle of the leaf; of flat parts, by their centre alone; of what is curved
 /// and close, to all of the leaf.
-float IndirectSampler::guess(ElementId leaf, const PatchPoint& x, ElementId part) const {
+float IndirectSampler::guess(hierarchy::ElementId leaf, const hierarchy::PatchPoint& x,
+                             hierarchy::ElementId part) const {
   const float B = strength(leaf, part);
   if (!(B > 0) || averted(leaf, part)) return 0.0f;
   if (!exact(part)) {
@@ -154,7 +162,7 @@ float IndirectSampler::guess(ElementId leaf, const PatchPoint& x, ElementId part
                         : static_cast<float>(kernelAtPoint(elements_, scene_, x.position, x.normal, part));
     return kUneven * B * atLeast(elements_, leaf, x.position, part, K);
   }
-  const ElementGeometry& g = elements_.shape(part);
+  const hierarchy::ElementGeometry& g = elements_.shape(part);
   const Vec3f d = g.center - x.position;
   const float squared = glm::dot(d, d);
   const auto K = static_cast<float>(pointKernel(elements_, scene_, x.position, x.normal, part, g.center, g.normal));
@@ -162,8 +170,9 @@ float IndirectSampler::guess(ElementId leaf, const PatchPoint& x, ElementId part
 }
 
 template <class KernelOf, class Visit>
-void IndirectSampler::dealBelow(ElementId leaf, const PatchPoint& x, const Term& t, double expected, int rays,
-                                const Roundings& roundings, const KernelOf& kernelOf, const Visit& visit) const {
+void IndirectSampler::dealBelow(hierarchy::ElementId leaf, const hierarchy::PatchPoint& x, const Term& t,
+                                double expected, int rays, const Roundings& roundings, const KernelOf& kernelOf,
+                                const Visit& visit) const {
   if (elements_.isLeaf(t.sender)) {
     if (t.K > 0)
       for (int i = 0; i < rays; ++i) visit(Dealt{t, static_cast<float>(1.0 / expected), i});
@@ -176,7 +185,7 @@ void IndirectSampler::dealBelow(ElementId leaf, const PatchPoint& x, const Term&
   double rest = total;
   for (std::size_t i = 0; i < guesses.size() && rays > 0; ++i) {
     if (!(guesses[i] > 0)) continue;
-    const ElementId child = elements_.child(t.sender, i);
+    const hierarchy::ElementId child = elements_.child(t.sender, i);
     const int own = shareOf(rays, guesses[i], rest, roundings.of(elements_.key[child.index()]));
     rays -= own, rest -= guesses[i];
     if (own == 0) continue;
@@ -187,8 +196,9 @@ void IndirectSampler::dealBelow(ElementId leaf, const PatchPoint& x, const Term&
 }
 
 template <class KernelOf, class Visit>
-void IndirectSampler::deal(ElementId leaf, const PatchPoint& center, const std::vector<Term>& terms, double step,
-                           int rays, const KernelOf& kernelOf, const Visit& visit) const {
+void IndirectSampler::deal(hierarchy::ElementId leaf, const hierarchy::PatchPoint& center,
+                           const std::vector<Term>& terms, double step, int rays, const KernelOf& kernelOf,
+                           const Visit& visit) const {
   std::vector<RayShare> shares;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     if (known(terms[i]))
@@ -203,8 +213,8 @@ void IndirectSampler::deal(ElementId leaf, const PatchPoint& center, const std::
   });
 }
 
-TransferRow IndirectSampler::atLeaf(ElementId leaf, int rays, std::uint64_t& traced) const {
-  const auto kernelOf = [&](ElementId s, bool clear) { return kernelAtLeaf(leaf, s, clear); };
+TransferRow IndirectSampler::atLeaf(hierarchy::ElementId leaf, int rays, std::uint64_t& traced) const {
+  const auto kernelOf = [&](hierarchy::ElementId s, bool clear) { return kernelAtLeaf(leaf, s, clear); };
   std::vector<Term> whole = allTerms(leaf, kernelOf);
   float sum = 0;
   for (const Term& t : whole) sum += t.weight;
@@ -214,7 +224,7 @@ TransferRow IndirectSampler::atLeaf(ElementId leaf, int rays, std::uint64_t& tra
   TransferRow row;
   const double step = (total > 0 ? total : sum) / rays;
   row.weightPerRay = static_cast<float>(step / level(leaf));
-  const PatchPoint center{elements_.shape(leaf).center, elements_.shape(leaf).normal};
+  const hierarchy::PatchPoint center{elements_.shape(leaf).center, elements_.shape(leaf).normal};
   deal(leaf, center, terms, step, rays, kernelOf, [&](const Dealt& d) { append(leaf, d, row, traced); });
   row.terms.shrink_to_fit();
   row.transfers.shrink_to_fit();
@@ -222,14 +232,14 @@ TransferRow IndirectSampler::atLeaf(ElementId leaf, int rays, std::uint64_t& tra
   return row;
 }
 
-bool IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> changed, int most, TransferRow& row,
-                                  std::uint64_t& traced) const {
-  const auto kernelOf = [&](ElementId s, bool clear) { return kernelAtLeaf(leaf, s, clear); };
-  std::vector<LinkId> active;
-  for (const LinkId top : changed) activeBelow(links_, elements_, top, leaf, active);
+bool IndirectSampler::dealChanged(hierarchy::ElementId leaf, std::span<const hierarchy::LinkId> changed, int most,
+                                  TransferRow& row, std::uint64_t& traced) const {
+  const auto kernelOf = [&](hierarchy::ElementId s, bool clear) { return kernelAtLeaf(leaf, s, clear); };
+  std::vector<hierarchy::LinkId> active;
+  for (const hierarchy::LinkId top : changed) activeBelow(links_, elements_, top, leaf, active);
   std::vector<Term> whole;
-  for (const LinkId id : active) add(leaf, id, kernelOf, whole);
-  const PatchPoint center{elements_.shape(leaf).center, elements_.shape(leaf).normal};
+  for (const hierarchy::LinkId id : active) add(leaf, id, kernelOf, whole);
+  const hierarchy::PatchPoint center{elements_.shape(leaf).center, elements_.shape(leaf).normal};
   // As many rays for a weight as the row has, and no more than a row has.
   float sum = 0;
   for (const Term& t : whole) sum += t.weight;
@@ -253,9 +263,9 @@ bool IndirectSampler::dealChanged(ElementId leaf, std::span<const LinkId> change
   return row.transfers.size() > before;
 }
 
-Rgb IndirectSampler::atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const {
-  const PatchPoint x{p, normal};
-  const auto kernelOf = [&](ElementId s, bool) {
+Rgb IndirectSampler::atPoint(hierarchy::ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const {
+  const hierarchy::PatchPoint x{p, normal};
+  const auto kernelOf = [&](hierarchy::ElementId s, bool) {
     return static_cast<float>(kernelAtPoint(elements_, scene_, p, normal, s));
   };
   std::vector<Term> whole = allTerms(leaf, kernelOf);
@@ -274,4 +284,4 @@ Rgb IndirectSampler::atPoint(ElementId leaf, const Vec3f& p, const Vec3f& normal
   return Rgb(E);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -9,7 +9,7 @@
 #include "radiosity/row_terms.hpp"
 #include "radiosity/visibility.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -19,10 +19,10 @@ constexpr std::size_t kMostInherited = 2;  // times the rays that a leaf deserve
 
 }  // namespace
 
-std::vector<IndirectSampler::Again> IndirectSampler::meeting(ElementId leaf, const SpaceChange& space,
+std::vector<IndirectSampler::Again> IndirectSampler::meeting(hierarchy::ElementId leaf, const SpaceChange& space,
                                                              const TransferRow& row) const {
   std::vector<Again> out;
-  const ElementGeometry& r = elements_.shape(leaf);
+  const hierarchy::ElementGeometry& r = elements_.shape(leaf);
   if (elements_.at(leaf).flat && space.behind(r.center, r.normal)) return out;
   std::vector<std::uint32_t> candidates;
   space.meetsRays(r, row.rays, candidates);
@@ -37,7 +37,7 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(ElementId leaf, con
     const RowTerm& t = row.terms[i];
     const bool moved = space.moved(t.sender);
     if (!moved) {
-      const ElementGeometry& s = elements_.shape(t.sender);
+      const hierarchy::ElementGeometry& s = elements_.shape(t.sender);
       if (t.clear || !space.meets(r.center, r.radius, s.center, s.radius)) continue;
     }
     const SenderSample sample = t.clear && exact(t.sender) ? SenderSample{} : shootOf(leaf, t);
@@ -48,8 +48,9 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(ElementId leaf, con
   return out;
 }
 
-bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed,
-                             const SpaceChange& space, int rays, TransferRow& row, std::uint64_t& traced) const {
+bool IndirectSampler::update(hierarchy::ElementId leaf, const LinkChanges& links,
+                             std::span<const hierarchy::LinkId> changed, const SpaceChange& space, int rays,
+                             TransferRow& row, std::uint64_t& traced) const {
   if (space.hiddenFrom(leaf) && !space.moved(leaf) && turn(leaf, links, changed, space, row)) return false;
   const bool gone = dropStale(links, changed, row);
   const std::vector<Again> again = space.moved(leaf) ? allOf(leaf, row) : meeting(leaf, space, row);
@@ -65,8 +66,9 @@ bool IndirectSampler::update(ElementId leaf, const LinkChanges& links, std::span
   return gone || other || dealt;
 }
 
-TransferRow IndirectSampler::inherited(ElementId leaf, const TransferRow& from, const LinkChanges& links,
-                                       std::span<const LinkId> changed, int rays, std::uint64_t& traced) const {
+TransferRow IndirectSampler::inherited(hierarchy::ElementId leaf, const TransferRow& from, const LinkChanges& links,
+                                       std::span<const hierarchy::LinkId> changed, int rays,
+                                       std::uint64_t& traced) const {
   if (from.terms.size() > kMostInherited * static_cast<std::size_t>(rays)) return atLeaf(leaf, rays, traced);
   TransferRow row = from;
   dropStale(links, changed, row);
@@ -79,7 +81,8 @@ TransferRow IndirectSampler::inherited(ElementId leaf, const TransferRow& from, 
 }
 
 /// Takes the terms over links that are others by now out of a row; whether they brought anything.
-bool IndirectSampler::dropStale(const LinkChanges& links, std::span<const LinkId> changed, TransferRow& row) const {
+bool IndirectSampler::dropStale(const LinkChanges& links, std::span<const hierarchy::LinkId> changed,
+                                TransferRow& row) const {
   const auto stale = [&](const RowTerm& t) {
     const LinkChange change = changeOf(links, t.link);
     return change == LinkChange::Changed || (change == LinkChange::Touched && coveredBy(changed, t));
@@ -88,23 +91,25 @@ bool IndirectSampler::dropStale(const LinkChanges& links, std::span<const LinkId
 }
 
 /// Whether the rays that were dealt elsewhere will do here: there are enough of them, and none brings too much.
-bool IndirectSampler::suits(ElementId leaf, std::span<const Again> again, int rays, const TransferRow& row) const {
+bool IndirectSampler::suits(hierarchy::ElementId leaf, std::span<const Again> again, int rays,
+                            const TransferRow& row) const {
   return static_cast<float>(row.terms.size()) >= kMostGone * static_cast<float>(rays) && !uneven(leaf, again, row);
 }
 
 /// The row of a leaf from which all that moved is hidden, before and after, brings what it did, over the links that
 /// there are now. False where it must be looked at all the same.
-bool IndirectSampler::turn(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed,
-                           const SpaceChange& space, TransferRow& row) const {
+bool IndirectSampler::turn(hierarchy::ElementId leaf, const LinkChanges& links,
+                           std::span<const hierarchy::LinkId> changed, const SpaceChange& space,
+                           TransferRow& row) const {
   if (!changed.empty() && !relink(leaf, links, changed, row)) return false;
   if (!space.meets(row.reach.objects)) return true;
   const bool bright = std::any_of(row.terms.begin(), row.terms.end(),
                                   [&](const RowTerm& t) { return t.count > 0 && space.moved(t.sender); });
-  const ElementId occluder = space.occluder(leaf);
+  const hierarchy::ElementId occluder = space.occluder(leaf);
   if (bright || !occluder.valid()) return !bright;
-  const PatchDomain& domain = elements_.domain[occluder.index()];
-  const PlaneFrame& wall = elements_.frames[domain.frame];
-  const ElementGeometry& g = elements_.shape(leaf);
+  const hierarchy::PatchDomain& domain = elements_.domain[occluder.index()];
+  const hierarchy::PlaneFrame& wall = elements_.frames[domain.frame];
+  const hierarchy::ElementGeometry& g = elements_.shape(leaf);
   const Vec3 from(0.5f * (g.lower + g.upper));
   // Rays to what moved, and those that it was found to block, end where it is hidden now: when that goes, they are
   // drawn again.
@@ -117,7 +122,7 @@ bool IndirectSampler::turn(ElementId leaf, const LinkChanges& links, std::span<c
     return false;  // another ray, since its sender has been split
   for (const std::uint32_t i : met) {
     const RowTerm& t = row.terms[i];
-    const Ray ray = shootOf(leaf, t).ray;
+    const tracing::Ray ray = shootOf(leaf, t).ray;
     if (!space.moved(t.sender) && !space.meets(ray)) continue;
     const Vec3 origin(ray.origin), d = double(ray.tFar) * Vec3(ray.direction);
     const double at = glm::dot(wall.origin - origin, wall.normal) / glm::dot(d, wall.normal);
@@ -128,29 +133,30 @@ bool IndirectSampler::turn(ElementId leaf, const LinkChanges& links, std::span<c
 }
 
 /// Gives terms over links that are no more those that cover them now. False where that is not all there is to it.
-bool IndirectSampler::relink(ElementId leaf, const LinkChanges& links, std::span<const LinkId> changed,
-                             TransferRow& row) const {
-  const auto covers = [&](LinkId id, const RowTerm& t) {
-    const Link& l = links_[id];
-    return l.state != LinkState::Free && holds(elements_, l.receiver, leaf) && holds(elements_, l.sender, t.sender);
+bool IndirectSampler::relink(hierarchy::ElementId leaf, const LinkChanges& links,
+                             std::span<const hierarchy::LinkId> changed, TransferRow& row) const {
+  const auto covers = [&](hierarchy::LinkId id, const RowTerm& t) {
+    const hierarchy::Link& l = links_[id];
+    return l.state != hierarchy::LinkState::Free && holds(elements_, l.receiver, leaf) &&
+           holds(elements_, l.sender, t.sender);
   };
-  std::vector<LinkId> active;
+  std::vector<hierarchy::LinkId> active;
   for (RowTerm& t : row.terms) {
     if (changeOf(links, t.link) != LinkChange::Changed) continue;
     if (!covers(t.link, t)) {
       if (active.empty())
-        for (const LinkId top : changed) activeBelow(links_, elements_, top, leaf, active);
-      const auto now = std::find_if(active.begin(), active.end(), [&](LinkId id) { return covers(id, t); });
+        for (const hierarchy::LinkId top : changed) activeBelow(links_, elements_, top, leaf, active);
+      const auto now = std::find_if(active.begin(), active.end(), [&](hierarchy::LinkId id) { return covers(id, t); });
       if (now == active.end()) return false;
       t.link = *now;
     }
-    if (t.clear && links_[t.link].visibility != Visibility::Clear) return false;
+    if (t.clear && links_[t.link].visibility != hierarchy::Visibility::Clear) return false;
   }
   return true;
 }
 
 /// The rays of all terms, from where the leaf is now.
-std::vector<IndirectSampler::Again> IndirectSampler::allOf(ElementId leaf, const TransferRow& row) const {
+std::vector<IndirectSampler::Again> IndirectSampler::allOf(hierarchy::ElementId leaf, const TransferRow& row) const {
   std::vector<Again> out;
   out.reserve(row.terms.size());
   for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
@@ -161,7 +167,7 @@ std::vector<IndirectSampler::Again> IndirectSampler::allOf(ElementId leaf, const
 }
 
 /// Whether what the rays may bring differs too much: each one's share when they were dealt.
-bool IndirectSampler::uneven(ElementId leaf, std::span<const Again> again, const TransferRow& row) const {
+bool IndirectSampler::uneven(hierarchy::ElementId leaf, std::span<const Again> again, const TransferRow& row) const {
   const double share = double(row.weightPerRay) * level(leaf);
   double sum = 0;
   for (const Again& a : again) {
@@ -176,21 +182,21 @@ bool IndirectSampler::uneven(ElementId leaf, std::span<const Again> again, const
 
 /// Whether a term that was dealt over a link now split is one of these links' by now. What is above a changed link has
 /// been touched.
-bool IndirectSampler::coveredBy(std::span<const LinkId> changed, const RowTerm& t) const {
-  if (links_[t.link].state != LinkState::Interior) return false;
+bool IndirectSampler::coveredBy(std::span<const hierarchy::LinkId> changed, const RowTerm& t) const {
+  if (links_[t.link].state != hierarchy::LinkState::Interior) return false;
   return std::any_of(changed.begin(), changed.end(),
-                     [&](LinkId id) { return holds(elements_, links_[id].sender, t.sender); });
+                     [&](hierarchy::LinkId id) { return holds(elements_, links_[id].sender, t.sender); });
 }
 
 /// What a term brings by today's kernel. That of a flat sender is worked out only where something passes.
-IndirectSampler::Found IndirectSampler::findAgain(ElementId leaf, const RowTerm& t, const SenderSample& sample,
-                                                  std::uint64_t& traced) const {
+IndirectSampler::Found IndirectSampler::findAgain(hierarchy::ElementId leaf, const RowTerm& t,
+                                                  const SenderSample& sample, std::uint64_t& traced) const {
   Found found = find({{t.link, t.sender, 1.0f, t.clear ? 1.0f : 0.0f, 0.0f}, t.gain, t.index}, sample, traced);
   if (!isBlack(found.T) && exact(t.sender) && !sample.measures) found.T *= kernelAtLeaf(leaf, t.sender, t.clear);
   return found;
 }
 
-bool IndirectSampler::retrace(ElementId leaf, std::span<const Again> again, TransferRow& row,
+bool IndirectSampler::retrace(hierarchy::ElementId leaf, std::span<const Again> again, TransferRow& row,
                               std::uint64_t& traced) const {
   bool other = false;
   std::size_t at = 0, i = 0;
@@ -209,4 +215,4 @@ bool IndirectSampler::retrace(ElementId leaf, std::span<const Again> again, Tran
   return other;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -9,7 +9,7 @@
 #include "radiosity/form_factor.hpp"
 #include "radiosity/rounding.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -21,7 +21,7 @@ constexpr float kNear = 5.0f;  // in radii of the sender: nearer than this, Lamb
 bool isZero(const Vec3f& v) { return v.x == 0.0f && v.y == 0.0f && v.z == 0.0f; }
 
 /// Signed reach of a box above the plane through `p` with normal `n`.
-float reachAbove(const ElementGeometry& g, const Vec3f& p, const Vec3f& n) {
+float reachAbove(const hierarchy::ElementGeometry& g, const Vec3f& p, const Vec3f& n) {
   const Vec3f half = 0.5f * (g.upper - g.lower);
   return glm::dot(0.5f * (g.upper + g.lower) - p, n) + glm::dot(half, glm::abs(n));
 }
@@ -45,13 +45,13 @@ double relativeIntensity(const Light& light, const Vec3& w) {
       light.emitter);
 }
 
-const SpotCone* spotOf(const Elements& elements, const Scene& scene, ElementId sender) {
+const SpotCone* spotOf(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId sender) {
   if (!elements.at(sender).emitter || !elements.isPatch(sender)) return nullptr;
   const auto& emission = scene.materialOf(elements.domain[sender.index()].primitive).emission;
   return emission && emission->spot ? &*emission->spot : nullptr;
 }
 
-/// Radiance's rule inside the cone: the inverse square counts from a focus behind the source. [conventions.md]
+/// Radiance's rule inside the cone: the inverse square counts from a focus behind the source. [Radiance, spotlight]
 double spotFactor(const SpotCone& spot, const Vec3f& toReceiver, float distance) {
   const double focal = glm::length(spot.direction);
   const double cosine = focal > 0 ? glm::dot(Vec3(toReceiver), spot.direction) / focal : 1.0;
@@ -61,8 +61,8 @@ double spotFactor(const SpotCone& spot, const Vec3f& toReceiver, float distance)
 }
 
 /// World vertices of a flat patch's outline, up to 64.
-std::size_t worldOutline(const Elements& elements, ElementId e, std::array<Vec3f, 64>& out) {
-  const PlaneFrame& f = elements.frames[elements.domain[e.index()].frame];
+std::size_t worldOutline(const hierarchy::Elements& elements, hierarchy::ElementId e, std::array<Vec3f, 64>& out) {
+  const hierarchy::PlaneFrame& f = elements.frames[elements.domain[e.index()].frame];
   const auto outline = elements.outline(e);
   const std::size_t count = std::min<std::size_t>(outline.size(), out.size());
   for (std::size_t i = 0; i < count; ++i) out[i] = Vec3f(f.at(outline[i]));
@@ -70,21 +70,22 @@ std::size_t worldOutline(const Elements& elements, ElementId e, std::array<Vec3f
 }
 
 /// The point of `g`'s box nearest to `p`; for flat patches moved into their plane.
-Vec3f nearestPoint(const ElementGeometry& g, const Vec3f& p, bool flat) {
+Vec3f nearestPoint(const hierarchy::ElementGeometry& g, const Vec3f& p, bool flat) {
   Vec3f q = glm::clamp(p, g.lower, g.upper);
   if (flat) q -= glm::dot(q - g.center, g.normal) * g.normal;
   return q;
 }
 
 /// Greatest cosine between `n` and the directions of a distant sender.
-float highestDirection(const Elements& elements, ElementId sender, const Vec3f& n) {
+float highestDirection(const hierarchy::Elements& elements, hierarchy::ElementId sender, const Vec3f& n) {
   float top = -1;
   for (const Vec3f& w : elements.nodes[sender.index()].position) top = std::max(top, glm::dot(w, n));
   return top + elements.shape(sender).radius;
 }
 
 /// What two flat ends could exchange at most if both faced each other as far as they rise above each other's planes.
-double crossingBound(const ElementGeometry& r, const ElementGeometry& s, float senderReach, float receiverReach) {
+double crossingBound(const hierarchy::ElementGeometry& r, const hierarchy::ElementGeometry& s, float senderReach,
+                     float receiverReach) {
   const float d = glm::length(r.center - s.center);
   const double squared = std::max(double(d) * d, double(s.area) / kPi);
   const double cosines = std::min(1.0, double(senderReach) / std::sqrt(squared)) *
@@ -106,8 +107,8 @@ bool hollow(const Shape& shape, bool front) {
 
 }  // namespace
 
-double pointKernel(const Elements& elements, const Scene& scene, const Vec3f& x, const Vec3f& n, ElementId sender,
-                   const Vec3f& y, const Vec3f& m) {
+double pointKernel(const hierarchy::Elements& elements, const Scene& scene, const Vec3f& x, const Vec3f& n,
+                   hierarchy::ElementId sender, const Vec3f& y, const Vec3f& m) {
   if (elements.isDistant(sender)) return isZero(n) ? 1.0 : std::max(0.0f, glm::dot(n, y));
   const Vec3f d = y - x;
   const float squared = glm::dot(d, d);
@@ -129,9 +130,10 @@ double pointKernel(const Elements& elements, const Scene& scene, const Vec3f& x,
 namespace {
 /// Transfer from a flat patch some of its radii away. The nodes sample half of its extent: together with the centre
 /// they give the mean to second order.
-double toDistantFlat(const Elements& elements, const Scene& scene, const Vec3f& x, const Vec3f& n, ElementId sender) {
-  const ElementGeometry& g = elements.shape(sender);
-  const ElementNodes& nodes = elements.nodes[sender.index()];
+double toDistantFlat(const hierarchy::Elements& elements, const Scene& scene, const Vec3f& x, const Vec3f& n,
+                     hierarchy::ElementId sender) {
+  const hierarchy::ElementGeometry& g = elements.shape(sender);
+  const hierarchy::ElementNodes& nodes = elements.nodes[sender.index()];
   double mean = 0;
   bool whole = true;
   for (int j = 0; j < 4; ++j) {
@@ -145,9 +147,10 @@ double toDistantFlat(const Elements& elements, const Scene& scene, const Vec3f& 
 }
 }  // namespace
 
-double kernelAtPoint(const Elements& elements, const Scene& scene, const Vec3f& x, const Vec3f& n, ElementId sender) {
-  const ElementGeometry& g = elements.shape(sender);
-  const ElementNodes& nodes = elements.nodes[sender.index()];
+double kernelAtPoint(const hierarchy::Elements& elements, const Scene& scene, const Vec3f& x, const Vec3f& n,
+                     hierarchy::ElementId sender) {
+  const hierarchy::ElementGeometry& g = elements.shape(sender);
+  const hierarchy::ElementNodes& nodes = elements.nodes[sender.index()];
   if (elements.isPoint(sender)) return pointKernel(elements, scene, x, n, sender, g.center, Vec3f(0.0f));
   if (elements.isPatch(sender) && elements.at(sender).flat && !isZero(n) && !spotOf(elements, scene, sender)) {
     const Vec3f d = g.center - x;
@@ -179,8 +182,8 @@ double kernelAtPoint(const Elements& elements, const Scene& scene, const Vec3f& 
 
 namespace {
 /// A hollow patch lights itself: mean over pairs of its nodes, of which little is certain.
-void selfKernel(const Elements& elements, const Scene& scene, ElementId e, Kernel& result) {
-  const ElementNodes& nodes = elements.nodes[e.index()];
+void selfKernel(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId e, Kernel& result) {
+  const hierarchy::ElementNodes& nodes = elements.nodes[e.index()];
   double sum = 0, weights = 0;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
@@ -196,11 +199,13 @@ void selfKernel(const Elements& elements, const Scene& scene, ElementId e, Kerne
 }
 }  // namespace
 
-Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, ElementId sender) {
+Kernel kernel(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId receiver,
+              hierarchy::ElementId sender) {
   Kernel result;
-  const ElementGeometry &r = elements.shape(receiver), &s = elements.shape(sender);
-  const ElementTopology &rt = elements.at(receiver), &st = elements.at(sender);
-  const bool clusterReceiver = rt.kind == ElementKind::Cluster, clusterSender = st.kind == ElementKind::Cluster;
+  const hierarchy::ElementGeometry &r = elements.shape(receiver), &s = elements.shape(sender);
+  const hierarchy::ElementTopology &rt = elements.at(receiver), &st = elements.at(sender);
+  const bool clusterReceiver = rt.kind == hierarchy::ElementKind::Cluster,
+             clusterSender = st.kind == hierarchy::ElementKind::Cluster;
   if (receiver == sender) {
     if (clusterReceiver)
       result.overlapping = true;
@@ -210,8 +215,9 @@ Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, 
       selfKernel(elements, scene, receiver, result);
     return result;
   }
-  const bool distant = st.kind == ElementKind::Distant;
-  const bool flatReceiver = rt.flat && !clusterReceiver, flatSender = st.flat && st.kind == ElementKind::Patch;
+  const bool distant = st.kind == hierarchy::ElementKind::Distant;
+  const bool flatReceiver = rt.flat && !clusterReceiver,
+             flatSender = st.flat && st.kind == hierarchy::ElementKind::Patch;
   float senderReach = s.radius, receiverReach = r.radius;  // how far each end rises above the other's plane
   if (flatReceiver) {
     senderReach = distant ? highestDirection(elements, sender, r.normal) : reachAbove(s, r.center, r.normal);
@@ -221,16 +227,17 @@ Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, 
     receiverReach = reachAbove(r, s.center, s.normal);
     result.averted = receiverReach <= roundingAlong(s.normal, r, s);
   }
-  const bool curvedReceiver = !rt.flat && !clusterReceiver, curvedSender = !st.flat && st.kind == ElementKind::Patch;
+  const bool curvedReceiver = !rt.flat && !clusterReceiver,
+             curvedSender = !st.flat && st.kind == hierarchy::ElementKind::Patch;
   if (!result.averted && !distant && ((curvedReceiver && turnsAway(r, s)) || (curvedSender && turnsAway(s, r))))
     result.averted = true;
   if (result.averted) return result;
-  if ((clusterReceiver || clusterSender) && st.kind != ElementKind::Distant) {
+  if ((clusterReceiver || clusterSender) && st.kind != hierarchy::ElementKind::Distant) {
     result.overlapping = elements.box(receiver).overlaps(elements.box(sender));
     if (result.overlapping) return result;
   }
 
-  const ElementNodes& nodes = elements.nodes[receiver.index()];
+  const hierarchy::ElementNodes& nodes = elements.nodes[receiver.index()];
   const auto normalAt = [&](int i) { return clusterReceiver ? Vec3f(0.0f) : nodes.normal[i]; };
   double mean = 0;
   std::array<double, 4> at{};
@@ -265,12 +272,12 @@ Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, 
 
   // Over the sender: its nodes one by one, seen from the receiver's centre.
   double low = kInfinity, high = 0;
-  const ElementNodes& senderNodes = elements.nodes[sender.index()];
-  for (int j = 0; j < 4 && st.kind != ElementKind::Point; ++j) {
+  const hierarchy::ElementNodes& senderNodes = elements.nodes[sender.index()];
+  for (int j = 0; j < 4 && st.kind != hierarchy::ElementKind::Point; ++j) {
     if (senderNodes.weight[j] <= 0) continue;
     double k = pointKernel(elements, scene, r.center, clusterReceiver ? Vec3f(0.0f) : r.normal, sender,
                            senderNodes.position[j], senderNodes.normal[j]);
-    if (st.kind == ElementKind::Patch || st.kind == ElementKind::Distant) k *= s.area;
+    if (st.kind == hierarchy::ElementKind::Patch || st.kind == hierarchy::ElementKind::Distant) k *= s.area;
     low = std::min(low, k), high = std::max(high, k);
   }
   if (high > 0) result.senderSpread = static_cast<float>(kQuadrature * std::min(high - low, 2 * mean));
@@ -284,4 +291,4 @@ Kernel kernel(const Elements& elements, const Scene& scene, ElementId receiver, 
   return result;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -4,7 +4,7 @@
 #include "base/random.hpp"
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 struct LeafGroup {
   static constexpr int kLevels = 3;
@@ -14,12 +14,12 @@ struct LeafGroup {
   unsigned place = 0;  // [0, kPlaces): the path to the leaf, two bits a level, the leaf's own in the lowest
 };
 
-inline LeafGroup groupOf(const Elements& elements, ElementId leaf) {
-  ElementId above = leaf;
+inline LeafGroup groupOf(const hierarchy::Elements& elements, hierarchy::ElementId leaf) {
+  hierarchy::ElementId above = leaf;
   unsigned levels = 0;
   for (; levels < LeafGroup::kLevels && elements.at(above).depth > 0; ++levels) above = elements.at(above).parent;
   const auto path = static_cast<unsigned>(elements.domain[leaf.index()].address) & ((1u << (2 * levels)) - 1);
   return {combineKeys(elements.key[above.index()], levels), path};
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

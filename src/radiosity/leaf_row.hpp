@@ -7,23 +7,23 @@
 #include "radiosity/ray_code.hpp"
 #include "radiosity/row_reach.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// E += T * B(leaf). `leaf` is a leaf patch, or an emitter.
 struct LeafTransfer {
-  ElementId leaf;
+  hierarchy::ElementId leaf;
   Rgb T{0.0f};
 };
 
 /// Rays from a leaf to one sender, and the transfer that they found.
 struct RowTerm {
-  LinkId link;                // that covers leaf and sender
-  ElementId sender;           // the link's, or below it
-  float gain = 1;             // by which chance weights it up
-  std::uint16_t index = 0;    // indirect: of its one ray; direct: number of rays, 0 where none were needed
-  std::uint8_t count = 0;     // transfers: 0 or 1
-  bool clear : 1 = false;     // nothing stands between: no ray was traced
-  bool measures : 1 = false;  // indirect: its ray measures the kernel, also of a flat sender
+  hierarchy::LinkId link;       // that covers leaf and sender
+  hierarchy::ElementId sender;  // the link's, or below it
+  float gain = 1;               // by which chance weights it up
+  std::uint16_t index = 0;      // indirect: of its one ray; direct: number of rays, 0 where none were needed
+  std::uint8_t count = 0;       // transfers: 0 or 1
+  bool clear : 1 = false;       // nothing stands between: no ray was traced
+  bool measures : 1 = false;    // indirect: its ray measures the kernel, also of a flat sender
 };
 
 /// Transfers by term, in the order of the terms.
@@ -47,4 +47,4 @@ struct LeafTransferSettings {
                          // many, so that the light of a small scene is as sure as that of a large one
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -11,7 +11,7 @@
 #include "radiosity/indirect_sampler.hpp"
 #include "radiosity/push_pull.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -21,7 +21,8 @@ void require(bool holds, const char* what) {
   if (!holds) throw std::logic_error(what);
 }
 
-void validateRow(const TransferRow& row, bool ofEmitters, const Elements& elements, const Links& links) {
+void validateRow(const TransferRow& row, bool ofEmitters, const hierarchy::Elements& elements,
+                 const hierarchy::Links& links) {
   std::size_t count = 0;
   for (const RowTerm& t : row.terms) {
     require(t.link.index() < links.size() && t.sender.index() < elements.size(), "transfer: link and sender");
@@ -32,14 +33,15 @@ void validateRow(const TransferRow& row, bool ofEmitters, const Elements& elemen
   require(count == row.transfers.size() && std::isfinite(row.weightPerRay), "transfers: by term");
   for (const LeafTransfer& t : row.transfers) {
     require(t.leaf.index() < elements.size(), "transfer: sender");
-    const ElementTopology& s = elements.at(t.leaf);
-    require(ofEmitters == (s.emitter || s.kind != ElementKind::Patch), "transfer: direct from lights, indirect not");
+    const hierarchy::ElementTopology& s = elements.at(t.leaf);
+    require(ofEmitters == (s.emitter || s.kind != hierarchy::ElementKind::Patch),
+            "transfer: direct from lights, indirect not");
     for (int c = 0; c < 3; ++c) require(std::isfinite(t.T[c]) && t.T[c] >= 0, "transfer: finite and not negative");
   }
 }
 
 /// Rows are of whole leaves, irradiance is that of the part that is not covered.
-Rgb gatheredFromLights(const LeafRow& row, const Elements& elements) {
+Rgb gatheredFromLights(const LeafRow& row, const hierarchy::Elements& elements) {
   Rgb sum(0.0f);
   for (const LeafTransfer& t : row.direct.transfers) sum += t.T * elements.radiometry[t.leaf.index()].B;
   return sum / elements.shape(row.leaf).exposed;
@@ -47,15 +49,16 @@ Rgb gatheredFromLights(const LeafRow& row, const Elements& elements) {
 
 }  // namespace
 
-LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, const Scene& scene,
-                                        const RayTracer& tracer, const LeafTransferSettings& settings) {
+LeafTransferReport LeafTransfers::build(hierarchy::Elements& elements, const hierarchy::Links& links,
+                                        const Scene& scene, const tracing::RayTracer& tracer,
+                                        const LeafTransferSettings& settings) {
   LeafTransferReport report;
-  std::vector<ElementId> fresh;
+  std::vector<hierarchy::ElementId> fresh;
   for (std::size_t i = 0; i < elements.size(); ++i)
-    if (elements.isReceivingLeaf(ElementId(i))) fresh.push_back(ElementId(i));
+    if (elements.isReceivingLeaf(hierarchy::ElementId(i))) fresh.push_back(hierarchy::ElementId(i));
   rows_.clear();
   const DirectRowsReport direct = sampleDirectRows(std::move(fresh), elements, links, scene, tracer, settings,
-                                                   [&](ElementId leaf, TransferRow row) {
+                                                   [&](hierarchy::ElementId leaf, TransferRow row) {
                                                      rows_.push_back({leaf, std::move(row), {}});
                                                    });
   report.rays = direct.rays, report.split = direct.split;
@@ -68,7 +71,7 @@ LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, 
   mean_ = meanOf(leaves(), elements);
   const GatherRays gatherRays(settings, rows_.size(), mean_);
   parallelFor(rows_.size(), kBlock, [&](std::size_t i) {
-    const ElementId leaf = rows_[i].leaf;
+    const hierarchy::ElementId leaf = rows_[i].leaf;
     rows_[i].indirect = sampler.atLeaf(leaf, gatherRays.of(leaf, elements), rays[i / kBlock]);
   });
   for (const std::uint64_t n : rays) report.rays += n;
@@ -77,8 +80,8 @@ LeafTransferReport LeafTransfers::build(Elements& elements, const Links& links, 
   return report;
 }
 
-std::vector<ElementId> LeafTransfers::leaves() const {
-  std::vector<ElementId> leaves;
+std::vector<hierarchy::ElementId> LeafTransfers::leaves() const {
+  std::vector<hierarchy::ElementId> leaves;
   for (const LeafRow& row : rows_) leaves.push_back(row.leaf);
   return leaves;
 }
@@ -93,21 +96,21 @@ std::size_t LeafTransfers::memoryBytes() const {
   return bytes;
 }
 
-void LeafTransfers::gatherDirect(const LeafRow& row, Elements& elements) const {
+void LeafTransfers::gatherDirect(const LeafRow& row, hierarchy::Elements& elements) const {
   elements.radiometry[row.leaf.index()].direct = gatheredFromLights(row, elements);
 }
 
-void LeafTransfers::gatherIndirect(const LeafRow& row, Elements& elements, const std::vector<Rgb>& B) const {
+void LeafTransfers::gatherIndirect(const LeafRow& row, hierarchy::Elements& elements, const std::vector<Rgb>& B) const {
   Rgb sum(0.0f);
   for (const LeafTransfer& t : row.indirect.transfers) sum += t.T * B[t.leaf.index()];
   elements.radiometry[row.leaf.index()].indirect = surplus_.scale(row.leaf) * sum;
 }
 
-void LeafTransfers::gatherDirect(Elements& elements) const {
+void LeafTransfers::gatherDirect(hierarchy::Elements& elements) const {
   parallelFor(rows_.size(), kBlock, [&](std::size_t i) { gatherDirect(rows_[i], elements); });
 }
 
-void LeafTransfers::gatherIndirect(Elements& elements) const {
+void LeafTransfers::gatherIndirect(hierarchy::Elements& elements) const {
   // Close together, since rows read them in no order.
   std::vector<Rgb> B(elements.size());
   for (std::size_t i = 0; i < B.size(); ++i) B[i] = elements.radiometry[i].B;
@@ -125,22 +128,23 @@ void LeafTransfers::measure(const LeafRow& row) {
   surplus_.set(row.leaf, maxChannel(factors));
 }
 
-void LeafTransfers::followReflectance(const Elements& elements, std::span<const ElementId> painted,
-                                      std::vector<ElementId>& leaves) {
+void LeafTransfers::followReflectance(const hierarchy::Elements& elements,
+                                      std::span<const hierarchy::ElementId> painted,
+                                      std::vector<hierarchy::ElementId>& leaves) {
   const std::size_t known = leaves.size();
-  for (const ElementId e : painted)
-    forEachLeafBelow(elements, e, [&](ElementId leaf) {
+  for (const hierarchy::ElementId e : painted)
+    hierarchy::forEachLeafBelow(elements, e, [&](hierarchy::ElementId leaf) {
       if (find(leaf)) leaves.push_back(leaf);
     });
-  const std::vector<ElementId> others(leaves.begin() + static_cast<std::ptrdiff_t>(known), leaves.end());
+  const std::vector<hierarchy::ElementId> others(leaves.begin() + static_cast<std::ptrdiff_t>(known), leaves.end());
   surplus_.follow(elements, others, leaves);
 }
 
-void LeafTransfers::validate(const Elements& elements, const Links& links) const {
+void LeafTransfers::validate(const hierarchy::Elements& elements, const hierarchy::Links& links) const {
   std::vector<char> has(elements.size(), 0);
   if (!rowOf_.empty()) surplus_.validate(elements);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const ElementId leaf = rows_[i].leaf;
+    const hierarchy::ElementId leaf = rows_[i].leaf;
     require(leaf.index() < elements.size() && elements.isReceivingLeaf(leaf), "transfers: of leaves");
     require(!has[leaf.index()], "transfers: each leaf once");
     has[leaf.index()] = 1;
@@ -153,4 +157,4 @@ void LeafTransfers::validate(const Elements& elements, const Links& links) const
   }
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

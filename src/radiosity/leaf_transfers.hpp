@@ -19,7 +19,11 @@
 #include "radiosity/surface_reaches.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
+struct StoredTransfers;
+}
+
+namespace deltalux::radiosity {
 
 struct LeafTransferReport {
   std::uint64_t rays = 0, split = 0;
@@ -27,18 +31,18 @@ struct LeafTransferReport {
 
 struct LeafUpdateReport {
   std::uint64_t rays = 0, split = 0;
-  std::uint64_t direct = 0, indirect = 0;  // rows that are others, in part or whole
-  std::vector<ElementId> leaves;           // theirs, in the order of ids; direct light and all above is up to date
+  std::uint64_t direct = 0, indirect = 0;    // rows that are others, in part or whole
+  std::vector<hierarchy::ElementId> leaves;  // theirs, in the order of ids; direct light and all above is up to date
 };
 
 /// Leaves whose rows may have to be made anew.
 struct ConcernedLeaves {
-  std::vector<ElementId> byLights, byLeaves;  // whose direct row, whose indirect row, in the order of ids
+  std::vector<hierarchy::ElementId> byLights, byLeaves;  // whose direct row, whose indirect row, in the order of ids
 };
 
 /// What one leaf receives from lights, and from leaves.
 struct LeafRow {
-  ElementId leaf;
+  hierarchy::ElementId leaf;
   TransferRow direct, indirect;
 };
 
@@ -46,60 +50,63 @@ class LeafTransfers {
  public:
   /// Samples the rows of all receiving leaves; splits leaves of `elements` where direct light varies. The links' state
   /// and the present radiosities say where light comes from.
-  LeafTransferReport build(Elements& elements, const Links&, const Scene&, const RayTracer&,
-                           const LeafTransferSettings&);
+  LeafTransferReport build(hierarchy::Elements& elements, const hierarchy::Links&, const Scene&,
+                           const tracing::RayTracer&, const LeafTransferSettings&);
 
   /// Which rows a move of geometry can have changed: of leaves that moved or are new, of those below receivers of
   /// changed links, and those whose rays meet what moved, or lead to it. Rows of patches that are leaves no more are
   /// dropped. `changed`: topmost changed links.
-  ConcernedLeaves concerned(const Elements&, const Links&, std::span<const LinkId> changed, const SpaceChange&);
+  ConcernedLeaves concerned(const hierarchy::Elements&, const hierarchy::Links&,
+                            std::span<const hierarchy::LinkId> changed, const SpaceChange&);
   /// Makes the rows of these leaves anew, or the terms of them over links that have changed or whose rays meet what
   /// moved. Other rows stand as they are; their turn may come in a later call, also after further moves, when `marks`,
   /// `changed` and `space` are those of all moves since.
-  LeafUpdateReport update(Elements&, const Links&, const Scene&, const RayTracer&, const LeafTransferSettings&,
-                          const LinkMarks&, std::span<const LinkId> changed, const SpaceChange&,
-                          const ConcernedLeaves&);
+  LeafUpdateReport update(hierarchy::Elements&, const hierarchy::Links&, const Scene&, const tracing::RayTracer&,
+                          const LeafTransferSettings&, const LinkMarks&, std::span<const hierarchy::LinkId> changed,
+                          const SpaceChange&, const ConcernedLeaves&);
 
   bool empty() const { return rows_.empty(); }
   std::span<const LeafRow> rows() const { return rows_; }
   /// Those that have rows, in their order.
-  std::vector<ElementId> leaves() const;
+  std::vector<hierarchy::ElementId> leaves() const;
   /// The row of a leaf; null when it has none.
-  const LeafRow* find(ElementId leaf) const {
+  const LeafRow* find(hierarchy::ElementId leaf) const {
     return leaf.index() < rowOf_.size() && rowOf_[leaf.index()] != kNone ? &rows_[rowOf_[leaf.index()]] : nullptr;
   }
   /// Lists which row is whose, and what they reach, anew.
-  void listRows(const Elements&);
+  void listRows(const hierarchy::Elements&);
   std::size_t memoryBytes() const;
 
   /// Fills `direct` of the leaves from the present B of emitters.
-  void gatherDirect(Elements&) const;
+  void gatherDirect(hierarchy::Elements&) const;
   /// Fills `indirect` of the leaves from the present B of leaves.
-  void gatherIndirect(Elements&) const;
+  void gatherIndirect(hierarchy::Elements&) const;
   /// Fills those of the leaf of one row; B by element. Indirect: without its share of what others have too much of.
-  void gatherDirect(const LeafRow&, Elements&) const;
-  void gatherIndirect(const LeafRow&, Elements&, const std::vector<Rgb>& B) const;
+  void gatherDirect(const LeafRow&, hierarchy::Elements&) const;
+  void gatherIndirect(const LeafRow&, hierarchy::Elements&, const std::vector<Rgb>& B) const;
   const RowSurplus& surplus() const { return surplus_; }
   /// Takes in that surfaces below these reflect otherwise. Adds the leaves that are to be gathered anew by that.
-  void followReflectance(const Elements&, std::span<const ElementId> painted, std::vector<ElementId>& leaves);
+  void followReflectance(const hierarchy::Elements&, std::span<const hierarchy::ElementId> painted,
+                         std::vector<hierarchy::ElementId>& leaves);
 
   /// Checks that rows are those of receiving leaves, each once, from leaves and emitters that exist, by transfers that
   /// are finite and not negative. Throws std::logic_error with the first violation.
-  void validate(const Elements&, const Links&) const;
+  void validate(const hierarchy::Elements&, const hierarchy::Links&) const;
 
  private:
-  friend struct StoredTransfers;  // solution files
+  friend struct io::StoredTransfers;  // solution files
 
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
   struct Change;
-  void updateDirect(Elements&, const Change&, std::span<const ElementId> leaves, LeafUpdateReport&);
-  void updateIndirect(const Elements&, const Change&, std::span<const ElementId> leaves, LeafUpdateReport&,
-                      std::vector<ElementId>& reaching);
-  void dropNoLeaves(const Elements&, std::span<const ElementId> inputs);
+  void updateDirect(hierarchy::Elements&, const Change&, std::span<const hierarchy::ElementId> leaves,
+                    LeafUpdateReport&);
+  void updateIndirect(const hierarchy::Elements&, const Change&, std::span<const hierarchy::ElementId> leaves,
+                      LeafUpdateReport&, std::vector<hierarchy::ElementId>& reaching);
+  void dropNoLeaves(const hierarchy::Elements&, std::span<const hierarchy::ElementId> inputs);
   void measure(const LeafRow&);
-  void setRow(ElementId leaf, std::size_t row);
-  const TransferRow* inheritance(const Elements&, ElementId leaf, const SpaceChange&) const;
+  void setRow(hierarchy::ElementId leaf, std::size_t row);
+  const TransferRow* inheritance(const hierarchy::Elements&, hierarchy::ElementId leaf, const SpaceChange&) const;
 
   std::vector<LeafRow> rows_;  // one a leaf
   MeanLeaf mean_;              // when they were built
@@ -110,10 +117,10 @@ class LeafTransfers {
   RowSurplus surplus_;
   /// Of a leaf that is one no more.
   struct Dropped {
-    ElementId leaf;
+    hierarchy::ElementId leaf;
     TransferRow indirect;
   };
   std::vector<Dropped> dropped_;  // since the last update; what they were split into takes over their rays
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

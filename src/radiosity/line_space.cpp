@@ -5,7 +5,7 @@
 #include "radiosity/link_samples.hpp"
 #include "radiosity/visibility.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -22,8 +22,8 @@ struct LineSpace::Finding {
   std::uint32_t rays = 0;  // that sampled it and may fare otherwise
 };
 
-LineSpace::LineSpace(const Links& links, const Elements& elements, const Scene& scene, const SpaceChange& change,
-                     const SpaceChange& before, const SpaceChange& after)
+LineSpace::LineSpace(const hierarchy::Links& links, const hierarchy::Elements& elements, const Scene& scene,
+                     const SpaceChange& change, const SpaceChange& before, const SpaceChange& after)
     : links_(links),
       elements_(elements),
       scene_(scene),
@@ -31,25 +31,26 @@ LineSpace::LineSpace(const Links& links, const Elements& elements, const Scene& 
       before_(before),
       after_(after),
       above_(elements.size(), 0) {
-  for (const ElementId e : change.inputs()) {
+  for (const hierarchy::ElementId e : change.inputs()) {
     if (elements.isPatch(e) && !elements.at(e).emitter) blockers_.push_back(e);
-    for (ElementId up = elements.at(e).parent; up.valid() && !above_[up.index()]; up = elements.at(up).parent)
+    for (hierarchy::ElementId up = elements.at(e).parent; up.valid() && !above_[up.index()];
+         up = elements.at(up).parent)
       above_.at(up.index()) = 1;
   }
 }
 
 /// Whether what moved alone keeps the ends from seeing each other.
-bool LineSpace::heldBack(const Link& l) const {
+bool LineSpace::heldBack(const hierarchy::Link& l) const {
   return provablyBlocked(elements_, scene_, l.receiver, l.sender, blockers_.data(), blockers_.size());
 }
 
-LineSpace::Finding LineSpace::examine(LinkId id) const {
-  const Link& l = links_[id];
+LineSpace::Finding LineSpace::examine(hierarchy::LinkId id) const {
+  const hierarchy::Link& l = links_[id];
   Finding f;
   f.moved = involved(l.receiver) || involved(l.sender);
   bool left = false, arrives = false;
   if (!f.moved) {
-    const ElementGeometry &r = elements_.shape(l.receiver), &s = elements_.shape(l.sender);
+    const hierarchy::ElementGeometry &r = elements_.shape(l.receiver), &s = elements_.shape(l.sender);
     if (elements_.isDistant(l.sender) ? !change_.meetsBeam(r, s.center, kBeside * s.radius)
                                       : !change_.meets(r.center, r.radius, s.center, s.radius))
       return f;
@@ -61,25 +62,26 @@ LineSpace::Finding LineSpace::examine(LinkId id) const {
   if (!f.met) return f;
   // What samples tell stands as long as no ray of theirs meets what moved. Where few were taken, little comes over the
   // link or it was split for its kernel: what they tell only shares out the rays of rows.
-  if (!f.moved && l.visibility == Visibility::Sampled && l.samples > kFewSamples && (left || l.sampleMask != 0))
+  if (!f.moved && l.visibility == hierarchy::Visibility::Sampled && l.samples > kFewSamples &&
+      (left || l.sampleMask != 0))
     f.rays = LinkSamples(elements_, scene_, l.receiver, l.sender).meeting(l.samples, l.sampleMask, change_, before_);
   switch (l.state) {
-    case LinkState::Free:
+    case hierarchy::LinkState::Free:
       f.moved = false;
       break;
-    case LinkState::Averted:
+    case hierarchy::LinkState::Averted:
       break;
-    case LinkState::Interior:
+    case hierarchy::LinkState::Interior:
       f.touched = true;  // rows may sample over it since before it was split
       // One that was refined for its shadow may no longer need to be; clusters with what moved stay refined.
       f.anew = f.rays != 0;
       f.moved = f.moved && (change_.moved(l.receiver) || change_.moved(l.sender));
       break;
-    case LinkState::Active:
-      f.touched = l.visibility != Visibility::Blocked;
+    case hierarchy::LinkState::Active:
+      f.touched = l.visibility != hierarchy::Visibility::Blocked;
       f.lit = elements_.at(l.sender).emitter && involved(l.sender);
-      f.anew = (l.visibility == Visibility::Clear && arrives) ||
-               (l.visibility == Visibility::Blocked && left && heldBack(l)) || f.rays != 0;
+      f.anew = (l.visibility == hierarchy::Visibility::Clear && arrives) ||
+               (l.visibility == hierarchy::Visibility::Blocked && left && heldBack(l)) || f.rays != 0;
       break;
   }
   return f;
@@ -87,12 +89,12 @@ LineSpace::Finding LineSpace::examine(LinkId id) const {
 
 /// What there is among some links of a level.
 struct LineSpace::Block {
-  std::vector<LinkId> next, touched, moved, lit;
+  std::vector<hierarchy::LinkId> next, touched, moved, lit;
   std::vector<DisturbedLink> anew;
 };
 
-void LineSpace::examine(std::span<const LinkId> links, Block& found) const {
-  for (const LinkId id : links) {
+void LineSpace::examine(std::span<const hierarchy::LinkId> links, Block& found) const {
+  for (const hierarchy::LinkId id : links) {
     const Finding f = examine(id);
     if (!f.met) continue;
     if (f.touched) found.touched.push_back(id);
@@ -109,7 +111,7 @@ LinkMarks LineSpace::visit() const {
   constexpr std::size_t kBlock = 256;
   LinkMarks marks;
   marks.changes = LinkChanges(links_.size(), LinkChange::None);
-  std::vector<LinkId> level = links_.roots, next;
+  std::vector<hierarchy::LinkId> level = links_.roots, next;
   while (!level.empty()) {
     std::vector<Block> blocks((level.size() + kBlock - 1) / kBlock);
     parallelBlocks(level.size(), kBlock, [&](std::size_t begin, std::size_t end) {
@@ -119,7 +121,7 @@ LinkMarks LineSpace::visit() const {
     next.clear();
     for (const Block& b : blocks) {
       append(b.next, next), append(b.moved, marks.moved), append(b.anew, marks.anew), append(b.lit, marks.lit);
-      for (const LinkId id : b.touched) marks.changes.at(id.index()) = LinkChange::Touched;
+      for (const hierarchy::LinkId id : b.touched) marks.changes.at(id.index()) = LinkChange::Touched;
     }
     std::swap(level, next);
   }
@@ -134,4 +136,4 @@ void add(const LinkMarks& more, LinkMarks& marks) {
   marks.visited += more.visited;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

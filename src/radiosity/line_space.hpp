@@ -13,19 +13,19 @@
 
 #include "radiosity/space_change.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// A link between whose ends something has changed.
 struct DisturbedLink {
-  LinkId link;
+  hierarchy::LinkId link;
   std::uint32_t rays = 0;  // which of those that sampled it may fare otherwise, by bits
 };
 
 struct LinkMarks {
-  LinkChanges changes;              // by link: Touched so far, active and interior ones: rows may sample over both
-  std::vector<DisturbedLink> anew;  // to be judged anew
-  std::vector<LinkId> moved;        // to be judged anew: an end of theirs moved, or holds what moved
-  std::vector<LinkId> lit;          // from lights of which some moved: Changed in any case
+  LinkChanges changes;                   // by link: Touched so far, active and interior ones: rows may sample over both
+  std::vector<DisturbedLink> anew;       // to be judged anew
+  std::vector<hierarchy::LinkId> moved;  // to be judged anew: an end of theirs moved, or holds what moved
+  std::vector<hierarchy::LinkId> lit;    // from lights of which some moved: Changed in any case
   std::uint64_t visited = 0;
 };
 
@@ -35,26 +35,26 @@ void add(const LinkMarks&, LinkMarks& marks);
 class LineSpace {
  public:
   /// `change` says which elements move, `before` and `after` the bounds of those where they are and will be.
-  LineSpace(const Links&, const Elements&, const Scene&, const SpaceChange& change, const SpaceChange& before,
-            const SpaceChange& after);
+  LineSpace(const hierarchy::Links&, const hierarchy::Elements&, const Scene&, const SpaceChange& change,
+            const SpaceChange& before, const SpaceChange& after);
 
   LinkMarks visit() const;
 
  private:
   struct Finding;
   struct Block;
-  Finding examine(LinkId) const;
-  void examine(std::span<const LinkId>, Block& found) const;
-  bool heldBack(const Link&) const;
+  Finding examine(hierarchy::LinkId) const;
+  void examine(std::span<const hierarchy::LinkId>, Block& found) const;
+  bool heldBack(const hierarchy::Link&) const;
   /// It moves, or some of it.
-  bool involved(ElementId e) const { return change_.moved(e) || above_[e.index()]; }
+  bool involved(hierarchy::ElementId e) const { return change_.moved(e) || above_[e.index()]; }
 
-  const Links& links_;
-  const Elements& elements_;
+  const hierarchy::Links& links_;
+  const hierarchy::Elements& elements_;
   const Scene& scene_;
   const SpaceChange &change_, &before_, &after_;
-  PagedArray<char> above_;           // by element: a cluster with some of what moves
-  std::vector<ElementId> blockers_;  // input-level patches of what moved
+  PagedArray<char> above_;                      // by element: a cluster with some of what moves
+  std::vector<hierarchy::ElementId> blockers_;  // input-level patches of what moved
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

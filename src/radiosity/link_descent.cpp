@@ -7,25 +7,27 @@
 #include "radiosity/link_news.hpp"
 #include "radiosity/links_below.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
 constexpr std::size_t kBlock = 64;
 
 /// Children of `link` after splitting its end(s), appended contiguously. False when the end cannot be split.
-bool splitLink(Links& links, Elements& elements, const Scene& scene, LinkId id, Split split) {
-  const ElementId receiver = links[id].receiver, sender = links[id].sender;
+bool splitLink(hierarchy::Links& links, hierarchy::Elements& elements, const Scene& scene, hierarchy::LinkId id,
+               Split split) {
+  const hierarchy::ElementId receiver = links[id].receiver, sender = links[id].sender;
   const bool splitReceiver = split != Split::Sender, splitSender = split != Split::Receiver;
-  if (splitReceiver && !elements.isCluster(receiver) && !subdivide(elements, scene, receiver)) return false;
-  if (splitSender && !elements.isCluster(sender) && !subdivide(elements, scene, sender)) return false;
+  if (splitReceiver && !elements.isCluster(receiver) && !hierarchy::subdivide(elements, scene, receiver)) return false;
+  if (splitSender && !elements.isCluster(sender) && !hierarchy::subdivide(elements, scene, sender)) return false;
   const std::size_t rCount = splitReceiver ? elements.at(receiver).childCount : 1;
   const std::size_t sCount = splitSender ? elements.at(sender).childCount : 1;
   if (rCount * sCount == 0 || rCount * sCount > 65535) return false;
-  const LinkId first = links.addChildren(id, rCount * sCount);
+  const hierarchy::LinkId first = links.addChildren(id, rCount * sCount);
   for (std::size_t i = 0; i < rCount; ++i)
     for (std::size_t j = 0; j < sCount; ++j)
-      links.setEnds(LinkId(first.index() + i * sCount + j), splitReceiver ? elements.child(receiver, i) : receiver,
+      links.setEnds(hierarchy::LinkId(first.index() + i * sCount + j),
+                    splitReceiver ? elements.child(receiver, i) : receiver,
                     splitSender ? elements.child(sender, j) : sender);
   return true;
 }
@@ -42,7 +44,7 @@ RefineReport LinkDescent::run() {
   above_[0].blockers = elements_.sceneRoots();
   const BlockerRange everything{0, static_cast<std::uint32_t>(above_[0].blockers.size())};
   std::vector<Task> tasks, next;
-  for (const LinkId root : links_.roots)
+  for (const hierarchy::LinkId root : links_.roots)
     if (marks_[root.index()] != LinkMark::None) tasks.push_back({root, everything, 0, marks_[root.index()]});
   while (!tasks.empty()) {
     const std::size_t blocks = (tasks.size() + kBlock - 1) / kBlock;
@@ -76,7 +78,7 @@ void LinkDescent::judgeBlock(const LinkJudge& judge, std::span<const Task> tasks
   block.report = {};
   block.report.judged = tasks.size();
   for (Task task : tasks) {
-    const ElementId* const candidates = above_[task.block].blockers.data() + task.candidates.begin;
+    const hierarchy::ElementId* const candidates = above_[task.block].blockers.data() + task.candidates.begin;
     const Verdict v = verdictOf(judge, task, {candidates, task.candidates.count, block.blockers});
     block.report.rays += v.rays;
     task.block = index;
@@ -85,55 +87,55 @@ void LinkDescent::judgeBlock(const LinkJudge& judge, std::span<const Task> tasks
 }
 
 Verdict LinkDescent::verdictOf(const LinkJudge& judge, const Task& t, const Candidates& candidates) const {
-  const Link& link = links_[t.link];
+  const hierarchy::Link& link = links_[t.link];
   Verdict v = judged(judge, link, t, candidates);
   if (v.split == Split::None && tooWide(judge, v.link)) {
     const std::uint16_t rays = v.rays;
     v = judge.pass(v.link, candidates);
     v.split = Split::Receiver, v.rays = rays;
   }
-  v.refined =
-      t.mark > LinkMark::Path && link.state == LinkState::Interior && v.split == Split::None && judge.splits(link);
+  v.refined = t.mark > LinkMark::Path && link.state == hierarchy::LinkState::Interior && v.split == Split::None &&
+              judge.splits(link);
   v.news = !samePlan(link, v.link) && isNews(judge, link, v.link);
-  v.link.hidden = hiddenAsBefore(link, v.link) ? Link::kHidden : links_.hiddenAbove(t.link);
+  v.link.hidden = hiddenAsBefore(link, v.link) ? hierarchy::Link::kHidden : links_.hiddenAbove(t.link);
   return v;
 }
 
-Verdict LinkDescent::judged(const LinkJudge& judge, const Link& link, const Task& t,
+Verdict LinkDescent::judged(const LinkJudge& judge, const hierarchy::Link& link, const Task& t,
                             const Candidates& candidates) const {
-  const bool interior = link.state == LinkState::Interior;
+  const bool interior = link.state == hierarchy::LinkState::Interior;
   if (t.mark == LinkMark::Way && interior) return judge.passUnseen(link, candidates);
   if (t.mark == LinkMark::Path && interior) return judge.pass(link, candidates);
   if (t.mark == LinkMark::Between) return judge.judgeBetween(link, raysOf(t.link), candidates);
   if (t.mark == LinkMark::Ends) return judge.judgeMoved(link, candidates);
-  const Link& above = link.parent.valid() ? links_[link.parent] : link;
-  return judge.judge(link, above.visibility == Visibility::Sampled && !isBlack(above.V), candidates);
+  const hierarchy::Link& above = link.parent.valid() ? links_[link.parent] : link;
+  return judge.judge(link, above.visibility == hierarchy::Visibility::Sampled && !isBlack(above.V), candidates);
 }
 
 /// Whether a link from what has grown is better taken apart, although light asks for no more: all leaves below its
 /// receiver would look for rays to what has grown, and walls may hide it from most.
-bool LinkDescent::tooWide(const LinkJudge& judge, const Link& link) const {
+bool LinkDescent::tooWide(const LinkJudge& judge, const hierarchy::Link& link) const {
   if (!grown.valid() || !link.carries() || !elements_.isCluster(link.receiver)) return false;
   return holds(elements_, grown, link.sender) && !holds(elements_, grown, link.receiver) &&
          judge.brings(link, kNewsToRows);
 }
 
-bool LinkDescent::isNews(const LinkJudge& judge, const Link& before, const Link& after) {
+bool LinkDescent::isNews(const LinkJudge& judge, const hierarchy::Link& before, const hierarchy::Link& after) {
   if (!before.carries()) return !hiddenAsBefore(before, after) && judge.brings(after, kNewsToRows);
   return before.visibility != after.visibility || judge.brings(before, kNews) || judge.brings(after, kNews);
 }
 
-std::uint32_t LinkDescent::raysOf(LinkId id) const {
+std::uint32_t LinkDescent::raysOf(hierarchy::LinkId id) const {
   return std::lower_bound(disturbed_.begin(), disturbed_.end(), id,
-                          [](const DisturbedLink& d, LinkId link) { return d.link < link; })
+                          [](const DisturbedLink& d, hierarchy::LinkId link) { return d.link < link; })
       ->rays;
 }
 
 /// Takes a verdict that leaves the tree and its lists as they are; false when it does not. Nothing is written that
 /// other links of the level read.
 bool LinkDescent::settle(const Task& task, const Verdict& v, Block& block) {
-  const Link& link = links_[task.link];
-  const bool anew = task.mark > LinkMark::Path, interior = link.state == LinkState::Interior;
+  const hierarchy::Link& link = links_[task.link];
+  const bool anew = task.mark > LinkMark::Path, interior = link.state == hierarchy::LinkState::Interior;
   const bool same = anew && sameTransfer(link, v.link);
   // A link collapses for what a move has changed, not for light that has settled since it was refined. One that shows
   // nothing any more stays refined for when what hides it moves on: until then that costs no more than its place.
@@ -148,16 +150,16 @@ bool LinkDescent::settle(const Task& task, const Verdict& v, Block& block) {
   return true;
 }
 
-void LinkDescent::accept(LinkId id, const Link& as, RefineReport& report) {
+void LinkDescent::accept(hierarchy::LinkId id, const hierarchy::Link& as, RefineReport& report) {
   links_.judged(id, as);
-  report.provenClear += as.visibility == Visibility::Clear;
-  report.provenBlocked += as.visibility == Visibility::Blocked;
+  report.provenClear += as.visibility == hierarchy::Visibility::Clear;
+  report.provenBlocked += as.visibility == hierarchy::Visibility::Blocked;
 }
 
 void LinkDescent::commit(const Pending& p, bool stopping, std::vector<Task>& next) {
-  const LinkId id = p.task.link;
+  const hierarchy::LinkId id = p.task.link;
   const Verdict& v = p.verdict;
-  if (links_[id].state == LinkState::Interior) {
+  if (links_[id].state == hierarchy::LinkState::Interior) {
     links_.collapse(id, renewed);
     ++report_.collapsed;
     changed(id);
@@ -166,7 +168,8 @@ void LinkDescent::commit(const Pending& p, bool stopping, std::vector<Task>& nex
   }
   accept(id, v.link, report_);
   if (v.split == Split::None) return;
-  const bool optional = v.link.receiver != v.link.sender && v.link.K >= 0 && v.link.visibility != Visibility::Unknown;
+  const bool optional =
+      v.link.receiver != v.link.sender && v.link.K >= 0 && v.link.visibility != hierarchy::Visibility::Unknown;
   if (stopping && optional) {
     report_.stopped = true;
     return;
@@ -179,13 +182,13 @@ void LinkDescent::commit(const Pending& p, bool stopping, std::vector<Task>& nex
 }
 
 void LinkDescent::descend(const Task& task, const Verdict& v, std::vector<Task>& next, bool fresh) const {
-  const Link& link = links_[task.link];
+  const hierarchy::Link& link = links_[task.link];
   for (std::size_t c = 0; c < link.childCount; ++c) {
-    const LinkId child = links_.child(task.link, c);
+    const hierarchy::LinkId child = links_.child(task.link, c);
     if (fresh) renewed(child);
     const LinkMark mark = fresh ? LinkMark::Path : marks_[child.index()];
     if (mark != LinkMark::None) next.push_back({child, v.blockers, task.block, mark});
   }
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

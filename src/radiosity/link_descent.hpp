@@ -13,7 +13,7 @@
 #include "radiosity/link_judge.hpp"
 #include "radiosity/refine.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// Why a link is looked at.
 enum class LinkMark : char {
@@ -29,8 +29,9 @@ class LinkDescent {
   using Marks = PagedArray<LinkMark>;  // by link
 
   /// All must outlive this. `disturbed`: those marked Between, by their ids.
-  LinkDescent(Links& links, Elements& elements, const Scene& scene, const RayTracer& tracer,
-              const OracleSettings& settings, Marks marks, std::span<const DisturbedLink> disturbed = {})
+  LinkDescent(hierarchy::Links& links, hierarchy::Elements& elements, const Scene& scene,
+              const tracing::RayTracer& tracer, const OracleSettings& settings, Marks marks,
+              std::span<const DisturbedLink> disturbed = {})
       : links_(links),
         elements_(elements),
         scene_(scene),
@@ -40,17 +41,17 @@ class LinkDescent {
         disturbed_(disturbed) {}
 
   /// Told of every link that is freed or made, and of every one over which rows have to be dealt anew.
-  std::function<void(LinkId)> renewed = [](LinkId) {}, changed = [](LinkId) {};
+  std::function<void(hierarchy::LinkId)> renewed = [](hierarchy::LinkId) {}, changed = [](hierarchy::LinkId) {};
   std::function<bool()> stop;
   /// What has grown since the marks were made, if anything: all below the receivers of its links are told of it.
-  ElementId grown;
+  hierarchy::ElementId grown;
 
   RefineReport run();
 
  private:
   /// Blockers stand in the list of a block of the level above.
   struct Task {
-    LinkId link;
+    hierarchy::LinkId link;
     BlockerRange candidates;
     std::uint32_t block = 0;
     LinkMark mark = LinkMark::Path;
@@ -70,19 +71,19 @@ class LinkDescent {
 
   void judgeBlock(const LinkJudge&, std::span<const Task>, std::uint32_t index, Block&);
   Verdict verdictOf(const LinkJudge&, const Task&, const Candidates&) const;
-  Verdict judged(const LinkJudge&, const Link&, const Task&, const Candidates&) const;
-  bool tooWide(const LinkJudge&, const Link&) const;
-  static bool isNews(const LinkJudge&, const Link& before, const Link& after);
-  std::uint32_t raysOf(LinkId) const;
+  Verdict judged(const LinkJudge&, const hierarchy::Link&, const Task&, const Candidates&) const;
+  bool tooWide(const LinkJudge&, const hierarchy::Link&) const;
+  static bool isNews(const LinkJudge&, const hierarchy::Link& before, const hierarchy::Link& after);
+  std::uint32_t raysOf(hierarchy::LinkId) const;
   bool settle(const Task&, const Verdict&, Block&);
-  void accept(LinkId, const Link& as, RefineReport&);
+  void accept(hierarchy::LinkId, const hierarchy::Link& as, RefineReport&);
   void commit(const Pending&, bool stopping, std::vector<Task>& next);
   void descend(const Task&, const Verdict&, std::vector<Task>& next, bool fresh) const;
 
-  Links& links_;
-  Elements& elements_;
+  hierarchy::Links& links_;
+  hierarchy::Elements& elements_;
   const Scene& scene_;
-  const RayTracer& tracer_;
+  const tracing::RayTracer& tracer_;
   const OracleSettings& settings_;
   Marks marks_;
   std::span<const DisturbedLink> disturbed_;
@@ -90,4 +91,4 @@ class LinkDescent {
   RefineReport report_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

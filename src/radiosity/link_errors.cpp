@@ -5,7 +5,7 @@
 
 #include "base/parallel.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -14,7 +14,8 @@ constexpr double kParts = 4;
 
 }  // namespace
 
-LinkErrors::LinkErrors(const Links& links, const Elements& elements, const OracleSettings& settings)
+LinkErrors::LinkErrors(const hierarchy::Links& links, const hierarchy::Elements& elements,
+                       const OracleSettings& settings)
     : judgedAt_(settings.error) {
   struct Bins {
     std::array<std::uint64_t, kBins> count{};
@@ -26,8 +27,8 @@ LinkErrors::LinkErrors(const Links& links, const Elements& elements, const Oracl
   const Oracle oracle(elements, settings);
   count_ = parallelSum<Bins>(links.size(), 4096, [&](std::size_t i) {
              Bins bins;
-             const Link& l = links.all[i];
-             if (l.state != LinkState::Active || l.visibility == Visibility::Blocked) return bins;
+             const hierarchy::Link& l = links.all[i];
+             if (l.state != hierarchy::LinkState::Active || l.visibility == hierarchy::Visibility::Blocked) return bins;
              const LinkError e = oracle.judge(l);
              if (!(e.total() > 0) || !(e.budget > 0)) return bins;
              const double bin = kBinsPerOctave * (std::log2(e.total() / e.budget) - kLowest);
@@ -45,4 +46,4 @@ double LinkErrors::madeBy(double error) const {
   return made;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -6,12 +6,12 @@
 #include "hierarchy/link.hpp"
 #include "radiosity/oracle.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 class LinkErrors {
  public:
   /// Of the links that carry light, judged at `settings.error`.
-  LinkErrors(const Links&, const Elements&, const OracleSettings& settings);
+  LinkErrors(const hierarchy::Links&, const hierarchy::Elements&, const OracleSettings& settings);
 
   /// About how many links refinement to `error` makes: a link whose error is q budgets ends as kParts q of them.
   double madeBy(double error) const;
@@ -22,4 +22,4 @@ class LinkErrors {
   std::array<std::uint64_t, kBins> count_{};
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

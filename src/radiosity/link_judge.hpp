@@ -10,7 +10,7 @@
 #include "radiosity/visibility.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 enum class Split : std::uint8_t { None, Receiver, Sender, Both };
 
@@ -20,7 +20,7 @@ struct BlockerRange {
 };
 
 struct Verdict {
-  Link link;  // as judged
+  hierarchy::Link link;  // as judged
   Split split = Split::None;
   BlockerRange blockers;  // of the link, where they were asked for
   bool refined = false;   // as the link was before, it would be refined today
@@ -30,7 +30,7 @@ struct Verdict {
 
 /// What may stand between the ends of a link, and where its own blockers are appended.
 struct Candidates {
-  const ElementId* parents;  // blockers of the parent
+  const hierarchy::ElementId* parents;  // blockers of the parent
   std::size_t count;
   Blockers& own;
 };
@@ -38,51 +38,52 @@ struct Candidates {
 class LinkJudge {
  public:
   /// All must outlive this.
-  LinkJudge(const Elements& elements, const Scene& scene, const RayTracer& tracer, const OracleSettings& settings)
+  LinkJudge(const hierarchy::Elements& elements, const Scene& scene, const tracing::RayTracer& tracer,
+            const OracleSettings& settings)
       : elements_(elements), scene_(scene), tracer_(tracer), oracle_(elements, settings) {}
 
   /// A link as the tree has it. `parentSaw`: some ray between the parent's ends passed.
-  Verdict judge(const Link&, bool parentSaw, const Candidates&) const;
+  Verdict judge(const hierarchy::Link&, bool parentSaw, const Candidates&) const;
   /// One of which an end has moved, or holds what has. What few rays told of it stands where as little comes over it.
-  Verdict judgeMoved(const Link& before, const Candidates&) const;
+  Verdict judgeMoved(const hierarchy::Link& before, const Candidates&) const;
   /// One between whose ends something has moved: its kernel stands, and so do its samples but for `rays`, by bits.
-  Verdict judgeBetween(const Link& before, std::uint32_t rays, const Candidates&) const;
+  Verdict judgeBetween(const hierarchy::Link& before, std::uint32_t rays, const Candidates&) const;
   /// One on the way to others.
-  Verdict pass(const Link&, const Candidates&) const;
+  Verdict pass(const hierarchy::Link&, const Candidates&) const;
   /// The same, whose blockers are the parent's for now.
-  Verdict passUnseen(const Link&, const Candidates&) const;
+  Verdict passUnseen(const hierarchy::Link&, const Candidates&) const;
 
   /// Whether the link, as it stands, would be split.
-  bool splits(Link) const;
+  bool splits(hierarchy::Link) const;
   /// Whether more may come over a link, as far as it is open, than `least` times what it may err by.
-  bool brings(const Link&, double least) const;
+  bool brings(const hierarchy::Link&, double least) const;
   /// Whether an active link, as it stands, would be worth another look.
-  bool unsettled(const Link&) const;
+  bool unsettled(const hierarchy::Link&) const;
 
  private:
   class OwnBlockers;
 
   /// Gives a link its kernel; false when that settles it: no light passes, or the ends overlap.
-  bool couple(Link&, const Candidates&, Verdict&) const;
+  bool couple(hierarchy::Link&, const Candidates&, Verdict&) const;
   /// Visibility by proof and by rays, `least` at least, and what follows from it.
-  void see(Link&, int least, bool saw, const Candidates&, Verdict&) const;
-  bool sawEnough(const Link& before, Link& after) const;
-  bool solidEnds(const Link&) const;
-  void proveBlocked(Link&, OwnBlockers&) const;
-  bool sends(ElementId sender) const;
-  int wantedSamples(const Link&, const LinkError&) const;
-  void look(Link&, int least, VisibilitySamples&) const;
-  Split splitOverlapping(const Link&) const;
-  Split choose(const Link&) const;
-  bool senderDivisible(ElementId sender) const;
-  bool worthSplitting(const Link&, bool divisible) const;
-  Split prefer(const Link&) const;
-  bool isSun(ElementId) const;
+  void see(hierarchy::Link&, int least, bool saw, const Candidates&, Verdict&) const;
+  bool sawEnough(const hierarchy::Link& before, hierarchy::Link& after) const;
+  bool solidEnds(const hierarchy::Link&) const;
+  void proveBlocked(hierarchy::Link&, OwnBlockers&) const;
+  bool sends(hierarchy::ElementId sender) const;
+  int wantedSamples(const hierarchy::Link&, const LinkError&) const;
+  void look(hierarchy::Link&, int least, VisibilitySamples&) const;
+  Split splitOverlapping(const hierarchy::Link&) const;
+  Split choose(const hierarchy::Link&) const;
+  bool senderDivisible(hierarchy::ElementId sender) const;
+  bool worthSplitting(const hierarchy::Link&, bool divisible) const;
+  Split prefer(const hierarchy::Link&) const;
+  bool isSun(hierarchy::ElementId) const;
 
-  const Elements& elements_;
+  const hierarchy::Elements& elements_;
   const Scene& scene_;
-  const RayTracer& tracer_;
+  const tracing::RayTracer& tracer_;
   Oracle oracle_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -4,7 +4,7 @@
 
 #include "radiosity/visibility.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -14,19 +14,21 @@ constexpr float kMoreOpen = 6.0f;       // the same of openness, upwards
 
 }  // namespace
 
-bool sameTransfer(const Link& before, const Link& after) {
+bool sameTransfer(const hierarchy::Link& before, const hierarchy::Link& after) {
   return std::abs(before.K - after.K) <= kSameTransfer * before.K && before.V == after.V &&
          before.visibility == after.visibility &&
-         (before.state == LinkState::Averted) == (after.state == LinkState::Averted);
+         (before.state == hierarchy::LinkState::Averted) == (after.state == hierarchy::LinkState::Averted);
 }
 
-bool hiddenAsBefore(const Link& before, const Link& after) {
-  return (before.visibility == Visibility::Blocked || before.hidden == Link::kHidden) && after.unseen();
+bool hiddenAsBefore(const hierarchy::Link& before, const hierarchy::Link& after) {
+  return (before.visibility == hierarchy::Visibility::Blocked || before.hidden == hierarchy::Link::kHidden) &&
+         after.unseen();
 }
 
-bool samePlan(const Link& before, const Link& after) {
+bool samePlan(const hierarchy::Link& before, const hierarchy::Link& after) {
   // What was proven clear was sampled by no ray, what was proven blocked or averted not at all.
-  if (before.visibility == Visibility::Clear && after.visibility != Visibility::Clear) return false;
+  if (before.visibility == hierarchy::Visibility::Clear && after.visibility != hierarchy::Visibility::Clear)
+    return false;
   if (!after.carries()) return true;
   if (!before.carries() || before.visibility != after.visibility) return false;
   if (!(after.K <= kSameKernel * before.K && before.K <= kSameKernel * after.K)) return false;
@@ -35,4 +37,4 @@ bool samePlan(const Link& before, const Link& after) {
   return openness(after) <= kMoreOpen * openness(before);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -8,19 +8,20 @@
 #include "hierarchy/outline.hpp"
 #include "radiosity/kernel.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
-ElementPoints::ElementPoints(const Elements& elements, const Scene& scene, ElementId e)
+ElementPoints::ElementPoints(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId e)
     : elements_(elements), scene_(scene), element_(e), domain_(&elements.domain[e.index()]) {
-  const ElementTopology& t = elements.at(e);
-  if (t.kind != ElementKind::Patch || !t.flat || !(elements.shape(e).area > 0)) return;
+  const hierarchy::ElementTopology& t = elements.at(e);
+  if (t.kind != hierarchy::ElementKind::Patch || !t.flat || !(elements.shape(e).area > 0)) return;
   du_ = domain_->u1 - domain_->u0, dv_ = domain_->v1 - domain_->v0;
-  if (!outlineFills(elements.outline(e), du_ * dv_)) return;
+  if (!hierarchy::outlineFills(elements.outline(e), du_ * dv_)) return;
   frame_ = &elements.frames[domain_->frame];
   normal_ = Vec3f(t.front ? frame_->normal : -frame_->normal);
 }
 
-LinkSamples::LinkSamples(const Elements& elements, const Scene& scene, ElementId receiver, ElementId sender)
+LinkSamples::LinkSamples(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId receiver,
+                         hierarchy::ElementId sender)
     : elements_(elements),
       scene_(scene),
       receiver_(receiver),
@@ -30,17 +31,17 @@ LinkSamples::LinkSamples(const Elements& elements, const Scene& scene, ElementId
       to_(elements, scene, sender) {}
 
 LinkSample LinkSamples::at(const std::array<double, 4>& u) const {
-  const PatchPoint x = from_.at(u[0], u[1]);
+  const hierarchy::PatchPoint x = from_.at(u[0], u[1]);
   LinkSample s;
   s.quadrant = (u[0] < 0.5 ? 0u : 1u) + (u[1] < 0.5 ? 0u : 2u);
   if (elements_.isDistant(sender_)) {
-    const Vec3f w = directionOf(elements_, scene_, sender_, u[2], u[3]);
+    const Vec3f w = hierarchy::directionOf(elements_, scene_, sender_, u[2], u[3]);
     s.weight = pointKernel(elements_, scene_, x.position, x.normal, sender_, w, Vec3f(0.0f));
-    s.ray.origin = offsetOrigin(x.position, x.normal, w);
+    s.ray.origin = tracing::offsetOrigin(x.position, x.normal, w);
     s.ray.direction = w;
     return s;
   }
-  const PatchPoint y = to_.at(u[2], u[3]);
+  const hierarchy::PatchPoint y = to_.at(u[2], u[3]);
   s.weight = elements_.isPoint(sender_) || elements_.isPatch(sender_)
                  ? pointKernel(elements_, scene_, x.position, x.normal, sender_, y.position, y.normal)
                  : std::max(0.0f, glm::dot(x.normal, y.position - x.position)) *
@@ -50,23 +51,23 @@ LinkSample LinkSamples::at(const std::array<double, 4>& u) const {
     const double squared = glm::dot(between, between);
     s.weight = squared > 0 ? s.weight / (squared * squared) : 0.0;
   }
-  if (s.weight > 0) s.ray = segment(x.position, x.normal, y.position, y.normal);
+  if (s.weight > 0) s.ray = tracing::segment(x.position, x.normal, y.position, y.normal);
   return s;
 }
 
 /// Whether the ray of a sample, by its numbers, may meet something moving: told by what its points are on, down from
 /// the ends of the link.
 bool LinkSamples::mayMeet(std::array<double, 4> u, const SpaceChange& space) const {
-  ElementId receiver = receiver_, sender = sender_;
+  hierarchy::ElementId receiver = receiver_, sender = sender_;
   const bool distant = elements_.isDistant(sender);
-  const Vec3f w = distant ? directionOf(elements_, scene_, sender, u[2], u[3]) : Vec3f(0.0f);
+  const Vec3f w = distant ? hierarchy::directionOf(elements_, scene_, sender, u[2], u[3]) : Vec3f(0.0f);
   for (;;) {
-    const ElementGeometry &r = elements_.shape(receiver), &s = elements_.shape(sender);
+    const hierarchy::ElementGeometry &r = elements_.shape(receiver), &s = elements_.shape(sender);
     if (distant ? !space.meetsBeam(r, w, 0.0f) : !space.meets(r.center, r.radius, s.center, s.radius)) return false;
     const bool split = elements_.isCluster(receiver), other = elements_.isCluster(sender);
     if (!split && !other) return true;
     const bool atReceiver = split && (!other || r.radius >= s.radius);
-    ElementId& end = atReceiver ? receiver : sender;
+    hierarchy::ElementId& end = atReceiver ? receiver : sender;
     end = childByArea(elements_, end, atReceiver ? u[0] : u[2]);
     if (!end.valid()) return true;
   }
@@ -74,9 +75,9 @@ bool LinkSamples::mayMeet(std::array<double, 4> u, const SpaceChange& space) con
 
 std::uint32_t LinkSamples::meeting(int count, std::uint32_t passed, const SpaceChange& all,
                                    const SpaceChange& before) const {
-  const ElementGeometry &r = elements_.shape(receiver_), &s = elements_.shape(sender_);
+  const hierarchy::ElementGeometry &r = elements_.shape(receiver_), &s = elements_.shape(sender_);
   const bool clusters = elements_.isCluster(receiver_) || elements_.isCluster(sender_);
-  std::optional<DirectionWindow> window;
+  std::optional<hierarchy::DirectionWindow> window;
   if (elements_.isDistant(sender_)) {
     Vec3 axis;
     if (const auto angle = all.seenFrom(r.center, r.radius, axis))
@@ -96,4 +97,4 @@ std::uint32_t LinkSamples::meeting(int count, std::uint32_t passed, const SpaceC
   return met;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

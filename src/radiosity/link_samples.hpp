@@ -5,33 +5,33 @@
 #include "radiosity/sender_sampling.hpp"
 #include "radiosity/space_change.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// Points of an element by two numbers in [0,1), as samplePoint() gives them; what all have in common is looked up
 /// once.
 class ElementPoints {
  public:
   /// Elements and scene must outlive this.
-  ElementPoints(const Elements&, const Scene&, ElementId);
+  ElementPoints(const hierarchy::Elements&, const Scene&, hierarchy::ElementId);
 
-  PatchPoint at(double a, double b) const {
+  hierarchy::PatchPoint at(double a, double b) const {
     if (!frame_) return samplePoint(elements_, scene_, element_, a, b);
     const double u = domain_->u0 + a * du_, v = domain_->v0 + b * dv_;
     return {Vec3f(frame_->at({u, v})), normal_};
   }
 
  private:
-  const Elements& elements_;
+  const hierarchy::Elements& elements_;
   const Scene& scene_;
-  ElementId element_;
-  const PatchDomain* domain_;
-  const PlaneFrame* frame_ = nullptr;  // of a flat patch that fills its rectangle
+  hierarchy::ElementId element_;
+  const hierarchy::PatchDomain* domain_;
+  const hierarchy::PlaneFrame* frame_ = nullptr;  // of a flat patch that fills its rectangle
   double du_ = 0, dv_ = 0;
   Vec3f normal_{0.0f};
 };
 
 struct LinkSample {
-  Ray ray;
+  tracing::Ray ray;
   double weight = 0;         // not above 0: the points do not face each other, and the ray is none
   std::size_t quadrant = 0;  // of the receiver
 };
@@ -39,7 +39,7 @@ struct LinkSample {
 class LinkSamples {
  public:
   /// Elements and scene must outlive this.
-  LinkSamples(const Elements&, const Scene&, ElementId receiver, ElementId sender);
+  LinkSamples(const hierarchy::Elements&, const Scene&, hierarchy::ElementId receiver, hierarchy::ElementId sender);
 
   LinkSample operator[](int i) const { return at(sequence_[i]); }
   /// Which of the first `count` rays may fare otherwise after a move, by bits: one that passed, as those of `passed`
@@ -51,11 +51,11 @@ class LinkSamples {
   LinkSample at(const std::array<double, 4>& u) const;
   bool mayMeet(std::array<double, 4> u, const SpaceChange&) const;
 
-  const Elements& elements_;
+  const hierarchy::Elements& elements_;
   const Scene& scene_;
-  ElementId receiver_, sender_;
+  hierarchy::ElementId receiver_, sender_;
   Stratified4 sequence_;
   ElementPoints from_, to_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -8,7 +8,7 @@
 
 #include "base/random.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 class ObjectSet {
  public:
@@ -41,4 +41,4 @@ class ObjectSet {
   static constexpr int kBits = 4;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

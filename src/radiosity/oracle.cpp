@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
 /// The sender's strength in the unit that K multiplies, gray: for a cluster the most that it sends towards any part of
 /// the receiver, and never less than a share of its mean, since harmonics blur what faces away.
-double senderStrength(const Elements& elements, ElementId sender, ElementId receiver) {
+double senderStrength(const hierarchy::Elements& elements, hierarchy::ElementId sender, hierarchy::ElementId receiver) {
   if (!elements.isCluster(sender)) return gray(elements.radiometry[sender.index()].B);
   constexpr float kBlur = 0.25f, kMeanOfConstant = 0.28209479f;
-  const DirectionalRgb& intensity = elements.cluster(sender).intensity;
+  const hierarchy::DirectionalRgb& intensity = elements.cluster(sender).intensity;
   float most = kBlur * kMeanOfConstant * std::max(0.0f, gray(intensity.c[0]));
   for (const Vec3f& x : elements.nodes[receiver.index()].position) {
     const Vec3f w = x - elements.shape(sender).center;
@@ -23,7 +23,7 @@ double senderStrength(const Elements& elements, ElementId sender, ElementId rece
 }
 
 /// How far the radiosity of the sender's children departs from the sender's own.
-double senderVariation(const Elements& elements, ElementId sender) {
+double senderVariation(const hierarchy::Elements& elements, hierarchy::ElementId sender) {
   if (!elements.isPatch(sender) || elements.at(sender).emitter) return 0;
   const float B = gray(elements.radiometry[sender.index()].B);
   float most = 0;
@@ -33,35 +33,36 @@ double senderVariation(const Elements& elements, ElementId sender) {
 }
 
 /// A cluster's surfaces see a direction at all angles: a quarter of their area faces it [Cauchy].
-double facingArea(const Elements& elements, ElementId receiver) {
+double facingArea(const hierarchy::Elements& elements, hierarchy::ElementId receiver) {
   return elements.shape(receiver).area * (elements.isCluster(receiver) ? 0.25 : 1.0);
 }
 
 }  // namespace
 
-Oracle::Oracle(const Elements& elements, const OracleSettings& settings) : elements_(elements), settings_(settings) {
+Oracle::Oracle(const hierarchy::Elements& elements, const OracleSettings& settings)
+    : elements_(elements), settings_(settings) {
   // Where nothing lit is seen, a thousandth of the scene's mean is dark enough.
   if (elements.sceneRoot.valid()) {
-    const ElementLight& root = elements.radiometry[elements.sceneRoot.index()];
+    const hierarchy::ElementLight& root = elements.radiometry[elements.sceneRoot.index()];
     floor_ = 1e-3 * gray(root.direct + root.indirect);
   }
 }
 
-double Oracle::referenceArea(ElementId e) const {
+double Oracle::referenceArea(hierarchy::ElementId e) const {
   const double side = settings_.scale * elements_.shape(e).meanFreePath;
   return side * side;
 }
 
-double Oracle::tolerance(ElementId receiver) const {
+double Oracle::tolerance(hierarchy::ElementId receiver) const {
   return std::max(double(elements_.radiometry[receiver.index()].tolerance), floor_);
 }
 
-double Oracle::budget(ElementId receiver) const {
+double Oracle::budget(hierarchy::ElementId receiver) const {
   const double area = std::max<double>(elements_.shape(receiver).area, referenceArea(receiver));
   return settings_.share * settings_.error * tolerance(receiver) * area;
 }
 
-double Oracle::most(const Link& link) const {
+double Oracle::most(const hierarchy::Link& link) const {
   double strength = senderStrength(elements_, link.sender, link.receiver);
   if (!elements_.at(link.sender).emitter) {
     const double faint = kFaintLight * tolerance(link.receiver);
@@ -70,25 +71,26 @@ double Oracle::most(const Link& link) const {
   return strength * (double(link.K) + link.receiverSpread) * facingArea(elements_, link.receiver);
 }
 
-bool Oracle::divisible(ElementId e) const {
+bool Oracle::divisible(hierarchy::ElementId e) const {
   if (!elements_.isPatch(e)) return !elements_.isPoint(e);
   return elements_.shape(e).area > settings_.finest * settings_.error * referenceArea(e);
 }
 
-LinkError Oracle::judge(const Link& link) const {
+LinkError Oracle::judge(const hierarchy::Link& link) const {
   LinkError e;
   e.budget = budget(link.receiver) *
              (elements_.at(link.sender).emitter && elements_.isPatch(link.receiver) ? settings_.direct : 1.0);
   const double strength = senderStrength(elements_, link.sender, link.receiver);
   const double area = facingArea(elements_, link.receiver);
-  const double V = link.visibility == Visibility::Unknown
+  const double V = link.visibility == hierarchy::Visibility::Unknown
                        ? 1.0
                        : std::min(1.0, double(maxChannel(link.V)) + double(link.visibilitySpread));
   e.power = strength * link.K * area;
   e.receiver = strength * area * V * link.receiverSpread;
   e.sender = area * V * (strength * link.senderSpread + link.K * senderVariation(elements_, link.sender));
-  if (link.visibility == Visibility::Sampled) e.visibility = settings_.doubt * e.power * link.visibilitySpread;
+  if (link.visibility == hierarchy::Visibility::Sampled)
+    e.visibility = settings_.doubt * e.power * link.visibilitySpread;
   return e;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -4,7 +4,7 @@
 //     budget(r) = share * error * tolerance(r) * max(A_r, A_0(r)),   A_0 = (scale * mean free path)^2
 //
 // where tolerance(r) is the irradiance that r has now (a mean that favours dark parts) and A_0 the area that matters to
-// the light of r's surroundings: light varies over distances like those to other surfaces [as in Ward & Heckbert 1992],
+// the light of r's surroundings: light varies over distances like those to other surfaces [WH92],
 // so an error on less than A_0 weighs only as much as its share of A_0. Nothing here depends on the scene's size, and
 // shadow edges end at patches of about error * A_0.
 //
@@ -12,7 +12,7 @@
 // there are; what they leave unresolved, the leaves' own rays resolve (leaf_transfers.hpp).
 #include "hierarchy/link.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// Calibrated against reference values (docs/calibration.md); not meant to be set by users.
 struct OracleSettings {
@@ -41,27 +41,27 @@ inline constexpr double kFaintLight = 0.1;
 
 class Oracle {
  public:
-  Oracle(const Elements&, const OracleSettings&);
+  Oracle(const hierarchy::Elements&, const OracleSettings&);
 
   /// The error of a link whose K and spreads are set; visibility counts as far as it is known.
-  LinkError judge(const Link&) const;
+  LinkError judge(const hierarchy::Link&) const;
   /// Power that would come over a link were nothing in its way and were all of its receiver where most comes, from a
   /// sender that lights up as rows of leaves allow for (indirect_sampler.hpp): to kFaintLight of the light there at
   /// least.
-  double most(const Link&) const;
+  double most(const hierarchy::Link&) const;
   /// Power that links to `receiver` may err by [W].
-  double budget(ElementId receiver) const;
+  double budget(hierarchy::ElementId receiver) const;
   /// Side of the area that matters around an element, squared: A_0.
-  double referenceArea(ElementId) const;
+  double referenceArea(hierarchy::ElementId) const;
   /// Whether an element is large enough to be split: finer detail does not matter to the light around it.
-  bool divisible(ElementId) const;
+  bool divisible(hierarchy::ElementId) const;
 
  private:
-  double tolerance(ElementId receiver) const;
+  double tolerance(hierarchy::ElementId receiver) const;
 
-  const Elements& elements_;
+  const hierarchy::Elements& elements_;
   OracleSettings settings_;
   double floor_ = 0;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

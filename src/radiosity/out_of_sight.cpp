@@ -2,9 +2,9 @@
 
 #include "radiosity/hidden_elements.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
-OutOfSight::OutOfSight(const Elements& elements, const Scene& scene, const Box& region)
+OutOfSight::OutOfSight(const hierarchy::Elements& elements, const Scene& scene, const Box& region)
     : elements_(elements),
       region_(region),
       size_(elements.size()),
@@ -13,17 +13,17 @@ OutOfSight::OutOfSight(const Elements& elements, const Scene& scene, const Box& 
     state_[h.element.index()].store(kFirst + h.occluder.value, std::memory_order_relaxed);
 }
 
-ElementId OutOfSight::occluder(ElementId e) const {
+hierarchy::ElementId OutOfSight::occluder(hierarchy::ElementId e) const {
   const std::uint32_t found = state(e);
-  return found < kFirst ? ElementId() : ElementId(found - kFirst);
+  return found < kFirst ? hierarchy::ElementId() : hierarchy::ElementId(found - kFirst);
 }
 
-std::uint32_t OutOfSight::state(ElementId e) const {
+std::uint32_t OutOfSight::state(hierarchy::ElementId e) const {
   while (e.index() >= size_) e = elements_.at(e).parent;  // it was split since
   std::atomic<std::uint32_t>& known = state_[e.index()];
   std::uint32_t state = known.load(std::memory_order_relaxed);
   if (state != kUnknown) return state;
-  const ElementId parent = elements_.at(e).parent;
+  const hierarchy::ElementId parent = elements_.at(e).parent;
   state = parent.valid() ? this->state(parent) : kSeen;
   if (state == kSeen && behind(e)) state = kBehind;
   known.store(state, std::memory_order_relaxed);  // whoever finds it finds the same
@@ -31,11 +31,11 @@ std::uint32_t OutOfSight::state(ElementId e) const {
 }
 
 /// Whether all that moves is behind a flat patch.
-bool OutOfSight::behind(ElementId e) const {
+bool OutOfSight::behind(hierarchy::ElementId e) const {
   if (!elements_.isPatch(e) || !elements_.at(e).flat) return false;
-  const ElementGeometry& g = elements_.shape(e);
+  const hierarchy::ElementGeometry& g = elements_.shape(e);
   const Vec3 n(g.normal);
   return glm::dot(region_.center() - Vec3(g.center), n) + glm::dot(0.5 * region_.extent(), glm::abs(n)) < 0;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -9,28 +9,28 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 class OutOfSight {
  public:
   /// `region`: of all that moves, where it is and will be. All else must stand still, and outlive this.
-  OutOfSight(const Elements&, const Scene&, const Box& region);
+  OutOfSight(const hierarchy::Elements&, const Scene&, const Box& region);
 
   /// Whether an element is known to see nothing of what moves. From any thread.
-  bool holds(ElementId e) const { return state(e) != kSeen; }
+  bool holds(hierarchy::ElementId e) const { return state(e) != kSeen; }
   /// The flat patch that hides all that moves from it; none where it may be seen, or lies behind.
-  ElementId occluder(ElementId) const;
+  hierarchy::ElementId occluder(hierarchy::ElementId) const;
 
  private:
   static constexpr std::uint32_t kUnknown = 0, kSeen = 1, kBehind = 2, kFirst = 3;  // of occluders, by element
 
-  std::uint32_t state(ElementId) const;
-  bool behind(ElementId) const;
+  std::uint32_t state(hierarchy::ElementId) const;
+  bool behind(hierarchy::ElementId) const;
 
-  const Elements& elements_;
+  const hierarchy::Elements& elements_;
   Box region_;
   std::size_t size_;  // elements there were
   std::unique_ptr<std::atomic<std::uint32_t>[]> state_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

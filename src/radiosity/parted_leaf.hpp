@@ -4,10 +4,11 @@
 #include "hierarchy/element.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// Whether something stands between two quadrants of a flat leaf (0 to 3: u below or above the middle, then v), on a
 /// quarter or more of some lines a little above it. Cost: 16 short rays.
-bool standsBetween(const Elements&, const Scene&, const RayTracer&, ElementId leaf, std::size_t a, std::size_t b);
+bool standsBetween(const hierarchy::Elements&, const Scene&, const tracing::RayTracer&, hierarchy::ElementId leaf,
+                   std::size_t a, std::size_t b);
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

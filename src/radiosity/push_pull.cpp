@@ -8,7 +8,7 @@
 #include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -17,13 +17,13 @@ constexpr float kDarkest = 0.1f, kBrightest = 2.0f;  // tolerance of a leaf rela
 constexpr float kLeast = 1e-12f;
 
 /// The same place on the other side of a surface, at no finer level; invalid when that side has no element.
-ElementId otherSide(const Elements& elements, ElementId leaf) {
-  const ElementId input = surfaceOf(elements, leaf);
-  const PatchDomain &d = elements.domain[leaf.index()], &top = elements.domain[input.index()];
-  const ElementId parent = elements.at(input).parent;
-  ElementId other;
+hierarchy::ElementId otherSide(const hierarchy::Elements& elements, hierarchy::ElementId leaf) {
+  const hierarchy::ElementId input = hierarchy::surfaceOf(elements, leaf);
+  const hierarchy::PatchDomain &d = elements.domain[leaf.index()], &top = elements.domain[input.index()];
+  const hierarchy::ElementId parent = elements.at(input).parent;
+  hierarchy::ElementId other;
   for (std::size_t i = 0; i < elements.at(parent).childCount; ++i) {
-    const ElementId c = elements.child(parent, i);
+    const hierarchy::ElementId c = elements.child(parent, i);
     if (elements.isPatch(c) && elements.domain[c.index()].primitive == top.primitive &&
         elements.domain[c.index()].triangle == top.triangle && elements.at(c).front != elements.at(input).front)
       other = c;
@@ -31,9 +31,9 @@ ElementId otherSide(const Elements& elements, ElementId leaf) {
   if (!other.valid()) return other;
   const float u = 0.5f * (d.u0 + d.u1), v = 0.5f * (d.v0 + d.v1);
   while (!elements.isLeaf(other) && elements.at(other).depth < elements.at(leaf).depth) {
-    ElementId next;
+    hierarchy::ElementId next;
     for (std::size_t i = 0; i < elements.at(other).childCount; ++i) {
-      const PatchDomain& c = elements.domain[elements.child(other, i).index()];
+      const hierarchy::PatchDomain& c = elements.domain[elements.child(other, i).index()];
       if (u >= c.u0 && u <= c.u1 && v >= c.v0 && v <= c.v1) next = elements.child(other, i);
     }
     if (!next.valid()) break;
@@ -43,15 +43,15 @@ ElementId otherSide(const Elements& elements, ElementId leaf) {
 }
 
 /// Light from above each element: scalar below the input level, directional at clusters.
-void push(Elements& elements) {
-  std::vector<DirectionalRgb> direct(elements.clusters.size()), indirect(elements.clusters.size());
+void push(hierarchy::Elements& elements) {
+  std::vector<hierarchy::DirectionalRgb> direct(elements.clusters.size()), indirect(elements.clusters.size());
   std::vector<std::uint32_t> source(elements.size(), Id<void>::kNone);  // slot of the cluster above a patch
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    const ElementTopology& t = elements.topology[i];
+    const hierarchy::ElementTopology& t = elements.topology[i];
     if (t.emitter) continue;
-    if (t.kind == ElementKind::Cluster) {
+    if (t.kind == hierarchy::ElementKind::Cluster) {
       const std::uint32_t slot = elements.slot[i];
-      const ClusterLight& own = elements.clusters[slot];
+      const hierarchy::ClusterLight& own = elements.clusters[slot];
       direct[slot] = own.directGathered;
       indirect[slot] = own.indirectGathered;
       if (t.parent.valid()) {
@@ -60,7 +60,7 @@ void push(Elements& elements) {
       }
       continue;
     }
-    ElementLight& light = elements.radiometry[i];
+    hierarchy::ElementLight& light = elements.radiometry[i];
     light.direct = light.directGathered;
     light.indirect = light.indirectGathered;
     const bool input = t.depth == 0;
@@ -78,21 +78,21 @@ void push(Elements& elements) {
 }
 
 /// The exposed share of what has parts.
-void pullExposure(Elements& elements, std::size_t i) {
-  const ElementTopology& t = elements.topology[i];
-  if (t.kind != ElementKind::Patch || t.childCount == 0) return;
+void pullExposure(hierarchy::Elements& elements, std::size_t i) {
+  const hierarchy::ElementTopology& t = elements.topology[i];
+  if (t.kind != hierarchy::ElementKind::Patch || t.childCount == 0) return;
   double lit = 0, area = 0;
   for (std::size_t c = 0; c < t.childCount; ++c) {
-    const ElementGeometry& g = elements.geometry[t.firstChild.index() + c];
+    const hierarchy::ElementGeometry& g = elements.geometry[t.firstChild.index() + c];
     lit += g.litArea(), area += g.area;
   }
   if (area > 0) elements.geometry[i].exposed = static_cast<float>(lit / area);
 }
 
-void pullIrradiance(Elements& elements, std::size_t i) {
-  const ElementTopology& t = elements.topology[i];
+void pullIrradiance(hierarchy::Elements& elements, std::size_t i) {
+  const hierarchy::ElementTopology& t = elements.topology[i];
   if (t.emitter) return;
-  ElementLight& light = elements.radiometry[i];
+  hierarchy::ElementLight& light = elements.radiometry[i];
   if (t.childCount == 0) {
     // The first estimate is free of the leaks that a coarse solution has, so it bounds what may be tolerated.
     light.tolerance = std::clamp(gray(light.direct + light.indirect + light.particle), kDarkest * light.typical,
@@ -105,7 +105,7 @@ void pullIrradiance(Elements& elements, std::size_t i) {
     const std::size_t child = t.firstChild.index() + c;
     if (elements.topology[child].blocker) continue;
     const double a = elements.geometry[child].litArea();
-    const ElementLight& l = elements.radiometry[child];
+    const hierarchy::ElementLight& l = elements.radiometry[child];
     direct += a * RgbSum(l.direct), indirect += a * RgbSum(l.indirect), particle += a * RgbSum(l.particle);
     inverse += a / std::max(l.tolerance, kLeast);
     area += a;
@@ -116,34 +116,34 @@ void pullIrradiance(Elements& elements, std::size_t i) {
   light.tolerance = static_cast<float>(area / inverse);
 }
 
-void pullIntensity(Elements& elements, ElementId cluster) {
-  DirectionalRgb& intensity = elements.clusters[elements.slot[cluster.index()]].intensity;
+void pullIntensity(hierarchy::Elements& elements, hierarchy::ElementId cluster) {
+  hierarchy::DirectionalRgb& intensity = elements.clusters[elements.slot[cluster.index()]].intensity;
   intensity = {};
   for (std::size_t c = 0; c < elements.at(cluster).childCount; ++c) {
-    const ElementId child = elements.child(cluster, c);
+    const hierarchy::ElementId child = elements.child(cluster, c);
     if (elements.isCluster(child))
       intensity += elements.cluster(child).intensity;
     else if (elements.isPatch(child))
       intensity.addLobe(elements.moments[child.index()],
                         elements.shape(child).litArea() / float(kPi) * elements.radiometry[child.index()].B);
     else  // a point of any distribution, as bright all round as where it is brightest
-      intensity.c[0] += elements.radiometry[child.index()].B / kConstantHarmonic;
+      intensity.c[0] += elements.radiometry[child.index()].B / hierarchy::kConstantHarmonic;
   }
 }
 
 /// Adds the power by which a leaf's radiosity changes.
-void reflectAndPull(Elements& elements, std::size_t i, RgbSum& change) {
-  const ElementTopology& t = elements.topology[i];
-  const ElementId e(i);
-  if (t.kind == ElementKind::Cluster) return pullIntensity(elements, e);
+void reflectAndPull(hierarchy::Elements& elements, std::size_t i, RgbSum& change) {
+  const hierarchy::ElementTopology& t = elements.topology[i];
+  const hierarchy::ElementId e(i);
+  if (t.kind == hierarchy::ElementKind::Cluster) return pullIntensity(elements, e);
   if (t.emitter) return;
-  ElementLight& light = elements.radiometry[i];
+  hierarchy::ElementLight& light = elements.radiometry[i];
   if (t.childCount == 0) {
     Rgb B = light.rho * (light.direct + light.indirect + light.particle);
     if (!isBlack(light.tau)) {
-      const ElementId other = otherSide(elements, e);
+      const hierarchy::ElementId other = otherSide(elements, e);
       if (other.valid()) {
-        const ElementLight& o = elements.radiometry[other.index()];
+        const hierarchy::ElementLight& o = elements.radiometry[other.index()];
         B += light.tau * (o.direct + o.indirect + o.particle);
       }
     }
@@ -163,30 +163,31 @@ void reflectAndPull(Elements& elements, std::size_t i, RgbSum& change) {
 
 }  // namespace
 
-RgbSum pull(Elements& elements) {
+RgbSum pull(hierarchy::Elements& elements) {
   RgbSum change(0.0);
   for (std::size_t i = elements.size(); i-- > 0;) pullExposure(elements, i), pullIrradiance(elements, i);
   for (std::size_t i = elements.size(); i-- > 0;) reflectAndPull(elements, i, change);
   return change;
 }
 
-void addOtherSides(const Elements& elements, std::vector<ElementId>& leaves) {
+void addOtherSides(const hierarchy::Elements& elements, std::vector<hierarchy::ElementId>& leaves) {
   const std::size_t given = leaves.size();
   for (std::size_t i = 0; i < given; ++i) {
     if (isBlack(elements.radiometry[leaves[i].index()].tau)) continue;
-    const ElementId other = otherSide(elements, leaves[i]);
-    if (other.valid()) forEachLeafBelow(elements, other, [&](ElementId leaf) { leaves.push_back(leaf); });
+    const hierarchy::ElementId other = otherSide(elements, leaves[i]);
+    if (other.valid())
+      hierarchy::forEachLeafBelow(elements, other, [&](hierarchy::ElementId leaf) { leaves.push_back(leaf); });
   }
 }
 
-RgbSum pull(Elements& elements, std::span<const ElementId> leaves) {
+RgbSum pull(hierarchy::Elements& elements, std::span<const hierarchy::ElementId> leaves) {
   PagedArray<char> marked(elements.size());
-  const auto mark = [&](ElementId e) {
+  const auto mark = [&](hierarchy::ElementId e) {
     for (; e.valid() && !marked[e.index()]; e = elements.at(e).parent) marked.at(e.index()) = 1;
   };
-  std::vector<ElementId> lit(leaves.begin(), leaves.end());
+  std::vector<hierarchy::ElementId> lit(leaves.begin(), leaves.end());
   addOtherSides(elements, lit);
-  for (const ElementId leaf : lit) mark(leaf);
+  for (const hierarchy::ElementId leaf : lit) mark(leaf);
   // Leaves apart from what is above them, which takes a small part of the time.
   std::vector<std::uint32_t> below, above;
   marked.forEach([&](std::size_t i, char) {
@@ -204,9 +205,9 @@ RgbSum pull(Elements& elements, std::span<const ElementId> leaves) {
   return change;
 }
 
-RgbSum pushPull(Elements& elements) {
+RgbSum pushPull(hierarchy::Elements& elements) {
   push(elements);
   return pull(elements);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

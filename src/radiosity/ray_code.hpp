@@ -6,7 +6,7 @@
 
 #include "radiosity/direction_code.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 struct RayCode {
   /// Blocked: one bit; the end, in lengths of the decoded direction: a float without its sign and lower half; the
@@ -37,4 +37,4 @@ inline DirectionCode towards(RayCode code) {
   return {static_cast<std::int8_t>(code.bits), static_cast<std::int8_t>(code.bits >> 8)};
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -29,7 +29,7 @@ int shareOf(int rays, double part, double whole, double u) {
   return std::min(rays, static_cast<int>(rays * (part / whole) + u));
 }
 
-Roundings::Roundings(const Elements& elements, ElementId leaf)
+Roundings::Roundings(const hierarchy::Elements& elements, hierarchy::ElementId leaf)
     : group_(groupOf(elements, leaf)), own_(elements.key[leaf.index()]) {}
 
 double Roundings::of(std::uint64_t thing) const {
@@ -43,9 +43,9 @@ double Roundings::of(std::uint64_t thing) const {
   return u + width * toUnit(mix64(combineKeys(own_, thing)));
 }
 
-PlaceCodes::PlaceCodes(const Elements& elements) {
+PlaceCodes::PlaceCodes(const hierarchy::Elements& elements) {
   if (!elements.sceneRoot.valid()) return;
-  const ElementGeometry& root = elements.shape(elements.sceneRoot);
+  const hierarchy::ElementGeometry& root = elements.shape(elements.sceneRoot);
   const Vec3f most = glm::max(glm::abs(root.lower), glm::abs(root.upper));
   const float extent = std::max({most.x, most.y, most.z, 1e-30f});
   perUnit_ = std::ldexp(1.0f, kBits - 1 - std::ilogb(extent));
@@ -84,4 +84,4 @@ void sortByPlace(std::vector<RayShare>& parts) {
 
 }  // namespace detail
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

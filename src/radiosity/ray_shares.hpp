@@ -12,7 +12,7 @@
 #include "hierarchy/element.hpp"
 #include "radiosity/leaf_group.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// Of `rays`, those of a part of the weight `part` among `whole`; expected: rays * part / whole. `u`: random in [0,1).
 int shareOf(int rays, double part, double whole, double u);
@@ -21,7 +21,7 @@ int shareOf(int rays, double part, double whole, double u);
 /// together. Radical inverses to base 4 of the path to the leaf, scrambled for each thing [Owen97].
 class Roundings {
  public:
-  Roundings(const Elements&, ElementId leaf);
+  Roundings(const hierarchy::Elements&, hierarchy::ElementId leaf);
   double of(std::uint64_t thing) const;
 
  private:
@@ -32,7 +32,7 @@ class Roundings {
 /// Places as Morton codes on a grid that depends on the order of magnitude of the scene alone.
 class PlaceCodes {
  public:
-  explicit PlaceCodes(const Elements&);
+  explicit PlaceCodes(const hierarchy::Elements&);
   std::uint64_t code(const Vec3f&) const;
 
  private:
@@ -80,4 +80,4 @@ void dealOut(std::vector<RayShare>& parts, int rays, const Roundings& roundings,
   detail::dealHalves(parts.data(), parts.data() + parts.size(), sums.data(), rays, roundings, visit);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -6,7 +6,7 @@
 
 #include "radiosity/direction_code.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -71,7 +71,7 @@ float distanceBelow(std::uint8_t logarithm) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(logarithm + kNearestBits) << 21);
 }
 
-Vec3f middle(const ElementGeometry& g) { return 0.5f * (g.lower + g.upper); }
+Vec3f middle(const hierarchy::ElementGeometry& g) { return 0.5f * (g.lower + g.upper); }
 
 /// The cone that holds a box, as it is seen from a point.
 struct ViewCone {
@@ -93,7 +93,7 @@ struct ViewCone {
 
 }  // namespace
 
-void RowReach::add(const ElementGeometry& leaf, const Vec3f& end) {
+void RowReach::add(const hierarchy::ElementGeometry& leaf, const Vec3f& end) {
   const Vec3f d = end - middle(leaf);
   const float squared = glm::dot(d, d);
   if (!(squared > 0)) return;
@@ -106,7 +106,7 @@ void RowReach::add(const RowReach& more) {
   objects.add(more.objects);
 }
 
-void RowReach::extend(const ElementGeometry& leaf, Vec3f& lower, Vec3f& upper) const {
+void RowReach::extend(const hierarchy::ElementGeometry& leaf, Vec3f& lower, Vec3f& upper) const {
   constexpr std::size_t kLanes = 16;
   const Sectors& all = sectors();
   const Vec3f from = middle(leaf);
@@ -124,7 +124,7 @@ void RowReach::extend(const ElementGeometry& leaf, Vec3f& lower, Vec3f& upper) c
   }
 }
 
-bool RowReach::meets(const ElementGeometry& leaf, const Vec3f& lower, const Vec3f& upper) const {
+bool RowReach::meets(const hierarchy::ElementGeometry& leaf, const Vec3f& lower, const Vec3f& upper) const {
   const Vec3f from = middle(leaf), half = 0.5f * (leaf.upper - leaf.lower), low = lower - half, high = upper + half;
   const Vec3f near = glm::max(glm::max(low - from, from - high), Vec3f(0.0f));
   const float squared = glm::dot(near, near);
@@ -146,4 +146,4 @@ bool RowReach::meets(const ElementGeometry& leaf, const Vec3f& lower, const Vec3
   return met;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

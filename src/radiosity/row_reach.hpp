@@ -11,21 +11,21 @@
 #include "hierarchy/element.hpp"
 #include "radiosity/object_set.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 class RowReach {
  public:
   static constexpr std::size_t kSectors = 64;
 
   /// A ray of the leaf that ends at `end`.
-  void add(const ElementGeometry& leaf, const Vec3f& end);
+  void add(const hierarchy::ElementGeometry& leaf, const Vec3f& end);
   void add(const RowReach&);
 
   /// Whether rays may pass through a box. Never false when one does.
-  bool meets(const ElementGeometry& leaf, const Vec3f& lower, const Vec3f& upper) const;
+  bool meets(const hierarchy::ElementGeometry& leaf, const Vec3f& lower, const Vec3f& upper) const;
 
   /// Extends a box by all that rays that pass may pass through.
-  void extend(const ElementGeometry& leaf, Vec3f& lower, Vec3f& upper) const;
+  void extend(const hierarchy::ElementGeometry& leaf, Vec3f& lower, Vec3f& upper) const;
 
   bool operator==(const RowReach&) const = default;
 
@@ -33,4 +33,4 @@ class RowReach {
   ObjectSet objects;                              // of rays that do not: what blocks them, and what they lead to
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

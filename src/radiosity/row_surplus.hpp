@@ -20,7 +20,7 @@
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 class RowSurplus {
  public:
@@ -28,24 +28,26 @@ class RowSurplus {
   using Pools = std::vector<Rgb>;
 
   /// Makes room for all elements.
-  void resize(const Elements&);
+  void resize(const hierarchy::Elements&);
   /// Takes note of the factors (largest channel) of a leaf's row; of a leaf without one: 0. By several threads at once
   /// for different leaves.
-  void set(ElementId leaf, float factors) { nodes_[leaf.index()].factors = factors; }
+  void set(hierarchy::ElementId leaf, float factors) { nodes_[leaf.index()].factors = factors; }
   /// Shares out anew what is above these leaves, whose rows, exposure or reflectance are others. Adds to `concerned`
   /// the leaves that get another share of the same light.
-  void follow(const Elements&, std::span<const ElementId> leaves, std::vector<ElementId>& concerned);
+  void follow(const hierarchy::Elements&, std::span<const hierarchy::ElementId> leaves,
+              std::vector<hierarchy::ElementId>& concerned);
   /// By which what a row sums up is irradiance of the exposed part, the surplus taken off.
-  float scale(ElementId leaf) const { return nodes_[leaf.index()].scale; }
+  float scale(hierarchy::ElementId leaf) const { return nodes_[leaf.index()].scale; }
   /// What there is to share out when leaves have this indirect light (that of others does not matter).
-  Pools pools(const Elements&) const;
+  Pools pools(const hierarchy::Elements&) const;
   /// What a leaf gets of it.
-  Rgb share(const Elements&, ElementId leaf, const Pools&) const;
+  Rgb share(const hierarchy::Elements&, hierarchy::ElementId leaf, const Pools&) const;
   /// The leaves with room below groups whose pools differ by more than the part `same`; those take the value of `now`.
-  void listen(const Elements&, const Pools& now, float same, Pools& heard, std::vector<ElementId>& leaves) const;
+  void listen(const hierarchy::Elements&, const Pools& now, float same, Pools& heard,
+              std::vector<hierarchy::ElementId>& leaves) const;
   std::size_t memoryBytes() const;
   /// Checks that sums hold, and that nobody gets more than there is room for. Throws std::logic_error.
-  void validate(const Elements&) const;
+  void validate(const hierarchy::Elements&) const;
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -57,14 +59,15 @@ class RowSurplus {
     std::uint32_t slot = kNone;    // of a group
     std::uint8_t height = 0;       // levels below it
   };
-  void takeLeaf(const Elements&, std::size_t e);
-  bool takeParts(const Elements&, std::size_t e);
-  void addWithRoom(const Elements&, ElementId group, std::vector<ElementId>& leaves) const;
+  void takeLeaf(const hierarchy::Elements&, std::size_t e);
+  bool takeParts(const hierarchy::Elements&, std::size_t e);
+  void addWithRoom(const hierarchy::Elements&, hierarchy::ElementId group,
+                   std::vector<hierarchy::ElementId>& leaves) const;
 
-  std::vector<Node> nodes_;          // by element
-  std::vector<ElementId> groups_;    // by slot
-  std::vector<std::uint32_t> free_;  // slots
-  std::vector<ElementId> full_;      // leaves with a surplus, ascending
+  std::vector<Node> nodes_;                   // by element
+  std::vector<hierarchy::ElementId> groups_;  // by slot
+  std::vector<std::uint32_t> free_;           // slots
+  std::vector<hierarchy::ElementId> full_;    // leaves with a surplus, ascending
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -5,7 +5,7 @@
 
 #include "radiosity/leaf_row.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// visit(index, term, its transfers) for every term, in order.
 template <class Visit>
@@ -40,4 +40,4 @@ std::size_t drop(TransferRow& row, const Goes& goes) {
   return gone;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -14,7 +14,7 @@
 #include "radiosity/leaf_transfers.hpp"
 #include "radiosity/push_pull.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -23,16 +23,17 @@ constexpr std::size_t kFew = 8;  // a row made from nothing takes as long as loo
 constexpr int kByLights = 1, kByLeaves = 2;  // which row of a leaf is concerned
 
 /// Whether what moved may have covered some of the leaf, or may cover it now.
-bool uncovers(const Elements& elements, ElementId leaf, const SpaceChange& space) {
+bool uncovers(const hierarchy::Elements& elements, hierarchy::ElementId leaf, const SpaceChange& space) {
   const Box beside = SurfaceReaches::beside(elements.shape(leaf));
   return space.meets(Vec3f(beside.lower), Vec3f(beside.upper));
 }
 
 /// Which rows of a leaf a move may change by itself. `hidden`: it is known to see nothing of what moves; then only rays
 /// that are blocked may lead elsewhere. `inScene`: else rays to lights at infinity may go on to what moves.
-int concernedBy(const Elements& elements, const LeafRow& row, const SpaceChange& space, bool inScene, bool hidden) {
+int concernedBy(const hierarchy::Elements& elements, const LeafRow& row, const SpaceChange& space, bool inScene,
+                bool hidden) {
   if (hidden) return space.meets(row.indirect.reach.objects) ? kByLeaves : 0;
-  const ElementGeometry& g = elements.shape(row.leaf);
+  const hierarchy::ElementGeometry& g = elements.shape(row.leaf);
   bool byLights = !inScene || space.meets(g, row.direct.reach), byLeaves = space.meets(g, row.indirect.reach);
   if ((byLights || byLeaves) && space.hiddenFrom(row.leaf))
     byLights = false, byLeaves = space.meets(row.indirect.reach.objects);
@@ -42,8 +43,9 @@ int concernedBy(const Elements& elements, const LeafRow& row, const SpaceChange&
 
 /// Of the receiving leaves at or below `top` those that are not visited yet.
 template <class Visit>
-void visitLeaves(const Elements& elements, ElementId top, PagedArray<char>& visited, const Visit& visit) {
-  forEachBelow(elements, top, [&](ElementId e) {
+void visitLeaves(const hierarchy::Elements& elements, hierarchy::ElementId top, PagedArray<char>& visited,
+                 const Visit& visit) {
+  hierarchy::forEachBelow(elements, top, [&](hierarchy::ElementId e) {
     if (std::exchange(visited.at(e.index()), 1)) return false;
     if (elements.isReceivingLeaf(e)) visit(e);
     return true;
@@ -54,18 +56,18 @@ void visitLeaves(const Elements& elements, ElementId top, PagedArray<char>& visi
 
 /// Rows of what is no receiving leaf any more: what new elements were split off, what sleeps, and of these `inputs`
 /// what is gone.
-void LeafTransfers::dropNoLeaves(const Elements& elements, std::span<const ElementId> inputs) {
-  std::vector<ElementId> stale;
-  const auto look = [&](ElementId e) {
+void LeafTransfers::dropNoLeaves(const hierarchy::Elements& elements, std::span<const hierarchy::ElementId> inputs) {
+  std::vector<hierarchy::ElementId> stale;
+  const auto look = [&](hierarchy::ElementId e) {
     if (find(e) && !elements.isReceivingLeaf(e)) stale.push_back(e);
     return true;
   };
   for (std::size_t i = known_; i < elements.size(); ++i)
-    if (const ElementId parent = elements.topology[i].parent; parent.valid()) look(parent);
-  for (const ElementId input : inputs) forEachBelow(elements, input, look);
-  for (const ElementId input : elements.asleep) forEachBelow(elements, input, look);
+    if (const hierarchy::ElementId parent = elements.topology[i].parent; parent.valid()) look(parent);
+  for (const hierarchy::ElementId input : inputs) hierarchy::forEachBelow(elements, input, look);
+  for (const hierarchy::ElementId input : elements.asleep) hierarchy::forEachBelow(elements, input, look);
   sortUnique(stale);
-  for (const ElementId e : stale) {
+  for (const hierarchy::ElementId e : stale) {
     const std::uint32_t row = std::exchange(rowOf_[e.index()], kNone);
     surplus_.set(e, 0);
     dropped_.push_back({e, std::move(rows_[row].indirect)});
@@ -79,13 +81,13 @@ void LeafTransfers::dropNoLeaves(const Elements& elements, std::span<const Eleme
 
 /// The row of the leaf that another was split off; null where there is none, and where what moved may have covered that
 /// leaf: its rays are those of the part that was not covered.
-const TransferRow* LeafTransfers::inheritance(const Elements& elements, ElementId leaf,
+const TransferRow* LeafTransfers::inheritance(const hierarchy::Elements& elements, hierarchy::ElementId leaf,
                                               const SpaceChange& space) const {
-  for (ElementId e = leaf; e.valid() && elements.at(e).depth > 0;) {
+  for (hierarchy::ElementId e = leaf; e.valid() && elements.at(e).depth > 0;) {
     e = elements.at(e).parent;
     const LeafRow* kept = find(e);  // where it was split just now
     const auto at = std::lower_bound(dropped_.begin(), dropped_.end(), e,
-                                     [](const Dropped& d, ElementId other) { return d.leaf < other; });
+                                     [](const Dropped& d, hierarchy::ElementId other) { return d.leaf < other; });
     const bool dropped = at != dropped_.end() && at->leaf == e;
     if (!kept && !dropped) continue;
     const TransferRow& row = kept ? kept->indirect : at->indirect;
@@ -94,7 +96,7 @@ const TransferRow* LeafTransfers::inheritance(const Elements& elements, ElementI
   return nullptr;
 }
 
-void LeafTransfers::listRows(const Elements& elements) {
+void LeafTransfers::listRows(const hierarchy::Elements& elements) {
   std::fill(rowOf_.begin(), rowOf_.end(), kNone);
   known_ = 0;
   reaches_ = {};
@@ -105,39 +107,39 @@ void LeafTransfers::listRows(const Elements& elements) {
   surplus_ = {};
   surplus_.resize(elements);
   parallelFor(rows_.size(), kBlock, [&](std::size_t i) { measure(rows_[i]); });
-  std::vector<ElementId> concerned;
+  std::vector<hierarchy::ElementId> concerned;
   surplus_.follow(elements, leaves(), concerned);
 }
 
-void LeafTransfers::setRow(ElementId leaf, std::size_t row) {
+void LeafTransfers::setRow(hierarchy::ElementId leaf, std::size_t row) {
   if (leaf.index() >= rowOf_.size()) rowOf_.resize(leaf.index() + 1, kNone);
   rowOf_[leaf.index()] = static_cast<std::uint32_t>(row);
 }
 
-ConcernedLeaves LeafTransfers::concerned(const Elements& elements, const Links& links,
-                                         std::span<const LinkId> changedLinks, const SpaceChange& space) {
+ConcernedLeaves LeafTransfers::concerned(const hierarchy::Elements& elements, const hierarchy::Links& links,
+                                         std::span<const hierarchy::LinkId> changedLinks, const SpaceChange& space) {
   dropNoLeaves(elements, space.inputs());
   PagedArray<char> found(elements.size());  // bits: kBy
-  const auto add = [&](ElementId leaf, int by) {
+  const auto add = [&](hierarchy::ElementId leaf, int by) {
     found.at(leaf.index()) = static_cast<char>(found[leaf.index()] | by);
   };
 
   const ArrivingLinks arriving(elements, links, changedLinks);
-  arriving.forEach([&](ElementId e, bool fromLights, bool fromLeaves) {
+  arriving.forEach([&](hierarchy::ElementId e, bool fromLights, bool fromLeaves) {
     if (elements.isReceivingLeaf(e)) add(e, (fromLights ? kByLights : 0) | (fromLeaves ? kByLeaves : 0));
   });
   PagedArray<char> visited(elements.size());
-  for (const ElementId input : space.inputs())
-    visitLeaves(elements, input, visited, [&](ElementId e) { add(e, kByLights | kByLeaves); });
+  for (const hierarchy::ElementId input : space.inputs())
+    visitLeaves(elements, input, visited, [&](hierarchy::ElementId e) { add(e, kByLights | kByLeaves); });
   for (; known_ < elements.size(); ++known_)
-    if (const ElementId e(known_); !find(e) && elements.isReceivingLeaf(e)) add(e, kByLights | kByLeaves);
+    if (const hierarchy::ElementId e(known_); !find(e) && elements.isReceivingLeaf(e)) add(e, kByLights | kByLeaves);
 
   const bool inScene = space.within(elements.sceneBox);
-  const std::vector<ElementId> surfaces = reaches_.met(space, !inScene);
-  std::vector<std::vector<std::pair<ElementId, int>>> met((surfaces.size() + kBlock - 1) / kBlock);
+  const std::vector<hierarchy::ElementId> surfaces = reaches_.met(space, !inScene);
+  std::vector<std::vector<std::pair<hierarchy::ElementId, int>>> met((surfaces.size() + kBlock - 1) / kBlock);
   parallelFor(surfaces.size(), kBlock, [&](std::size_t i) {
     const bool hidden = space.hiddenFrom(surfaces[i]);
-    forEachLeafBelow(elements, surfaces[i], [&](ElementId e) {
+    hierarchy::forEachLeafBelow(elements, surfaces[i], [&](hierarchy::ElementId e) {
       const LeafRow* row = find(e);
       if (const int by = row ? concernedBy(elements, *row, space, inScene, hidden) : 0)
         met[i / kBlock].push_back({e, by});
@@ -156,45 +158,45 @@ ConcernedLeaves LeafTransfers::concerned(const Elements& elements, const Links& 
 
 /// What rows follow.
 struct LeafTransfers::Change {
-  const Links& links;
+  const hierarchy::Links& links;
   const Scene& scene;
-  const RayTracer& tracer;
+  const tracing::RayTracer& tracer;
   const LeafTransferSettings& settings;
   const LinkMarks& marks;
   const ArrivingLinks& arriving;
   const SpaceChange& space;
 };
 
-LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, const Scene& scene,
-                                       const RayTracer& tracer, const LeafTransferSettings& settings,
-                                       const LinkMarks& marks, std::span<const LinkId> changedLinks,
+LeafUpdateReport LeafTransfers::update(hierarchy::Elements& elements, const hierarchy::Links& links, const Scene& scene,
+                                       const tracing::RayTracer& tracer, const LeafTransferSettings& settings,
+                                       const LinkMarks& marks, std::span<const hierarchy::LinkId> changedLinks,
                                        const SpaceChange& space, const ConcernedLeaves& leaves) {
   LeafUpdateReport report;
   const ArrivingLinks arriving(elements, links, changedLinks);
   const Change change{links, scene, tracer, settings, marks, arriving, space};
   const std::size_t known = elements.size();
-  const auto inPart = [&](ElementId e) { return elements.shape(e).exposed < 1.0f; };
+  const auto inPart = [&](hierarchy::ElementId e) { return elements.shape(e).exposed < 1.0f; };
   std::vector<char> wasInPart;
-  for (const ElementId leaf : leaves.byLights) wasInPart.push_back(inPart(leaf));
+  for (const hierarchy::ElementId leaf : leaves.byLights) wasInPart.push_back(inPart(leaf));
   updateDirect(elements, change, leaves.byLights, report);
-  for (const ElementId leaf : report.leaves) gatherDirect(rows_[rowOf_[leaf.index()]], elements);
+  for (const hierarchy::ElementId leaf : report.leaves) gatherDirect(rows_[rowOf_[leaf.index()]], elements);
   pull(elements, report.leaves);
 
-  std::vector<ElementId> indirect = leaves.byLeaves, reaching = report.leaves;
-  for (const ElementId leaf : report.leaves)
+  std::vector<hierarchy::ElementId> indirect = leaves.byLeaves, reaching = report.leaves;
+  for (const hierarchy::ElementId leaf : report.leaves)
     if (leaf.index() >= known) indirect.push_back(leaf);  // of a leaf that was split
   // Leaves that are covered in part draw other rays than others.
   for (std::size_t i = 0; i < wasInPart.size(); ++i)
-    if (const ElementId leaf = leaves.byLights[i]; find(leaf) && inPart(leaf) != bool(wasInPart[i]))
+    if (const hierarchy::ElementId leaf = leaves.byLights[i]; find(leaf) && inPart(leaf) != bool(wasInPart[i]))
       rows_[rowOf_[leaf.index()]].indirect = {}, indirect.push_back(leaf);
-  std::erase_if(indirect, [&](ElementId e) { return !elements.isReceivingLeaf(e); });
+  std::erase_if(indirect, [&](hierarchy::ElementId e) { return !elements.isReceivingLeaf(e); });
   sortUnique(indirect);
   std::sort(dropped_.begin(), dropped_.end(), [](const Dropped& a, const Dropped& b) { return a.leaf < b.leaf; });
   updateIndirect(elements, change, indirect, report, reaching);
-  for (const ElementId leaf : reaching)
+  for (const hierarchy::ElementId leaf : reaching)
     if (const LeafRow* row = find(leaf)) reaches_.add(elements, leaf, row->direct, row->indirect);
   dropNoLeaves(elements, space.inputs());
-  std::vector<ElementId> others = report.leaves;
+  std::vector<hierarchy::ElementId> others = report.leaves;
   for (const Dropped& d : std::exchange(dropped_, {})) others.push_back(d.leaf);
   surplus_.follow(elements, others, report.leaves);
   sortUnique(report.leaves);
@@ -202,16 +204,16 @@ LeafUpdateReport LeafTransfers::update(Elements& elements, const Links& links, c
 }
 
 /// Rows of direct light, and the leaves that these are split into. Adds all whose row is another to the report.
-void LeafTransfers::updateDirect(Elements& elements, const Change& change, std::span<const ElementId> leaves,
-                                 LeafUpdateReport& report) {
-  const auto isNew = [&](ElementId leaf) { return !find(leaf) || change.space.moved(leaf); };
+void LeafTransfers::updateDirect(hierarchy::Elements& elements, const Change& change,
+                                 std::span<const hierarchy::ElementId> leaves, LeafUpdateReport& report) {
+  const auto isNew = [&](hierarchy::ElementId leaf) { return !find(leaf) || change.space.moved(leaf); };
   std::vector<char> anew(leaves.size(), 0);
   std::vector<DirectUpdate> renewed(leaves.size());
   std::vector<std::uint64_t> rays(leaves.size(), 0);
   {
     const DirectSampler sampler(change.scene, elements, change.links, change.tracer);
     parallelFor(leaves.size(), kFew, [&](std::size_t i) {
-      const ElementId leaf = leaves[i];
+      const hierarchy::ElementId leaf = leaves[i];
       anew[i] = isNew(leaf) || uncovers(elements, leaf, change.space);
       if (anew[i]) return;
       renewed[i] =
@@ -220,7 +222,7 @@ void LeafTransfers::updateDirect(Elements& elements, const Change& change, std::
       anew[i] = renewed[i].anew || mayVary(elements, leaf, renewed[i], change.settings);
     });
   }
-  std::vector<ElementId> fresh;
+  std::vector<hierarchy::ElementId> fresh;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     if (anew[i]) fresh.push_back(leaves[i]);
     report.rays += rays[i];
@@ -231,7 +233,7 @@ void LeafTransfers::updateDirect(Elements& elements, const Change& change, std::
   const std::size_t known = elements.size();
   const DirectRowsReport direct =
       sampleDirectRows(std::move(fresh), elements, change.links, change.scene, change.tracer, change.settings,
-                       [&](ElementId leaf, TransferRow row) {
+                       [&](hierarchy::ElementId leaf, TransferRow row) {
                          if (leaf.index() >= known) report.leaves.push_back(leaf);
                          if (!find(leaf)) {
                            setRow(leaf, rows_.size());
@@ -240,19 +242,20 @@ void LeafTransfers::updateDirect(Elements& elements, const Change& change, std::
                          rows_[rowOf_[leaf.index()]].direct = std::move(row);
                        });
   report.rays += direct.rays, report.split = direct.split;
-  std::erase_if(report.leaves, [&](ElementId e) { return !elements.isReceivingLeaf(e); });
+  std::erase_if(report.leaves, [&](hierarchy::ElementId e) { return !elements.isReceivingLeaf(e); });
 }
 
 /// Rows of indirect light. Adds those that are others to the report, and to `reaching` those with rays elsewhere.
-void LeafTransfers::updateIndirect(const Elements& elements, const Change& change, std::span<const ElementId> leaves,
-                                   LeafUpdateReport& report, std::vector<ElementId>& reaching) {
+void LeafTransfers::updateIndirect(const hierarchy::Elements& elements, const Change& change,
+                                   std::span<const hierarchy::ElementId> leaves, LeafUpdateReport& report,
+                                   std::vector<hierarchy::ElementId>& reaching) {
   std::vector<std::uint64_t> rays(leaves.size(), 0);
   std::vector<char> other(leaves.size(), 0), elsewhere(leaves.size(), 0);
   const IndirectSampler sampler(change.scene, elements, change.links, change.tracer);
   const GatherRays gatherRays(change.settings, rows_.size(), mean_);
   surplus_.resize(elements);
   parallelFor(leaves.size(), kFew, [&](std::size_t i) {
-    const ElementId leaf = leaves[i];
+    const hierarchy::ElementId leaf = leaves[i];
     if (i + 1 < leaves.size()) {
       const TransferRow& next = rows_[rowOf_[leaves[i + 1].index()]].indirect;
       prefetch(std::span(next.rays)), prefetch(std::span(next.terms));
@@ -260,7 +263,7 @@ void LeafTransfers::updateIndirect(const Elements& elements, const Change& chang
     const int ofLeaf = gatherRays.of(leaf, elements);
     LeafRow& whole = rows_[rowOf_[leaf.index()]];
     TransferRow& row = whole.indirect;
-    const std::vector<LinkId> changed = change.arriving.changedAt(leaf, false);
+    const std::vector<hierarchy::LinkId> changed = change.arriving.changedAt(leaf, false);
     if (row.terms.empty()) {
       const TransferRow* from = inheritance(elements, leaf, change.space);
       row = from ? sampler.inherited(leaf, *from, change.marks.changes, changed, ofLeaf, rays[i])
@@ -282,4 +285,4 @@ void LeafTransfers::updateIndirect(const Elements& elements, const Change& chang
   }
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -5,7 +5,7 @@
 #include "base/random.hpp"
 #include "radiosity/kernel.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -14,12 +14,12 @@ double fraction(double x) { return x - static_cast<double>(static_cast<std::int6
 
 }  // namespace
 
-ElementId childByArea(const Elements& elements, ElementId e, double& a) {
+hierarchy::ElementId childByArea(const hierarchy::Elements& elements, hierarchy::ElementId e, double& a) {
   double rest = a * elements.shape(e).area;
-  ElementId picked;
+  hierarchy::ElementId picked;
   double part = 0;
   for (std::size_t i = 0; i < elements.at(e).childCount; ++i) {
-    const ElementId c = elements.child(e, i);
+    const hierarchy::ElementId c = elements.child(e, i);
     const double area = elements.at(c).blocker ? 0.0 : double(elements.shape(c).area);
     if (area <= 0) continue;
     picked = c, part = area;
@@ -46,40 +46,41 @@ std::array<double, 4> Stratified4::operator[](int i) const {
   return u;
 }
 
-PatchPoint samplePoint(const Elements& elements, const Scene& scene, ElementId e, double a, double b) {
+hierarchy::PatchPoint samplePoint(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId e,
+                                  double a, double b) {
   while (elements.isCluster(e)) {
-    const ElementId next = childByArea(elements, e, a);
+    const hierarchy::ElementId next = childByArea(elements, e, a);
     if (!next.valid()) break;
     e = next;
   }
   // What was removed keeps its elements, but has no surface.
-  if (elements.isPatch(e) && elements.shape(e).area > 0) return samplePatch(elements, scene, e, a, b);
+  if (elements.isPatch(e) && elements.shape(e).area > 0) return hierarchy::samplePatch(elements, scene, e, a, b);
   return {elements.shape(e).center, Vec3f(0.0f)};
 }
 
-SenderSample sampleLeafOf(const Elements& elements, const Scene& scene, const PatchPoint& x, ElementId sender, double a,
-                          double b) {
+SenderSample sampleLeafOf(const hierarchy::Elements& elements, const Scene& scene, const hierarchy::PatchPoint& x,
+                          hierarchy::ElementId sender, double a, double b) {
   SenderSample s;
   // Below a cluster the surface is picked by area; on the surface the point comes first, then its leaf.
-  ElementId surface = sender;
+  hierarchy::ElementId surface = sender;
   while (elements.isCluster(surface)) {
     surface = childByArea(elements, surface, a);
     if (!surface.valid()) return s;
   }
   s.leaf = surface;
   while (!elements.isLeaf(s.leaf)) {
-    const ElementId next = childByArea(elements, s.leaf, a);
+    const hierarchy::ElementId next = childByArea(elements, s.leaf, a);
     if (!next.valid()) break;
     s.leaf = next;
   }
   if (!(elements.shape(s.leaf).area > 0)) return s;  // removed
-  const PatchPoint y = samplePatch(elements, scene, s.leaf, a, b);
+  const hierarchy::PatchPoint y = hierarchy::samplePatch(elements, scene, s.leaf, a, b);
   const Vec3f d = y.position - x.position;
   const double squared = glm::dot(d, d);
   if (!(squared > 0)) return s;
   s.weight = std::max(0.0f, glm::dot(x.normal, d)) * std::max(0.0f, -glm::dot(y.normal, d)) / (kPi * squared * squared);
-  if (s.weight > 0) s.ray = segment(x.position, x.normal, y.position, y.normal);
+  if (s.weight > 0) s.ray = tracing::segment(x.position, x.normal, y.position, y.normal);
   return s;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

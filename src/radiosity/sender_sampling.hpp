@@ -7,7 +7,7 @@
 #include "hierarchy/patch.hpp"
 #include "tracing/ray.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// One sequence of samples. Those of a group are stratified together, too, each at its place (leaf_group.hpp).
 struct SampleKey {
@@ -20,7 +20,7 @@ struct SampleKey {
 };
 
 /// A four-dimensional sequence shifted by the key: stratified for any prefix (additive recurrence with the powers of
-/// the generalised golden ratio [Roberts 2018]), and over the first places of a group.
+/// the generalised golden ratio [Roberts18]), and over the first places of a group.
 class Stratified4 {
  public:
   explicit Stratified4(SampleKey);
@@ -47,20 +47,21 @@ Item* pickByWeight(std::span<Item> items, double total, double u) {
 }
 
 /// The child that holds the share `a` of the area, in [0,1); `a` is used up in part. Invalid when nothing has area.
-ElementId childByArea(const Elements&, ElementId, double& a);
+hierarchy::ElementId childByArea(const hierarchy::Elements&, hierarchy::ElementId, double& a);
 
 /// A surface point of any element by two numbers in [0,1), uniform by area; clusters pick surfaces by area.
-PatchPoint samplePoint(const Elements&, const Scene&, ElementId, double a, double b);
+hierarchy::PatchPoint samplePoint(const hierarchy::Elements&, const Scene&, hierarchy::ElementId, double a, double b);
 
 /// One ray from a receiving point to a point of a sender.
 struct SenderSample {
-  Ray ray;
-  ElementId leaf;         // the patch below the sender that the point lies on
-  double weight = 0;      // kernel between the points, per sender area; not above 0: they do not face each other
-  bool measures = false;  // the weight is to be taken for the kernel, also of a flat sender
+  tracing::Ray ray;
+  hierarchy::ElementId leaf;  // the patch below the sender that the point lies on
+  double weight = 0;          // kernel between the points, per sender area; not above 0: they do not face each other
+  bool measures = false;      // the weight is to be taken for the kernel, also of a flat sender
 };
 
 /// To the leaf that holds the sampled point of `sender`, a cluster or patch.
-SenderSample sampleLeafOf(const Elements&, const Scene&, const PatchPoint& x, ElementId sender, double a, double b);
+SenderSample sampleLeafOf(const hierarchy::Elements&, const Scene&, const hierarchy::PatchPoint& x,
+                          hierarchy::ElementId sender, double a, double b);
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

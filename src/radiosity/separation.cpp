@@ -5,14 +5,14 @@
 
 #include "hierarchy/outline.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
 constexpr double kRounding = 0x1p-23;
 
 bool segmentMeetsRectangle(const Vec2& a, const Vec2& b, const Vec2& lower, const Vec2& upper) {
-  // Clip the segment against the rectangle [Liang & Barsky 1984].
+  // Clip the segment against the rectangle [LB84].
   double t0 = 0, t1 = 1;
   const Vec2 d = b - a;
   for (int axis = 0; axis < 2; ++axis) {
@@ -34,7 +34,7 @@ struct Corners {
   std::array<Vec2, kMostCorners> foot;
   double low = kInfinity, high = -kInfinity;  // with what boxes of single precision may be off by
 
-  Corners(const PlaneFrame& f, std::span<const Vec3> corners) {
+  Corners(const hierarchy::PlaneFrame& f, std::span<const Vec3> corners) {
     const double uu = glm::dot(f.edgeU, f.edgeU), uv = glm::dot(f.edgeU, f.edgeV), vv = glm::dot(f.edgeV, f.edgeV);
     const double determinant = uu * vv - uv * uv;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -57,20 +57,22 @@ std::array<Vec3, 8> cornersOf(const Vec3& lower, const Vec3& upper) {
   return out;
 }
 
-std::size_t cornersOf(const Elements& elements, ElementId e, std::array<Vec3, kMostCorners>& out) {
+std::size_t cornersOf(const hierarchy::Elements& elements, hierarchy::ElementId e,
+                      std::array<Vec3, kMostCorners>& out) {
   if (elements.isPatch(e) && elements.at(e).flat && elements.outline(e).size() <= out.size()) {
-    const PlaneFrame& f = elements.frames[elements.domain[e.index()].frame];
+    const hierarchy::PlaneFrame& f = elements.frames[elements.domain[e.index()].frame];
     std::size_t n = 0;
     for (const Vec2& q : elements.outline(e)) out[n++] = f.at(q);
     return n;
   }
-  const ElementGeometry& g = elements.shape(e);
+  const hierarchy::ElementGeometry& g = elements.shape(e);
   const auto box = cornersOf(Vec3(g.lower), Vec3(g.upper));
   std::copy(box.begin(), box.end(), out.begin());
   return box.size();
 }
 
-bool separates(const PlaneFrame& f, std::span<const Vec2> outline, std::span<const Vec3> a, std::span<const Vec3> b) {
+bool separates(const hierarchy::PlaneFrame& f, std::span<const Vec2> outline, std::span<const Vec3> a,
+               std::span<const Vec3> b) {
   const Corners ca(f, a), cb(f, b);
   if (!((ca.high < 0 && cb.low > 0) || (ca.low > 0 && cb.high < 0))) return false;
   // All segments between corners cross the plane in the hull of these points; their rectangle must lie inside.
@@ -82,10 +84,10 @@ bool separates(const PlaneFrame& f, std::span<const Vec2> outline, std::span<con
       if (!(p.x >= 0 && p.y >= 0 && p.x <= 1 && p.y <= 1)) return false;
     }
   }
-  if (!outlineContains(outline, 0.5 * (lower + upper))) return false;
+  if (!hierarchy::outlineContains(outline, 0.5 * (lower + upper))) return false;
   for (std::size_t k = 0; k < outline.size(); ++k)
     if (segmentMeetsRectangle(outline[k], outline[(k + 1) % outline.size()], lower, upper)) return false;
   return true;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
-Shaft::Shaft(const ElementGeometry& a, const ElementGeometry& b)
+Shaft::Shaft(const hierarchy::ElementGeometry& a, const hierarchy::ElementGeometry& b)
     : lower_(glm::min(a.lower, b.lower)), upper_(glm::max(a.upper, b.upper)) {
   offset_.fill(std::numeric_limits<float>::max());
   std::size_t count = 0;
@@ -42,4 +42,4 @@ bool Shaft::meets(const Vec3f& lower, const Vec3f& upper) const {
   return beyond == 0;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -1,15 +1,15 @@
 #pragma once
-// Shafts [Haines & Wallace 1991]: the convex hull of the boxes of two elements, tested against boxes of blockers. Never
+// Shafts [HW91]: the convex hull of the boxes of two elements, tested against boxes of blockers. Never
 // stored: rebuilt from the two boxes on the way down the link tree. [GD01 5]
 #include <array>
 
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 class Shaft {
  public:
-  Shaft(const ElementGeometry& a, const ElementGeometry& b);
+  Shaft(const hierarchy::ElementGeometry& a, const hierarchy::ElementGeometry& b);
 
   /// Whether the box has a point in the hull (conservative: never false when it has).
   bool meets(const Vec3f& lower, const Vec3f& upper) const;
@@ -25,4 +25,4 @@ class Shaft {
   Lanes offset_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

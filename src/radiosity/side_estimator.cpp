@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -24,7 +24,7 @@ Vec3f cosineDirection(const Vec3& normal, Rng& rng) {
 
 }  // namespace
 
-SideEstimator::SideEstimator(const Scene& scene, const RayTracer& tracer, std::size_t sides)
+SideEstimator::SideEstimator(const Scene& scene, const tracing::RayTracer& tracer, std::size_t sides)
     : scene_(scene),
       tracer_(tracer),
       rays_(std::clamp<std::size_t>(kPathBudget / std::max<std::size_t>(sides, 1), kFewestOfTriangle, kMost)) {}
@@ -34,8 +34,8 @@ double SideEstimator::diagonal() const {
   return diagonal_;
 }
 
-std::vector<Hit> SideEstimator::firstMet(const Side& side, std::size_t rays) const {
-  std::vector<Hit> found;
+std::vector<tracing::Hit> SideEstimator::firstMet(const hierarchy::Side& side, std::size_t rays) const {
+  std::vector<tracing::Hit> found;
   Rng rng(combineKeys(combineKeys(side.primitive.value, side.triangle), side.front), 1);
   for (std::size_t k = 0; k < rays; ++k) {
     const double u = (double(k) + rng.uniform()) / double(rays), v = rng.uniform();
@@ -47,7 +47,7 @@ std::vector<Hit> SideEstimator::firstMet(const Side& side, std::size_t rays) con
   return found;
 }
 
-SideEstimator::Origin SideEstimator::pointOnSide(const Side& side, Vec2 u) const {
+SideEstimator::Origin SideEstimator::pointOnSide(const hierarchy::Side& side, Vec2 u) const {
   const Shape& shape = scene_[side.primitive].shape;
   Origin o;
   if (const auto* mesh = std::get_if<Mesh>(&shape)) {
@@ -65,7 +65,7 @@ SideEstimator::Origin SideEstimator::pointOnSide(const Side& side, Vec2 u) const
 }
 
 /// What sides reflect of what they receive, every way together: this is an estimate, not transport.
-Rgb SideEstimator::wholeReflectance(const Side& side) const {
+Rgb SideEstimator::wholeReflectance(const hierarchy::Side& side) const {
   const Material& m = scene_.materialOf(side.primitive);
   Rgb r = diffuseReflectance(m, side.front);
   if (const auto* opaque = std::get_if<Opaque>(&m.surface)) r += opaque->specular.reflectance;
@@ -74,16 +74,16 @@ Rgb SideEstimator::wholeReflectance(const Side& side) const {
 }
 
 /// Whether a ray that comes straight down on the point meets another surface in its stead, one in the same place.
-bool SideEstimator::hidden(const Side& side, const Origin& o) const {
-  Ray ray;
+bool SideEstimator::hidden(const hierarchy::Side& side, const Origin& o) const {
+  tracing::Ray ray;
   ray.direction = -Vec3f(o.normal);
-  ray.origin = offsetOrigin(Vec3f(o.position), Vec3f(o.normal), Vec3f(o.normal));
+  ray.origin = tracing::offsetOrigin(Vec3f(o.position), Vec3f(o.normal), Vec3f(o.normal));
   const float height = glm::dot(ray.origin - Vec3f(o.position), Vec3f(o.normal));
-  const Hit hit = tracer_.closestHit(ray);
+  const tracing::Hit hit = tracer_.closestHit(ray);
   return hit && hit.primitive != side.primitive && hit.t <= 2 * height;
 }
 
-bool SideEstimator::hidden(const Side& side, std::size_t points) const {
+bool SideEstimator::hidden(const hierarchy::Side& side, std::size_t points) const {
   Rng rng(combineKeys(combineKeys(side.primitive.value, side.triangle), side.front), 2);
   for (std::size_t k = 0; k < points; ++k) {
     const double u = (double(k) + rng.uniform()) / double(points);
@@ -92,7 +92,7 @@ bool SideEstimator::hidden(const Side& side, std::size_t points) const {
   return true;
 }
 
-SideEstimate SideEstimator::estimate(const Side& side) const {
+SideEstimate SideEstimator::estimate(const hierarchy::Side& side) const {
   SideEstimate e;
   e.side = {side.primitive, side.triangle, side.front};
   const bool triangle = std::holds_alternative<Mesh>(scene_[side.primitive].shape);
@@ -119,7 +119,7 @@ SideEstimate SideEstimator::estimate(const Side& side) const {
       const Vec3f w = cosineDirection(o.normal, rng);
       float t = 0;
       Rgb through(1.0f);
-      const Hit hit = look(o, w, through, t);
+      const tracing::Hit hit = look(o, w, through, t);
       e.rays += 1 + std::min(scene_.lights.size(), kPicked);
       if (!hit) {
         for (const Light& light : scene_.lights)
@@ -128,7 +128,7 @@ SideEstimate SideEstimator::estimate(const Side& side) const {
         break;
       }
       if (bounce == 0) path += t, ++found;
-      const Side other = sideOf(scene_, hit);
+      const hierarchy::Side other = sideOf(scene_, hit);
       e.met.push_back(other);
       if (!isBlack(direct * through)) e.lit.push_back(other);
       throughput *= through * wholeReflectance(other);
@@ -146,18 +146,18 @@ SideEstimate SideEstimator::estimate(const Side& side) const {
 }
 
 /// First surface that is not a pane.
-Hit SideEstimator::look(const Origin& o, const Vec3f& w, Rgb& through, float& t) const {
-  Ray ray;
-  ray.origin = offsetOrigin(Vec3f(o.position), Vec3f(o.normal), w);
+tracing::Hit SideEstimator::look(const Origin& o, const Vec3f& w, Rgb& through, float& t) const {
+  tracing::Ray ray;
+  ray.origin = tracing::offsetOrigin(Vec3f(o.position), Vec3f(o.normal), w);
   ray.direction = w;
   for (int pane = 0; pane < kPanes; ++pane) {
-    const Hit hit = tracer_.closestHit(ray);
+    const tracing::Hit hit = tracer_.closestHit(ray);
     if (!hit) return hit;
     t += hit.t;
     const auto* glass = std::get_if<ThinGlass>(&scene_.materialOf(hit.primitive).surface);
     if (!glass) return hit;
     through *= transmittance(*glass, std::abs(glm::dot(hit.normal, w)));
-    ray.origin = offsetOrigin(hit.position, hit.normal, w);
+    ray.origin = tracing::offsetOrigin(hit.position, hit.normal, w);
   }
   return {};
 }
@@ -183,9 +183,9 @@ Rgb SideEstimator::fromLight(const Origin& o, const Light& light, Rng& rng) cons
         if constexpr (std::is_same_v<T, SunLight>) {
           const float cosine = glm::dot(n, Vec3f(emitter.direction));
           if (cosine <= 0) return Rgb(0.0f);
-          Ray ray;
+          tracing::Ray ray;
           ray.direction = Vec3f(emitter.direction);
-          ray.origin = offsetOrigin(x, n, ray.direction);
+          ray.origin = tracing::offsetOrigin(x, n, ray.direction);
           return float(solidAngle(emitter)) * cosine * emitter.radiance * scale * tracer_.transmittance(ray);
         } else if constexpr (std::is_same_v<T, AreaLight>) {
           return fromArea(x, n, emitter.primitive, scale, rng);
@@ -196,7 +196,7 @@ Rgb SideEstimator::fromLight(const Origin& o, const Light& light, Rng& rng) cons
           const float cosine = glm::dot(n, w);
           if (!(cosine > 0)) return Rgb(0.0f);
           return cosine / squared * radiantIntensity(emitter, -Vec3(w)) * scale *
-                 tracer_.transmittance(segment(x, n, Vec3f(emitter.position), -w));
+                 tracer_.transmittance(tracing::segment(x, n, Vec3f(emitter.position), -w));
         } else {
           return Rgb(0.0f);
         }
@@ -225,7 +225,7 @@ Rgb SideEstimator::fromArea(const Vec3f& x, const Vec3f& n, PrimitiveId primitiv
   const float A = static_cast<float>(area(shape));
   const float kernel = std::min(cosine * cosEmitter * A / squared, float(kPi));
   return kernel * material.emission->radiance * scale *
-         tracer_.transmittance(segment(x, n, Vec3f(y.position), Vec3f(y.normal)));
+         tracer_.transmittance(tracing::segment(x, n, Vec3f(y.position), Vec3f(y.normal)));
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -15,25 +15,25 @@
 #include "hierarchy/input_level.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 struct SideEstimate {
-  SurfaceSide side;       // with what is estimated of it
-  std::vector<Side> lit;  // sides that rays from its lit points have met, some more than once
-  std::vector<Side> met;  // all that its paths have met, where it is lit itself
+  hierarchy::SurfaceSide side;       // with what is estimated of it
+  std::vector<hierarchy::Side> lit;  // sides that rays from its lit points have met, some more than once
+  std::vector<hierarchy::Side> met;  // all that its paths have met, where it is lit itself
   std::uint64_t rays = 0;
 };
 
 class SideEstimator {
  public:
   /// `sides`: of the scene in all. Scene and tracer must outlive this.
-  SideEstimator(const Scene&, const RayTracer&, std::size_t sides);
+  SideEstimator(const Scene&, const tracing::RayTracer&, std::size_t sides);
 
   /// Paths from the side's surface: light found at every vertex counts, so that a lit part of a floor does not light
   /// what sees only its dark part.
-  SideEstimate estimate(const Side&) const;
+  SideEstimate estimate(const hierarchy::Side&) const;
   /// What rays from the side meet first, panes aside.
-  std::vector<Hit> firstMet(const Side&, std::size_t rays) const;
+  std::vector<tracing::Hit> firstMet(const hierarchy::Side&, std::size_t rays) const;
 
  private:
   struct Origin {
@@ -41,34 +41,34 @@ class SideEstimator {
   };
 
   double diagonal() const;
-  bool hidden(const Side&, const Origin&) const;
-  bool hidden(const Side&, std::size_t points) const;
-  Origin pointOnSide(const Side&, Vec2 u) const;
-  Rgb wholeReflectance(const Side&) const;
-  Hit look(const Origin&, const Vec3f& w, Rgb& through, float& t) const;
+  bool hidden(const hierarchy::Side&, const Origin&) const;
+  bool hidden(const hierarchy::Side&, std::size_t points) const;
+  Origin pointOnSide(const hierarchy::Side&, Vec2 u) const;
+  Rgb wholeReflectance(const hierarchy::Side&) const;
+  tracing::Hit look(const Origin&, const Vec3f& w, Rgb& through, float& t) const;
   Rgb directAt(const Origin&, Rng&) const;
   Rgb fromLight(const Origin&, const Light&, Rng&) const;
   Rgb fromArea(const Vec3f& x, const Vec3f& n, PrimitiveId, const Rgb& scale, Rng&) const;
 
   const Scene& scene_;
-  const RayTracer& tracer_;
+  const tracing::RayTracer& tracer_;
   std::size_t rays_;  // paths of a side
   mutable std::once_flag measured_;
   mutable double diagonal_ = 0;  // once it is asked for
 };
 
 /// The side that a ray has met: of glass, the one that there is.
-inline Side sideOf(const Scene& scene, const Hit& hit) {
-  return {hit.primitive, hit.triangle, hit.front || passesStraight(scene.materialOf(hit.primitive))};
+inline hierarchy::Side sideOf(const Scene& scene, const tracing::Hit& hit) {
+  return {hit.primitive, hit.triangle, hit.front || hierarchy::passesStraight(scene.materialOf(hit.primitive))};
 }
 
 /// Whether light reaches a side: glass always has its elements, and what shines through a surface lights both its
 /// sides. isLit(Side): by the estimates.
 template <class IsLit>
-bool isReached(const Scene& scene, const Side& s, const IsLit& isLit) {
+bool isReached(const Scene& scene, const hierarchy::Side& s, const IsLit& isLit) {
   const Material& material = scene.materialOf(s.primitive);
-  if (isLit(s) || passesStraight(material)) return true;
-  return !isBlack(diffuseTransmittance(material)) && isLit(Side{s.primitive, s.triangle, !s.front});
+  if (isLit(s) || hierarchy::passesStraight(material)) return true;
+  return !isBlack(diffuseTransmittance(material)) && isLit(hierarchy::Side{s.primitive, s.triangle, !s.front});
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -7,13 +7,13 @@
 #include "base/sort_unique.hpp"
 #include "hierarchy/below.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
 constexpr float kSlack = 1e-5f;  // of the coordinates: boxes are grown by what single precision loses
 
-bool segmentMeets(const Vec3f& lower, const Vec3f& upper, const Ray& ray) {
+bool segmentMeets(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& ray) {
   float near = ray.tNear, far = ray.tFar;
   for (int i = 0; i < 3; ++i) {
     if (std::abs(ray.direction[i]) < 1e-12f) {
@@ -31,7 +31,7 @@ bool segmentMeets(const Vec3f& lower, const Vec3f& upper, const Ray& ray) {
 /// Whether balls along a segment that begins at its origin, whose radius goes evenly from one to another, may meet a
 /// box. The centres of those that do lie where the segment meets the box as it is larger by their largest radius: no
 /// others count, and they may be smaller.
-bool ballsMeet(const Vec3f& lower, const Vec3f& upper, const Ray& axis, float from, float to) {
+bool ballsMeet(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& axis, float from, float to) {
   constexpr float kWorth = 0.8f, kRounding = 1.0001f, kLeast = 1e-12f;
   Vec3f enter, leave, scale;
   for (int i = 0; i < 3; ++i) {
@@ -67,16 +67,17 @@ void SpaceChange::add(const Box& box) {
   hidden_.reset();
 }
 
-void SpaceChange::addMoved(std::span<const ElementId> inputs, const Elements& elements, const Scene& scene) {
+void SpaceChange::addMoved(std::span<const hierarchy::ElementId> inputs, const hierarchy::Elements& elements,
+                           const Scene& scene) {
   moved_.grow(elements.size());
-  for (const ElementId input : inputs) {
+  for (const hierarchy::ElementId input : inputs) {
     if (elements.isPatch(input)) addMoved(elements.domain[input.index()].primitive, scene);
-    forEachBelow(elements, input, [&](ElementId e) { return moved_.at(e.index()) = 1; });
+    hierarchy::forEachBelow(elements, input, [&](hierarchy::ElementId e) { return moved_.at(e.index()) = 1; });
   }
   addInputs(inputs);
 }
 
-void SpaceChange::addInputs(std::span<const ElementId> inputs) {
+void SpaceChange::addInputs(std::span<const hierarchy::ElementId> inputs) {
   inputs_.insert(inputs_.end(), inputs.begin(), inputs.end());
   hidden_.reset();
   sortUnique(inputs_);
@@ -99,14 +100,14 @@ void SpaceChange::add(const SpaceChange& more) {
   addInputs(more.inputs_);
 }
 
-void SpaceChange::findHidden(const Elements& elements, const Scene& scene, ElementId grown) {
+void SpaceChange::findHidden(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId grown) {
   hidden_.reset();
   Box region{Vec3(parts_.all().lower), Vec3(parts_.all().upper)};
-  const auto add = [&](ElementId e) {
-    const ElementGeometry& g = elements.shape(e);
+  const auto add = [&](hierarchy::ElementId e) {
+    const hierarchy::ElementGeometry& g = elements.shape(e);
     if (g.area > 0) region.extend(Box{Vec3(g.lower), Vec3(g.upper)});
   };
-  for (const ElementId input : inputs_) {
+  for (const hierarchy::ElementId input : inputs_) {
     if (elements.isDistant(input)) return;
     add(input);
   }
@@ -128,7 +129,7 @@ bool SpaceChange::meets(const Shaft& shaft) const {
   return parts_.any([&](const Vec3f& lower, const Vec3f& upper) { return shaft.meets(lower, upper); });
 }
 
-bool SpaceChange::meets(const Ray& ray) const {
+bool SpaceChange::meets(const tracing::Ray& ray) const {
   return parts_.any([&](const Vec3f& lower, const Vec3f& upper) { return segmentMeets(lower, upper, ray); });
 }
 
@@ -139,10 +140,10 @@ bool SpaceChange::meets(const Vec3f& lower, const Vec3f& upper) const {
 }
 
 bool SpaceChange::meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const {
-  return meets(Ray{a, 0.0f, b - a, 1.0f}, radiusA, radiusB);
+  return meets(tracing::Ray{a, 0.0f, b - a, 1.0f}, radiusA, radiusB);
 }
 
-bool SpaceChange::meets(const Ray& axis, float from, float to) const {
+bool SpaceChange::meets(const tracing::Ray& axis, float from, float to) const {
   return parts_.any([&](const Vec3f& lower, const Vec3f& upper) { return ballsMeet(lower, upper, axis, from, to); });
 }
 
@@ -168,7 +169,7 @@ bool SpaceChange::behind(const Vec3f& point, const Vec3f& normal) const {
   return glm::dot(middle - point, normal) + glm::dot(half, glm::abs(normal)) < 0;
 }
 
-void SpaceChange::meetsRays(const ElementGeometry& from, std::span<const RayCode> rays,
+void SpaceChange::meetsRays(const hierarchy::ElementGeometry& from, std::span<const RayCode> rays,
                             std::vector<std::uint32_t>& out) const {
   if (empty()) return;
   constexpr float kLeast = 1e-6f;  // of a coordinate of a direction
@@ -204,16 +205,16 @@ bool SpaceChange::meetsBeam(const Vec3f& center, float radius, const Vec3f& dire
   if (empty()) return false;
   if (angle > kWidest) return true;
   const float end = furthest(center) + radius;
-  return meets(Ray{center, 0.0f, direction, end}, radius, radius + end * tangent(angle));
+  return meets(tracing::Ray{center, 0.0f, direction, end}, radius, radius + end * tangent(angle));
 }
 
-bool SpaceChange::meetsBeam(const ElementGeometry& from, const Vec3f& direction, float angle) const {
+bool SpaceChange::meetsBeam(const hierarchy::ElementGeometry& from, const Vec3f& direction, float angle) const {
   if (empty()) return false;
   if (angle > kWidest) return true;
   const Vec3f center = 0.5f * (from.lower + from.upper), half = 0.5f * (from.upper - from.lower);
   const float end = angle > 0 ? furthest(center) + glm::length(half) : std::numeric_limits<float>::max();
-  return ballsMeet(parts_.all().lower - half, parts_.all().upper + half, Ray{center, 0.0f, direction, end}, 0.0f,
-                   angle > 0 ? end * tangent(angle) : 0.0f);
+  return ballsMeet(parts_.all().lower - half, parts_.all().upper + half, tracing::Ray{center, 0.0f, direction, end},
+                   0.0f, angle > 0 ? end * tangent(angle) : 0.0f);
 }
 
 /// How far the boxes reach from a point.
@@ -221,4 +222,4 @@ float SpaceChange::furthest(const Vec3f& from) const {
   return glm::length(glm::max(glm::abs(parts_.all().lower - from), glm::abs(parts_.all().upper - from)));
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

@@ -16,7 +16,7 @@
 #include "radiosity/shaft.hpp"
 #include "tracing/ray.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 /// Bounds of all that moved, appeared or went, each where it was and where it is.
 class SpaceChange {
@@ -25,12 +25,12 @@ class SpaceChange {
   /// What another change moved too.
   void add(const SpaceChange&);
   /// What moved: elements of the input level and all below them, and what has none.
-  void addMoved(std::span<const ElementId> inputs, const Elements&, const Scene&);
+  void addMoved(std::span<const hierarchy::ElementId> inputs, const hierarchy::Elements&, const Scene&);
   void addMoved(PrimitiveId, const Scene&);
 
-  bool moved(ElementId e) const { return moved_[e.index()]; }
+  bool moved(hierarchy::ElementId e) const { return moved_[e.index()]; }
   /// Of the input level, in the order of ids.
-  const std::vector<ElementId>& inputs() const { return inputs_; }
+  const std::vector<hierarchy::ElementId>& inputs() const { return inputs_; }
   /// Whether one of the objects that moved, in whole or in part, may be in a set.
   bool meets(const ObjectSet& set) const {
     return std::any_of(objects_.begin(), objects_.end(), [&](const ObjectSet& one) { return set.holds(one); });
@@ -38,20 +38,22 @@ class SpaceChange {
 
   bool empty() const { return parts_.empty(); }
   /// Finds out what sees nothing of all this, nor of what has grown, while the rest stands still; until more is added.
-  void findHidden(const Elements&, const Scene&, ElementId grown = {});
+  void findHidden(const hierarchy::Elements&, const Scene&, hierarchy::ElementId grown = {});
   /// Whether an element is known to see nothing of what moved, where it was and where it is (out_of_sight.hpp).
-  bool hiddenFrom(ElementId e) const { return hidden_ && hidden_->holds(e); }
+  bool hiddenFrom(hierarchy::ElementId e) const { return hidden_ && hidden_->holds(e); }
   /// The flat patch that hides it from an element; none where another reason does.
-  ElementId occluder(ElementId e) const { return hidden_ ? hidden_->occluder(e) : ElementId(); }
+  hierarchy::ElementId occluder(hierarchy::ElementId e) const {
+    return hidden_ ? hidden_->occluder(e) : hierarchy::ElementId();
+  }
   /// The largest share that the bounds of one thing take of the hemisphere around a ball, about; 1 for those near by.
   float nearness(const Vec3f& center, float radius) const;
   /// Conservative: never false when what moved is met.
   bool meets(const Shaft&) const;
-  bool meets(const Ray&) const;
+  bool meets(const tracing::Ray&) const;
   /// Of a box.
   bool meets(const Vec3f& lower, const Vec3f& upper) const;
   /// Of what the rays of a leaf's row pass through, end at, or would.
-  bool meets(const ElementGeometry& leaf, const RowReach& reach) const {
+  bool meets(const hierarchy::ElementGeometry& leaf, const RowReach& reach) const {
     return meets(reach.objects) || (!empty() && reach.meets(leaf, parts_.all().lower, parts_.all().upper));
   }
   /// Of the convex hull of two balls.
@@ -64,21 +66,22 @@ class SpaceChange {
   /// Whether there is something, all of it behind a plane (unit normal).
   bool behind(const Vec3f& point, const Vec3f& normal) const;
   /// Of each of many rays of a leaf: appends the indices of those that something moving may touch.
-  void meetsRays(const ElementGeometry& from, std::span<const RayCode>, std::vector<std::uint32_t>& out) const;
+  void meetsRays(const hierarchy::ElementGeometry& from, std::span<const RayCode>,
+                 std::vector<std::uint32_t>& out) const;
   /// Of what leaves a ball in directions within an angle of `direction` (unit; the angle in radians).
   bool meetsBeam(const Vec3f& center, float radius, const Vec3f& direction, float angle) const;
   /// The same of what leaves an element's box, for the bounds of all that moves together.
-  bool meetsBeam(const ElementGeometry& from, const Vec3f& direction, float angle) const;
+  bool meetsBeam(const hierarchy::ElementGeometry& from, const Vec3f& direction, float angle) const;
 
  private:
   /// Of balls along a ray, from one radius to another.
-  bool meets(const Ray& axis, float from, float to) const;
-  void addInputs(std::span<const ElementId>);
+  bool meets(const tracing::Ray& axis, float from, float to) const;
+  void addInputs(std::span<const hierarchy::ElementId>);
   void addObject(ObjectId top);
   float furthest(const Vec3f& from) const;
 
   BoxGroups parts_;
-  std::vector<ElementId> inputs_;
+  std::vector<hierarchy::ElementId> inputs_;
   PagedArray<char> moved_;
   std::vector<ObjectId> tops_;      // of what moved; ascending
   std::vector<ObjectSet> objects_;  // each of one of them
@@ -94,8 +97,8 @@ enum class LinkChange : std::uint8_t {
 
 using LinkChanges = PagedArray<LinkChange>;  // links beyond its end are new: Changed
 
-inline LinkChange changeOf(const LinkChanges& changes, LinkId id) {
+inline LinkChange changeOf(const LinkChanges& changes, hierarchy::LinkId id) {
   return id.index() < changes.size() ? changes[id.index()] : LinkChange::Changed;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

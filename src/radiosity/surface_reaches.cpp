@@ -3,28 +3,28 @@
 #include "base/parallel.hpp"
 #include "base/room.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
 constexpr float kBeside = 0.1f;  // of a leaf's radius: as near is upon it
 constexpr int kFinest = 3;       // subdivisions of the input level
 
-ElementId partOf(const Elements& elements, ElementId leaf) {
+hierarchy::ElementId partOf(const hierarchy::Elements& elements, hierarchy::ElementId leaf) {
   while (elements.at(leaf).depth > kFinest) leaf = elements.at(leaf).parent;
   return leaf;
 }
 
 }  // namespace
 
-Box SurfaceReaches::beside(const ElementGeometry& leaf) {
+Box SurfaceReaches::beside(const hierarchy::ElementGeometry& leaf) {
   return {Vec3(leaf.lower - kBeside * leaf.radius), Vec3(leaf.upper + kBeside * leaf.radius)};
 }
 
-void SurfaceReaches::add(const Elements& elements, ElementId leaf, const TransferRow& direct,
+void SurfaceReaches::add(const hierarchy::Elements& elements, hierarchy::ElementId leaf, const TransferRow& direct,
                          const TransferRow& indirect) {
-  const ElementGeometry& g = elements.shape(leaf);
-  const ElementId part = partOf(elements, leaf);
+  const hierarchy::ElementGeometry& g = elements.shape(leaf);
+  const hierarchy::ElementId part = partOf(elements, leaf);
   if (part.index() >= slot_.size()) resizeWithRoom(slot_, elements.size(), kNone);
   std::uint32_t& slot = slot_[part.index()];
   if (slot == kNone) {
@@ -40,21 +40,22 @@ void SurfaceReaches::add(const Elements& elements, ElementId leaf, const Transfe
   }
 }
 
-std::vector<ElementId> SurfaceReaches::met(const SpaceChange& space, bool everywhere) const {
+std::vector<hierarchy::ElementId> SurfaceReaches::met(const SpaceChange& space, bool everywhere) const {
   const auto isMet = [&](std::size_t i) {
     const Surface& s = surfaces_[i];
     return everywhere || space.meets(s.objects) || (space.meets(s.lower, s.upper) && !space.hiddenFrom(s.element));
   };
-  std::vector<ElementId> found;
+  std::vector<hierarchy::ElementId> found;
   for (const std::size_t i : parallelWhere(surfaces_.size(), 1024, isMet)) found.push_back(surfaces_[i].element);
   return found;
 }
 
-bool SurfaceReaches::holds(const Elements& elements, ElementId leaf, const TransferRow& row) const {
-  const ElementId part = partOf(elements, leaf);
+bool SurfaceReaches::holds(const hierarchy::Elements& elements, hierarchy::ElementId leaf,
+                           const TransferRow& row) const {
+  const hierarchy::ElementId part = partOf(elements, leaf);
   if (part.index() >= slot_.size() || slot_[part.index()] == kNone) return false;
   const Surface& s = surfaces_[slot_[part.index()]];
-  const ElementGeometry& g = elements.shape(leaf);
+  const hierarchy::ElementGeometry& g = elements.shape(leaf);
   Vec3f lower = g.lower, upper = g.upper;
   row.reach.extend(g, lower, upper);
   return s.objects.holds(row.reach.objects) && glm::all(glm::lessThanEqual(s.lower, lower)) &&
@@ -65,4 +66,4 @@ std::size_t SurfaceReaches::memoryBytes() const {
   return surfaces_.capacity() * sizeof surfaces_[0] + slot_.capacity() * sizeof slot_[0];
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

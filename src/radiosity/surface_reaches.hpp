@@ -10,25 +10,26 @@
 #include "radiosity/leaf_row.hpp"
 #include "radiosity/space_change.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 class SurfaceReaches {
  public:
   /// Takes in what a row reaches, of a leaf of these elements.
-  void add(const Elements&, ElementId leaf, const TransferRow& direct, const TransferRow& indirect);
+  void add(const hierarchy::Elements&, hierarchy::ElementId leaf, const TransferRow& direct,
+           const TransferRow& indirect);
 
   /// All surfaces that something moving may touch, or whose rows it may. `everywhere`: all that have rows.
-  std::vector<ElementId> met(const SpaceChange&, bool everywhere) const;
+  std::vector<hierarchy::ElementId> met(const SpaceChange&, bool everywhere) const;
   /// Whether what the row of a leaf reaches is known.
-  bool holds(const Elements&, ElementId leaf, const TransferRow&) const;
+  bool holds(const hierarchy::Elements&, hierarchy::ElementId leaf, const TransferRow&) const;
   std::size_t memoryBytes() const;
 
   /// Of a leaf: where things are upon it, or nearly.
-  static Box beside(const ElementGeometry& leaf);
+  static Box beside(const hierarchy::ElementGeometry& leaf);
 
  private:
   struct Surface {
-    ElementId element;
+    hierarchy::ElementId element;
     Vec3f lower, upper;
     ObjectSet objects;
   };
@@ -38,4 +39,4 @@ class SurfaceReaches {
   std::vector<std::uint32_t> slot_;  // by element: in surfaces_
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

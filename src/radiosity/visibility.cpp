@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 namespace {
 
@@ -12,8 +12,8 @@ constexpr int kMostHidden = 6;  // links above that are counted: there may be a 
 
 }  // namespace
 
-float openness(const Link& l) {
-  if (l.visibility == Visibility::Clear) return 1.0f;
+float openness(const hierarchy::Link& l) {
+  if (l.visibility == hierarchy::Visibility::Clear) return 1.0f;
   const auto n = static_cast<float>(l.samples);
   // Many links are blocked for good. Measured in a cabin of wooden walls and furniture and in a house: where none of 4,
   // 8, 16 rays passed, 0.19, 0.09, 0.029 of all others do, and where no sampled points faced each other, a half. Each
@@ -72,8 +72,9 @@ VisibilityEstimate estimate(std::span<const LinkSample> samples, const Rgb* thro
 
 }  // namespace
 
-VisibilitySamples::VisibilitySamples(const Elements& elements, const Scene& scene, const RayTracer& tracer,
-                                     ElementId receiver, ElementId sender)
+VisibilitySamples::VisibilitySamples(const hierarchy::Elements& elements, const Scene& scene,
+                                     const tracing::RayTracer& tracer, hierarchy::ElementId receiver,
+                                     hierarchy::ElementId sender)
     : samples_(elements, scene, receiver, sender), tracer_(tracer), clusterReceiver_(elements.isCluster(receiver)) {}
 
 Rgb VisibilitySamples::pass(std::size_t i) {
@@ -83,7 +84,7 @@ Rgb VisibilitySamples::pass(std::size_t i) {
 }
 
 VisibilityEstimate VisibilitySamples::known() const {
-  return deltalux::estimate({sample_.data(), taken_}, through_.data(), clusterReceiver_);
+  return radiosity::estimate({sample_.data(), taken_}, through_.data(), clusterReceiver_);
 }
 
 VisibilityEstimate VisibilitySamples::estimate(std::size_t count) {
@@ -92,7 +93,7 @@ VisibilityEstimate VisibilitySamples::estimate(std::size_t count) {
   return known();
 }
 
-VisibilityEstimate VisibilitySamples::renewed(const Link& link, std::uint32_t anew) {
+VisibilityEstimate VisibilitySamples::renewed(const hierarchy::Link& link, std::uint32_t anew) {
   const VisibilityEstimate before{link.V, link.visibilitySpread, link.sampleMask, link.samples};
   const auto each = [&](const auto& visit) {
     for (std::size_t i = 0; i < link.samples; ++i)
@@ -115,4 +116,4 @@ VisibilityEstimate VisibilitySamples::renewed(const Link& link, std::uint32_t an
   return known();
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

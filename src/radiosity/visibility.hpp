@@ -4,7 +4,7 @@
 #include "radiosity/link_samples.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::radiosity {
 
 inline constexpr std::size_t kMaxSamples = 32;
 inline constexpr int kFewSamples = 4;  // of links that bring little, or are split for their kernel
@@ -20,12 +20,13 @@ struct VisibilityEstimate {
 class VisibilitySamples {
  public:
   /// All must outlive this.
-  VisibilitySamples(const Elements&, const Scene&, const RayTracer&, ElementId receiver, ElementId sender);
+  VisibilitySamples(const hierarchy::Elements&, const Scene&, const tracing::RayTracer&, hierarchy::ElementId receiver,
+                    hierarchy::ElementId sender);
 
   /// What the first `count` rays tell, in 1..kMaxSamples; those are traced that have not been.
   VisibilityEstimate estimate(std::size_t count);
   /// What those of `link` tell when only some of them may fare otherwise by now: `anew`, by bits.
-  VisibilityEstimate renewed(const Link& link, std::uint32_t anew);
+  VisibilityEstimate renewed(const hierarchy::Link& link, std::uint32_t anew);
   int traced() const { return traced_; }
 
  private:
@@ -33,7 +34,7 @@ class VisibilitySamples {
   VisibilityEstimate known() const;
 
   LinkSamples samples_;
-  const RayTracer& tracer_;
+  const tracing::RayTracer& tracer_;
   bool clusterReceiver_;
   std::size_t taken_ = 0;
   int traced_ = 0;
@@ -42,6 +43,6 @@ class VisibilitySamples {
 };
 
 /// Chance that light passes a link, as its rays leave it: where none passed it may still be open. 1: it surely passes.
-float openness(const Link&);
+float openness(const hierarchy::Link&);
 
-}  // namespace deltalux
+}  // namespace deltalux::radiosity

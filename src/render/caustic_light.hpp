@@ -2,12 +2,12 @@
 // The particles' irradiance where caustic textures show it.
 #include "caustics/caustics.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 /// E at a surface point [W/m2]; nullopt where the mesh shows the particles. `triangle`: of a mesh.
-inline std::optional<Rgb> causticLight(const Caustics& caustics, const Scene& scene, PrimitiveId primitive,
+inline std::optional<Rgb> causticLight(const caustics::Caustics& caustics, const Scene& scene, PrimitiveId primitive,
                                        std::uint32_t triangle, bool front, const Vec3& position) {
-  const SurfaceCaustics* s = caustics.of(primitive, front);
+  const caustics::SurfaceCaustics* s = caustics.of(primitive, front);
   if (!s) return std::nullopt;
   SurfacePoint p;
   p.position = position;
@@ -16,4 +16,4 @@ inline std::optional<Rgb> causticLight(const Caustics& caustics, const Scene& sc
   return s->irradianceAt(p);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -15,20 +15,20 @@ constexpr double kDark = 1e-3;  // of the mean: as the oracle of refinement has 
 
 std::vector<ProbePoint> pointsByArea(const Solution& s, std::size_t count) {
   std::vector<double> cumulative;
-  std::vector<ElementId> leaves;
+  std::vector<hierarchy::ElementId> leaves;
   double area = 0;
   for (std::size_t i = 0; i < s.elements.size(); ++i) {
-    const ElementTopology& t = s.elements.topology[i];
-    if (t.kind != ElementKind::Patch || t.childCount > 0 || t.emitter || t.blocker) continue;
+    const hierarchy::ElementTopology& t = s.elements.topology[i];
+    if (t.kind != hierarchy::ElementKind::Patch || t.childCount > 0 || t.emitter || t.blocker) continue;
     cumulative.push_back(area += s.elements.geometry[i].area);
     leaves.emplace_back(i);
   }
   std::vector<ProbePoint> points;
   for (std::uint32_t i = 0; i < count && area > 0; ++i) {
     const auto at = std::lower_bound(cumulative.begin(), cumulative.end(), (i + 0.5) / double(count) * area);
-    const ElementId leaf = leaves[std::min<std::size_t>(at - cumulative.begin(), leaves.size() - 1)];
+    const hierarchy::ElementId leaf = leaves[std::min<std::size_t>(at - cumulative.begin(), leaves.size() - 1)];
     const UnitPair u = scrambledSobol(i, 11);
-    const PatchPoint p = samplePatch(s.elements, s.scene, leaf, u.x, u.y);
+    const hierarchy::PatchPoint p = hierarchy::samplePatch(s.elements, s.scene, leaf, u.x, u.y);
     points.push_back({Vec3(p.position), Vec3(p.normal)});
   }
   return points;
@@ -55,7 +55,7 @@ CheckReport compareSolutions(const SolutionView& updated, const SolutionView& fr
     check.p95RelDiff = differences[differences.size() * 95 / 100];
     check.maxRelDiff = differences.back();
   }
-  const Particles &p = updated.get().particles, &q = fresh.get().particles;
+  const particles::Particles &p = updated.get().particles, &q = fresh.get().particles;
   check.particlesIdentical = p.hash() == q.hash();
   return check;
 }

@@ -7,7 +7,7 @@
 #include "scene/texture_tint.hpp"
 #include "solution/solution.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 constexpr float kFaint = 1e-3f;  // a path that carries less ends
@@ -15,7 +15,7 @@ constexpr std::uint64_t kShadowKey = 1 << 8, kOtherSideKey = 1 << 9, kScatterKey
 }  // namespace
 
 struct EyePaths::Vertex {
-  Hit hit;
+  tracing::Hit hit;
   Vec3 position, direction;  // of the ray that came
   Vec3 normal;               // unit, on the side that the ray came from
 
@@ -32,7 +32,7 @@ EyePaths::EyePaths(const Solution& s, const Reconstruction& reconstruction, EyeS
       panesReflect_(!s.settings.diffuseOnly) {
   for (const Material& m : scene_.materials) {
     specular_.push_back(isSpecular(m));
-    for (const bool front : {false, true}) bsdfs_.push_back(makeBsdf(m, front));
+    for (const bool front : {false, true}) bsdfs_.push_back(scene::makeBsdf(m, front));
   }
 }
 
@@ -43,16 +43,16 @@ Rgb EyePaths::radiance(const EyeRay& eye, Sights& sights) const {
 Rgb EyePaths::follow(Way w, const EyeRay& eye, Sights& sights) const {
   Rgb L(0.0f);
   while (w.depth <= settings_.maxDepth) {
-    const Hit hit = tracer_.closestHit(w.ray);
+    const tracing::Hit hit = tracer_.closestHit(w.ray);
     const Lobe* lobe = w.lobe ? &*w.lobe : nullptr;
     if (!hit) return w.emitters ? L + w.beta * background(Vec3(w.ray.direction), lobe) : L;
     const Vec3 n = hit.front ? Vec3(hit.normal) : -Vec3(hit.normal);
     const Vertex v{hit, Vec3(hit.position), Vec3(w.ray.direction), n};
     if (w.emitters) L += w.beta * emitted(v, lobe);
-    const Bsdf& scattering = bsdf(hit.primitive, hit.front);
+    const scene::Bsdf& scattering = bsdf(hit.primitive, hit.front);
     if (scattering.pane && !panesReflect_) {
       w.beta *= transmittance(*scattering.pane, -glm::dot(v.direction, n));
-      w.ray.origin = offsetOrigin(Vec3f(v.position), hit.normal, w.ray.direction);
+      w.ray.origin = tracing::offsetOrigin(Vec3f(v.position), hit.normal, w.ray.direction);
       if (maxChannel(w.beta) < kFaint) return L;
       continue;
     }
@@ -67,24 +67,25 @@ Rgb EyePaths::follow(Way w, const EyeRay& eye, Sights& sights) const {
   return L;
 }
 
-bool EyePaths::go(Way& w, const Vertex& v, const Bsdf& scattering, const BsdfSample& s, bool lightsMet) const {
+bool EyePaths::go(Way& w, const Vertex& v, const scene::Bsdf& scattering, const scene::BsdfSample& s,
+                  bool lightsMet) const {
   w.beta *= s.weight / static_cast<float>(s.etaSquared);
   const SpecularLobe& shape = s.direction.z > 0 ? scattering.reflection : scattering.transmission;
-  const bool glossy = !isDirac(s.event);
+  const bool glossy = !scene::isDirac(s.event);
   w.lobe = glossy && lightsMet ? std::optional(Lobe{v.position, shape.roughness}) : std::nullopt;
-  w.emitters = w.emitters || s.event != ScatterEvent::StraightTransmission;
+  w.emitters = w.emitters || s.event != scene::ScatterEvent::StraightTransmission;
   w.ray.direction = Vec3f(glm::normalize(Frame(v.normal).toWorld(s.direction)));
-  w.ray.origin = offsetOrigin(Vec3f(v.position), v.hit.normal, w.ray.direction);
+  w.ray.origin = tracing::offsetOrigin(Vec3f(v.position), v.hit.normal, w.ray.direction);
   ++w.depth;
   return maxChannel(w.beta) >= kFaint;
 }
 
 template <class Visit>
-bool EyePaths::goOn(Way& w, const Vertex& v, const Bsdf& scattering, const EyeRay& eye, bool lightsMet,
+bool EyePaths::goOn(Way& w, const Vertex& v, const scene::Bsdf& scattering, const EyeRay& eye, bool lightsMet,
                     const Visit& visit) const {
   const Vec3 wo = Frame(v.normal).toLocal(-v.direction);
   if (!w.parted)
-    if (const auto both = bothWays(scattering, wo)) {
+    if (const auto both = scene::bothWays(scattering, wo)) {
       w.parted = true;
       Way other = w;
       if (go(other, v, scattering, (*both)[0], lightsMet)) visit(other);
@@ -92,7 +93,7 @@ bool EyePaths::goOn(Way& w, const Vertex& v, const Bsdf& scattering, const EyeRa
     }
   const UnitPair a = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * w.depth));
   const UnitPair b = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * w.depth + 1));
-  const auto s = sample(specularPart(scattering), wo, {a.x, b.x, b.y});
+  const auto s = scene::sample(scene::specularPart(scattering), wo, {a.x, b.x, b.y});
   return s && go(w, v, scattering, *s, lightsMet);
 }
 
@@ -100,16 +101,17 @@ void EyePaths::survey(const EyeRay& eye, Sights& sights) const { survey({eye.ray
 
 void EyePaths::survey(Way w, const EyeRay& eye, Sights& sights) const {
   while (w.depth <= settings_.maxDepth) {
-    const Hit hit = tracer_.closestHit(w.ray);
+    const tracing::Hit hit = tracer_.closestHit(w.ray);
     if (!hit) return;
     const Vertex v{hit, Vec3(hit.position), Vec3(w.ray.direction), hit.front ? Vec3(hit.normal) : -Vec3(hit.normal)};
-    const Bsdf& scattering = bsdf(hit.primitive, hit.front);
+    const scene::Bsdf& scattering = bsdf(hit.primitive, hit.front);
     if (scattering.hasFinitePart())
-      if (const ElementId side = reconstruction_.locator.side(hit.primitive, hit.triangle, hit.front); side.valid())
+      if (const hierarchy::ElementId side = reconstruction_.locator.side(hit.primitive, hit.triangle, hit.front);
+          side.valid())
         sights.note(reconstruction_.locator.locate(side, v.position).leaf, {v.position, v.normal});
     if (!specular_[scene_[hit.primitive].material.index()]) return;
     if (scattering.pane && !panesReflect_) {
-      w.ray.origin = offsetOrigin(Vec3f(v.position), hit.normal, w.ray.direction);
+      w.ray.origin = tracing::offsetOrigin(Vec3f(v.position), hit.normal, w.ray.direction);
       ++w.depth;
     } else if (!goOn(w, v, scattering, eye, false, [&](Way other) { survey(other, eye, sights); })) {
       return;
@@ -118,7 +120,7 @@ void EyePaths::survey(Way w, const EyeRay& eye, Sights& sights) const {
 }
 
 bool EyePaths::metByShadowRays(LightId id, const Lobe& lobe) const {
-  const LightSampler& lights = reconstruction_.direct.lights();
+  const scene::LightSampler& lights = reconstruction_.direct.lights();
   if (lights.isPointLike(id)) return true;
   const double width = kPi * double(lobe.roughness) * double(lobe.roughness);  // [sr]
   if (const auto* sun = std::get_if<SunLight>(&scene_[id].emitter)) return solidAngle(*sun) < width;
@@ -130,7 +132,7 @@ bool EyePaths::metByShadowRays(LightId id, const Lobe& lobe) const {
 }
 
 Rgb EyePaths::background(const Vec3& towards, const Lobe* lobe) const {
-  const LightSampler& lights = reconstruction_.direct.lights();
+  const scene::LightSampler& lights = reconstruction_.direct.lights();
   Rgb L(0.0f);
   for (const LightId id : lights.atInfinity())
     if (!lobe || !metByShadowRays(id, *lobe)) L += lights.radianceFrom(id, towards);
@@ -138,18 +140,18 @@ Rgb EyePaths::background(const Vec3& towards, const Lobe* lobe) const {
 }
 
 Rgb EyePaths::emitted(const Vertex& v, const Lobe* lobe) const {
-  const LightSampler& lights = reconstruction_.direct.lights();
+  const scene::LightSampler& lights = reconstruction_.direct.lights();
   const LightId id = lights.lightOf(v.hit.primitive);
   if (!id.valid() || (lobe && metByShadowRays(id, *lobe))) return Rgb(0.0f);
   return lights.emittedRadiance(id, -v.direction, double(v.hit.t), v.hit.front);
 }
 
 Rgb EyePaths::scattered(const Vertex& v, const EyeRay& eye, int depth, Sights& sights, bool& lightsMet) const {
-  const Bsdf& b = bsdf(v.hit.primitive, v.hit.front);
+  const scene::Bsdf& b = bsdf(v.hit.primitive, v.hit.front);
   if (!b.hasFinitePart()) return Rgb(0.0f);
-  const Bsdf lobes = specularPart(b);
+  const scene::Bsdf lobes = scene::specularPart(b);
   const bool glossy = lobes.hasFinitePart();
-  const Rgb tint = textureTint(scene_, v.hit.primitive, v.hit.triangle, v.position);
+  const Rgb tint = scene::textureTint(scene_, v.hit.primitive, v.hit.triangle, v.position);
   lightsMet = glossy && settings_.shadowRays > 0;
   Rgb diffuse(0.0f), highlights(0.0f);
   const auto from = [&](bool front) {
@@ -161,30 +163,30 @@ Rgb EyePaths::scattered(const Vertex& v, const EyeRay& eye, int depth, Sights& s
   return float(1 / kPi) * tint * diffuse + highlights;
 }
 
-Rgb EyePaths::irradiance(const Vertex& v, bool front, const Bsdf* lobes, const EyeRay& eye, int depth, Sights& sights,
-                         Rgb& glossy) const {
-  const ElementId side = reconstruction_.locator.side(v.hit.primitive, v.hit.triangle, front);
+Rgb EyePaths::irradiance(const Vertex& v, bool front, const scene::Bsdf* lobes, const EyeRay& eye, int depth,
+                         Sights& sights, Rgb& glossy) const {
+  const hierarchy::ElementId side = reconstruction_.locator.side(v.hit.primitive, v.hit.triangle, front);
   if (!side.valid()) return Rgb(0.0f);
-  const LeafPoint at = reconstruction_.locator.locate(side, v.position);
+  const hierarchy::LeafPoint at = reconstruction_.locator.locate(side, v.position);
   Rgb E = reconstruction_.field.indirect(at, Vec3f(v.position));
   if (const auto caustic = causticLight(caustics_, scene_, v.hit.primitive, v.hit.triangle, front, v.position))
     E += *caustic;
   if (settings_.shadowRays == 0) return E + reconstruction_.field.direct(at, Vec3f(v.position));
 
-  const Receiver receiver{v.position, v.sideNormal(front)};
+  const radiosity::Receiver receiver{v.position, v.sideNormal(front)};
   const std::uint64_t key = combineKeys(eye.key, (front == v.hit.front ? kShadowKey : kOtherSideKey) + depth);
   const Frame frame(v.normal);
   const Vec3 wo = frame.toLocal(-v.direction);
   sights.at(at.leaf).sample(reconstruction_.direct, receiver, settings_.shadowRays, eye.index, key,
-                            [&](const LightArrival& a) {
+                            [&](const radiosity::LightArrival& a) {
                               E += static_cast<float>(glm::dot(a.direction, receiver.normal)) * a.E;
                               if (!lobes) return;
                               const Vec3 wi = frame.toLocal(a.direction);
                               const SpecularLobe& lobe = wi.z > 0 ? lobes->reflection : lobes->transmission;
                               if (lobe.roughness > 0 && metByShadowRays(a.light, {v.position, lobe.roughness}))
-                                glossy += evaluate(*lobes, wo, wi) * a.E;
+                                glossy += scene::evaluate(*lobes, wo, wi) * a.E;
                             });
   return E;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

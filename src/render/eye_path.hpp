@@ -11,10 +11,10 @@
 #include "render/sight.hpp"
 #include "scene/bsdf.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 struct EyeRay {
-  Ray ray;
+  tracing::Ray ray;
   bool emitters = true;     // whether lights that it meets (straight, or through panes) count
   std::uint64_t key = 0;    // names the stratified numbers of its pixel ...
   std::uint32_t index = 0;  // ... and which of them are this ray's
@@ -45,7 +45,7 @@ class EyePaths {
 
   /// A path as far as it has come.
   struct Way {
-    Ray ray;
+    tracing::Ray ray;
     Rgb beta{1.0f};  // of its radiance, what reaches the eye
     bool emitters = true;
     std::optional<Lobe> lobe{};  // of the surface before
@@ -55,26 +55,29 @@ class EyePaths {
   Rgb follow(Way, const EyeRay&, Sights&) const;
   void survey(Way, const EyeRay&, Sights&) const;
   /// False where next to nothing is left.
-  bool go(Way&, const Vertex&, const Bsdf&, const BsdfSample&, bool lightsMet) const;
+  bool go(Way&, const Vertex&, const scene::Bsdf&, const scene::BsdfSample&, bool lightsMet) const;
   /// The way on; where there are two, the other one comes first: visit(Way).
   template <class Visit>
-  bool goOn(Way&, const Vertex&, const Bsdf&, const EyeRay&, bool lightsMet, const Visit&) const;
+  bool goOn(Way&, const Vertex&, const scene::Bsdf&, const EyeRay&, bool lightsMet, const Visit&) const;
   Rgb background(const Vec3& towards, const Lobe* lobe) const;
   Rgb emitted(const Vertex&, const Lobe* lobe) const;
   Rgb scattered(const Vertex&, const EyeRay&, int depth, Sights&, bool& lightsMet) const;
-  Rgb irradiance(const Vertex&, bool front, const Bsdf* lobes, const EyeRay&, int depth, Sights&, Rgb& glossy) const;
+  Rgb irradiance(const Vertex&, bool front, const scene::Bsdf* lobes, const EyeRay&, int depth, Sights&,
+                 Rgb& glossy) const;
   bool metByShadowRays(LightId, const Lobe&) const;
-  const Bsdf& bsdf(PrimitiveId p, bool front) const { return bsdfs_[2 * scene_[p].material.index() + (front ? 1 : 0)]; }
+  const scene::Bsdf& bsdf(PrimitiveId p, bool front) const {
+    return bsdfs_[2 * scene_[p].material.index() + (front ? 1 : 0)];
+  }
 
   const Scene& scene_;
-  const Elements& elements_;
-  const Caustics& caustics_;
-  const RayTracer& tracer_;
+  const hierarchy::Elements& elements_;
+  const caustics::Caustics& caustics_;
+  const tracing::RayTracer& tracer_;
   const Reconstruction& reconstruction_;
   EyeSettings settings_;
   bool panesReflect_;
-  std::vector<Bsdf> bsdfs_;
+  std::vector<scene::Bsdf> bsdfs_;
   std::vector<char> specular_;  // per material
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -9,7 +9,7 @@
 #include "hierarchy/patch.hpp"
 #include "render/linear_fit.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 
@@ -30,21 +30,24 @@ bool disagree(const Rgb& a, const Rgb& b) {
   return std::abs(x - y) > kDisagree * std::max(x, y);
 }
 
-bool isLittleExposed(const Elements& elements, ElementId leaf) { return elements.shape(leaf).exposed < kLittleExposed; }
+bool isLittleExposed(const hierarchy::Elements& elements, hierarchy::ElementId leaf) {
+  return elements.shape(leaf).exposed < kLittleExposed;
+}
 
 }  // namespace
 
-IrradianceField::IrradianceField(const Elements& elements, const Scene& scene, const RayTracer& tracer,
-                                 const std::vector<LeafIrradiance>& values, float noise)
+IrradianceField::IrradianceField(const hierarchy::Elements& elements, const Scene& scene,
+                                 const tracing::RayTracer& tracer, const std::vector<LeafIrradiance>& values,
+                                 float noise)
     : elements_(elements), scene_(scene), tracer_(tracer), siteOf_(elements.size(), Id<void>::kNone) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (!elements.isReceivingLeaf(ElementId(i))) continue;
+    if (!elements.isReceivingLeaf(hierarchy::ElementId(i))) continue;
     siteOf_[i] = static_cast<std::uint32_t>(sites_.size());
-    sites_.push_back({ElementId(i), {}, 0, {}});
+    sites_.push_back({hierarchy::ElementId(i), {}, 0, {}});
   }
   parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
     Site& site = sites_[i];
-    const ElementGeometry& g = elements.shape(site.leaf);
+    const hierarchy::ElementGeometry& g = elements.shape(site.leaf);
     site.center = g.center;
     site.fineness = 1.0f / std::max(g.area, 1e-30f);
     site.support = PatchSupport(elements, scene, site.leaf);
@@ -68,7 +71,7 @@ void IrradianceField::findNeighbours(const std::vector<LeafIrradiance>& values) 
     auto& list = lists[begin / kBlock];
     for (std::size_t i = begin; i < end; ++i) {
       std::vector<std::uint32_t> joined, torn;
-      const ElementGeometry& g = elements_.shape(sites_[i].leaf);
+      const hierarchy::ElementGeometry& g = elements_.shape(sites_[i].leaf);
       tree.overlapping({g.lower, g.upper}, [&](std::uint32_t j) {
         if (j == i) return;
         const Relation relation = relate(sites_[i], sites_[j], values);
@@ -91,12 +94,12 @@ void IrradianceField::findNeighbours(const std::vector<LeafIrradiance>& values) 
   for (const auto& list : lists) neighbours_.insert(neighbours_.end(), list.begin(), list.end());
 }
 
-bool IrradianceField::sameSurface(ElementId a, ElementId b) const {
-  const PatchDomain &da = elements_.domain[a.index()], &db = elements_.domain[b.index()];
+bool IrradianceField::sameSurface(hierarchy::ElementId a, hierarchy::ElementId b) const {
+  const hierarchy::PatchDomain &da = elements_.domain[a.index()], &db = elements_.domain[b.index()];
   const bool samePrimitive = da.primitive == db.primitive;
   if (!elements_.at(a).flat || !elements_.at(b).flat)
     return samePrimitive && elements_.at(a).front == elements_.at(b).front;
-  const ElementGeometry &ga = elements_.shape(a), &gb = elements_.shape(b);
+  const hierarchy::ElementGeometry &ga = elements_.shape(a), &gb = elements_.shape(b);
   const float cosine = glm::dot(ga.normal, gb.normal);
   if (samePrimitive) return cosine > kSmoothMesh;
   const float size = std::sqrt(std::min(ga.area, gb.area));
@@ -113,22 +116,22 @@ IrradianceField::Relation IrradianceField::relate(const Site& home, const Site& 
   return inSight(home.center, home.leaf, other.leaf) ? Relation::Joined : Relation::Torn;
 }
 
-bool IrradianceField::inSight(const Vec3f& p, ElementId home, ElementId other) const {
-  const ElementGeometry &a = elements_.shape(home), &b = elements_.shape(other);
+bool IrradianceField::inSight(const Vec3f& p, hierarchy::ElementId home, hierarchy::ElementId other) const {
+  const hierarchy::ElementGeometry &a = elements_.shape(home), &b = elements_.shape(other);
   const float lift = kLift * std::sqrt(std::min(a.area, b.area));
   const Vec3f from = p + lift * a.normal, to = b.center + lift * b.normal;
-  Ray ray;
+  tracing::Ray ray;
   ray.origin = from;
   ray.tFar = glm::length(to - from);
   ray.direction = (to - from) / std::max(ray.tFar, 1e-30f);
   return !tracer_.occluded(ray);
 }
 
-float IrradianceField::exposed(ElementId leaf) const {
+float IrradianceField::exposed(hierarchy::ElementId leaf) const {
   int seen = 0;
   for (std::uint32_t k = 0; k < kExposureRays; ++k) {
     const UnitPair u = scrambledSobol(k, elements_.key[leaf.index()]);
-    seen += inSight(samplePatch(elements_, scene_, leaf, u.x, u.y).position, leaf, leaf);
+    seen += inSight(hierarchy::samplePatch(elements_, scene_, leaf, u.x, u.y).position, leaf, leaf);
   }
   return static_cast<float>(std::max(seen, 1)) / float(kExposureRays);
 }
@@ -140,7 +143,7 @@ std::vector<LeafIrradiance> IrradianceField::filled(const std::vector<LeafIrradi
     RgbSum direct(0.0), indirect(0.0);
     double area = 0;
     for (std::uint32_t k = begin_[i]; k < begin_[i + 1]; ++k) {
-      const ElementId leaf = sites_[neighbours_[k]].leaf;
+      const hierarchy::ElementId leaf = sites_[neighbours_[k]].leaf;
       if (isLittleExposed(elements_, leaf)) continue;
       const double lit = elements_.shape(leaf).litArea();
       direct += lit * RgbSum(values[leaf.index()].direct), indirect += lit * RgbSum(values[leaf.index()].indirect);
@@ -155,7 +158,7 @@ std::vector<LeafIrradiance> IrradianceField::mended(const std::vector<LeafIrradi
   std::vector<LeafIrradiance> result = values;
   parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
     if (torn_[i] == begin_[i + 1]) return;
-    const ElementId leaf = sites_[i].leaf;
+    const hierarchy::ElementId leaf = sites_[i].leaf;
     LeafIrradiance most;
     for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
       const LeafIrradiance& other = values[sites_[neighbours_[k]].leaf.index()];
@@ -191,7 +194,7 @@ std::vector<LeafIrradiance> IrradianceField::quiet(const std::vector<LeafIrradia
   for (int pass = 0; pass < kQuietPasses; ++pass) {
     const std::vector<LeafIrradiance> before = result;
     parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
-      const ElementId leaf = sites_[i].leaf;
+      const hierarchy::ElementId leaf = sites_[i].leaf;
       const LeafIrradiance& own = before[leaf.index()];
       const float total = gray(own.direct + own.indirect), asked = noise * total;
       if (!(total > 0)) return;
@@ -213,15 +216,15 @@ std::vector<LeafIrradiance> IrradianceField::quiet(const std::vector<LeafIrradia
 
 /// visit(p) for the corners of a flat leaf, for a grid of points of a curved one.
 template <class Visit>
-void IrradianceField::forEachCorner(ElementId leaf, const Visit& visit) const {
-  const PatchDomain& d = elements_.domain[leaf.index()];
+void IrradianceField::forEachCorner(hierarchy::ElementId leaf, const Visit& visit) const {
+  const hierarchy::PatchDomain& d = elements_.domain[leaf.index()];
   if (elements_.at(leaf).flat) {
     for (const Vec2& q : elements_.outline(leaf)) visit(Vec3f(elements_.frames[d.frame].at(q)));
     return;
   }
   for (const float u : {0.0f, 0.5f, 1.0f})
     for (const float v : {0.0f, 0.5f, 1.0f})
-      visit(pointOn(elements_, scene_, leaf, glm::mix(d.u0, d.u1, u), glm::mix(d.v0, d.v1, v)).position);
+      visit(hierarchy::pointOn(elements_, scene_, leaf, glm::mix(d.u0, d.u1, u), glm::mix(d.v0, d.v1, v)).position);
 }
 
 void IrradianceField::fit(std::vector<Linear>& result, Rgb LeafIrradiance::*quantity,
@@ -257,7 +260,7 @@ void IrradianceField::fit(std::vector<Linear>& result, Rgb LeafIrradiance::*quan
   });
 }
 
-Rgb IrradianceField::blend(const std::vector<Linear>& linears, const LeafPoint& at, const Vec3f& p) const {
+Rgb IrradianceField::blend(const std::vector<Linear>& linears, const hierarchy::LeafPoint& at, const Vec3f& p) const {
   const std::uint32_t home = siteOf_[at.leaf.index()];
   SupportPoint point;
   point.position = p;
@@ -281,4 +284,4 @@ Rgb IrradianceField::blend(const std::vector<Linear>& linears, const LeafPoint& 
   return weights > 0.0f ? sum / weights : linears[home].value;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -1,7 +1,7 @@
 #pragma once
 // Irradiance at any point of a surface side, reconstructed from one value a leaf patch: every leaf carries a linear
 // function fitted to the leaves around it, and a point blends the functions of all leaves whose supports hold it
-// (Shepard's method with local linear fits [Franke & Nielson 1980; Renka 1988]), finer leaves counting more.
+// (Shepard's method with local linear fits [FN80; Renka88]), finer leaves counting more.
 //
 //   E(p) = sum_i w_i(p) (E_i + g_i . (p - c_i)) / sum_i w_i(p),  w_i = k_i(p) / A_i
 //
@@ -25,20 +25,20 @@
 #include "render/patch_support.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 class IrradianceField {
  public:
   /// `values` by element; those of receiving leaves are used. `noise`: of their indirect light, relative to all light.
   /// The others must outlive this.
-  IrradianceField(const Elements&, const Scene&, const RayTracer&, const std::vector<LeafIrradiance>& values,
-                  float noise = 0.0f);
+  IrradianceField(const hierarchy::Elements&, const Scene&, const tracing::RayTracer&,
+                  const std::vector<LeafIrradiance>& values, float noise = 0.0f);
 
   /// At the surface point `p`, which `at` locates [W/m2].
-  Rgb direct(const LeafPoint& at, const Vec3f& p) const { return blend(direct_, at, p); }
-  Rgb indirect(const LeafPoint& at, const Vec3f& p) const { return blend(indirect_, at, p); }
+  Rgb direct(const hierarchy::LeafPoint& at, const Vec3f& p) const { return blend(direct_, at, p); }
+  Rgb indirect(const hierarchy::LeafPoint& at, const Vec3f& p) const { return blend(indirect_, at, p); }
   /// Whether something stands on or cuts through the leaf, or between it and its neighbours.
-  bool torn(ElementId leaf) const {
+  bool torn(hierarchy::ElementId leaf) const {
     const std::uint32_t i = siteOf_[leaf.index()];
     return torn_[i] < begin_[i + 1];
   }
@@ -50,7 +50,7 @@ class IrradianceField {
     Rgb slope[3] = {Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};  // along x, y, z
   };
   struct Site {
-    ElementId leaf;
+    hierarchy::ElementId leaf;
     Vec3f center{0.0f};
     float fineness = 0;  // 1 / area
     PatchSupport support;
@@ -60,9 +60,9 @@ class IrradianceField {
 
   void findNeighbours(const std::vector<LeafIrradiance>&);
   Relation relate(const Site& home, const Site& other, const std::vector<LeafIrradiance>&) const;
-  bool sameSurface(ElementId a, ElementId b) const;
+  bool sameSurface(hierarchy::ElementId a, hierarchy::ElementId b) const;
   /// Whether `center` of a leaf can be seen from `p` of the same surface, a little above it.
-  bool inSight(const Vec3f& p, ElementId home, ElementId other) const;
+  bool inSight(const Vec3f& p, hierarchy::ElementId home, hierarchy::ElementId other) const;
   /// With means of what is around leaves that are all but covered: what peeps out is lit as that is, and its own value,
   /// of few rays, would tilt the slopes of all that is beside it.
   std::vector<LeafIrradiance> filled(const std::vector<LeafIrradiance>&) const;
@@ -72,15 +72,15 @@ class IrradianceField {
   std::vector<LeafIrradiance> withoutOutliers(const std::vector<LeafIrradiance>&) const;
   /// With indirect light averaged as far as it differs by no more than noise.
   std::vector<LeafIrradiance> quiet(const std::vector<LeafIrradiance>&, float noise) const;
-  float exposed(ElementId leaf) const;
+  float exposed(hierarchy::ElementId leaf) const;
   template <class Visit>
-  void forEachCorner(ElementId leaf, const Visit&) const;
+  void forEachCorner(hierarchy::ElementId leaf, const Visit&) const;
   void fit(std::vector<Linear>&, Rgb LeafIrradiance::*quantity, const std::vector<LeafIrradiance>&) const;
-  Rgb blend(const std::vector<Linear>&, const LeafPoint&, const Vec3f& p) const;
+  Rgb blend(const std::vector<Linear>&, const hierarchy::LeafPoint&, const Vec3f& p) const;
 
-  const Elements& elements_;
+  const hierarchy::Elements& elements_;
   const Scene& scene_;
-  const RayTracer& tracer_;
+  const tracing::RayTracer& tracer_;
   std::vector<std::uint32_t> siteOf_;  // per element
   std::vector<Site> sites_;
   // Per site, those that may take part at its points: itself, the joined ones, then from torn_ on those with something
@@ -89,4 +89,4 @@ class IrradianceField {
   std::vector<Linear> direct_, indirect_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -4,7 +4,7 @@
 #include "hierarchy/element.hpp"
 #include "radiosity/leaf_transfers.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 struct LeafIrradiance {
   Rgb direct{0.0f};    // from emitters [W/m2]
@@ -13,6 +13,7 @@ struct LeafIrradiance {
 };
 
 /// What push-pull left at every element; without the particles' light where caustic textures show that.
-std::vector<LeafIrradiance> meshIrradiance(const Elements&, const Caustics&, const LeafTransfers&);
+std::vector<LeafIrradiance> meshIrradiance(const hierarchy::Elements&, const caustics::Caustics&,
+                                           const radiosity::LeafTransfers&);
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -5,7 +5,7 @@
 #include <deltalux/math.hpp>
 #include <deltalux/units.hpp>
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 class LinearFit {
  public:
@@ -52,4 +52,4 @@ class LinearFit {
   RgbSum x_{0.0}, y_{0.0};
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -25,7 +25,7 @@ class MeshPainter {
     image.width = settings_.width, image.height = settings_.height;
     const auto w = static_cast<std::size_t>(image.width), h = static_cast<std::size_t>(image.height);
     image.pixels.resize(w * h);
-    std::vector<ElementId> seen(w * h);
+    std::vector<hierarchy::ElementId> seen(w * h);
     parallelFor(h, 4, [&](std::size_t y) {
       for (std::size_t x = 0; x < w; ++x)
         seen[y * w + x] = look(static_cast<int>(x), static_cast<int>(y), image.pixels[y * w + x]);
@@ -44,44 +44,44 @@ class MeshPainter {
 
  private:
   /// The leaf at a pixel's centre, and its radiance.
-  ElementId look(int x, int y, Rgb& radiance) const {
+  hierarchy::ElementId look(int x, int y, Rgb& radiance) const {
     const ViewRay from = viewRay(view_, (x + 0.5) / settings_.width, (y + 0.5) / settings_.height);
-    Ray ray;
+    tracing::Ray ray;
     ray.origin = Vec3f(from.origin), ray.direction = Vec3f(from.direction);
     for (int pane = 0; pane < kMaxPanes; ++pane) {
-      const Hit hit = s_.tracer->closestHit(ray);
+      const tracing::Hit hit = s_.tracer->closestHit(ray);
       if (!hit) {
         for (const LightId id : lights_.atInfinity()) radiance += lights_.radianceFrom(id, from.direction);
         return {};
       }
       const Vec3f p = hit.position;
       if (isThinGlass(s_.scene.materialOf(hit.primitive))) {
-        ray.origin = offsetOrigin(p, hit.normal, ray.direction);
+        ray.origin = tracing::offsetOrigin(p, hit.normal, ray.direction);
         continue;
       }
       if (const LightId id = lights_.lightOf(hit.primitive); id.valid())
         radiance += lights_.emittedRadiance(id, -from.direction, double(hit.t), hit.front);
-      const ElementId side = locator_.side(hit.primitive, hit.triangle, hit.front);
+      const hierarchy::ElementId side = locator_.side(hit.primitive, hit.triangle, hit.front);
       if (!side.valid()) return {};
-      const ElementId leaf = locator_.locate(side, Vec3(p)).leaf;
+      const hierarchy::ElementId leaf = locator_.locate(side, Vec3(p)).leaf;
       radiance += s_.elements.radiometry[leaf.index()].B * float(1 / kPi);
       return leaf;
     }
     return {};
   }
 
-  void drawLinks(ElementId leaf, Image& image) const {
+  void drawLinks(hierarchy::ElementId leaf, Image& image) const {
     if (!leaf.valid()) return;
     std::vector<char> above(s_.elements.size(), 0);
-    for (ElementId e = leaf; e.valid(); e = s_.elements.at(e).parent) above[e.index()] = 1;
+    for (hierarchy::ElementId e = leaf; e.valid(); e = s_.elements.at(e).parent) above[e.index()] = 1;
     const double brightness = std::exp2(-automaticEv(image));
     const Vec3 from(s_.elements.shape(leaf).center);
-    for (const Link& l : s_.links.all) {
-      if (l.state != LinkState::Active || !above[l.receiver.index()]) continue;
-      const ElementGeometry& g = s_.elements.shape(l.sender);
+    for (const hierarchy::Link& l : s_.links.all) {
+      if (l.state != hierarchy::LinkState::Active || !above[l.receiver.index()]) continue;
+      const hierarchy::ElementGeometry& g = s_.elements.shape(l.sender);
       const bool distant = s_.elements.isDistant(l.sender);
       const Vec3 to = distant ? from + s_.elements.sceneBox.diagonal() * Vec3(g.center) : Vec3(g.center);
-      const float V = l.visibility == Visibility::Clear ? 1.0f : gray(l.V);
+      const float V = l.visibility == hierarchy::Visibility::Clear ? 1.0f : gray(l.V);
       const Rgb color = V >= 0.999f ? Rgb(0, 1, 0) : V > 0 ? Rgb(1, 1, 0) : Rgb(1, 0, 0);
       drawLine(from, to, static_cast<float>(0.5 * brightness) * color, image);
     }
@@ -121,8 +121,8 @@ class MeshPainter {
   const Solution& s_;
   const View& view_;
   const MeshViewSettings& settings_;
-  SideLocator locator_;
-  LightSampler lights_;
+  hierarchy::SideLocator locator_;
+  scene::LightSampler lights_;
 };
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "particles/side_index.hpp"
 #include "solution/solution.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 
@@ -19,7 +19,7 @@ constexpr double kLift = 0.02;       // of the radius, for looking along the sur
 constexpr int kDisc = 128;
 constexpr int kPasses = 3;  // with what is known at the point ever closer
 
-/// Points of the unit disc, even in area. [Vogel 1979]
+/// Points of the unit disc, even in area. [Vogel79]
 const std::array<Vec2, kDisc>& disc() {
   static const std::array<Vec2, kDisc> points = [] {
     std::array<Vec2, kDisc> p;
@@ -61,17 +61,17 @@ bool onSurface(const Shape& shape, const Vec3& q) {
 }  // namespace
 
 ParticleField::ParticleField(const Solution& s) : scene_(s.scene), tracer_(*s.tracer) {
-  const std::vector<Impact> all = impacts(s.particles, s.elements, s.scene);
+  const std::vector<particles::Impact> all = particles::impacts(s.particles, s.elements, s.scene);
   begin_.assign(2 * scene_.primitives.size() + 1, 0);
-  const auto group = [](const Impact& i) { return sideIndex(i.primitive, i.front); };
-  for (const Impact& i : all) ++begin_[group(i) + 1];
+  const auto group = [](const particles::Impact& i) { return particles::sideIndex(i.primitive, i.front); };
+  for (const particles::Impact& i : all) ++begin_[group(i) + 1];
   for (std::size_t g = 1; g < begin_.size(); ++g) begin_[g] += begin_[g - 1];
   landings_.resize(all.size());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
   std::vector<std::uint32_t> place(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) place[i] = next[group(all[i])]++;
   parallelFor(all.size(), 4096, [&](std::size_t i) {
-    const Impact& impact = all[i];
+    const particles::Impact& impact = all[i];
     const Shape& shape = scene_[impact.primitive].shape;
     Vec3 p;
     if (const auto* mesh = std::get_if<Mesh>(&shape)) {
@@ -128,7 +128,7 @@ void ParticleField::search(std::uint32_t begin, std::uint32_t end, Query& q) con
 }
 
 Rgb ParticleField::at(PrimitiveId primitive, bool front, const Vec3& position, const Vec3& normal) const {
-  const std::size_t group = sideIndex(primitive, front);
+  const std::size_t group = particles::sideIndex(primitive, front);
   if (begin_[group] == begin_[group + 1]) return Rgb(0.0f);
   Query q;
   q.primitive = primitive, q.position = position, q.normal = normal;
@@ -147,7 +147,7 @@ Rgb ParticleField::at(PrimitiveId primitive, bool front, const Vec3& position, c
 bool ParticleField::inSight(const Query& q, const Vec3& to) const {
   const double lift = kLift * q.radius;
   const Vec3f from(q.position + lift * q.normal), d = Vec3f(to + lift * q.normal) - from;
-  Ray ray;
+  tracing::Ray ray;
   ray.origin = from;
   ray.tFar = glm::length(d);
   if (!(ray.tFar > 0)) return true;
@@ -283,4 +283,4 @@ Rgb ParticleField::estimate(Query& q, const Surroundings& around) const {
   return Rgb(kept.flux / kept.area);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -16,6 +16,10 @@ namespace deltalux {
 
 struct Solution;
 
+}  // namespace deltalux
+
+namespace deltalux::rendering {
+
 class ParticleField {
  public:
   /// Reads today's fluxes. The solution must outlive this.
@@ -57,9 +61,9 @@ class ParticleField {
   Rgb estimate(Query&, const Surroundings&) const;
 
   const Scene& scene_;
-  const RayTracer& tracer_;
+  const tracing::RayTracer& tracer_;
   std::vector<std::uint32_t> begin_;  // per primitive and side, one more
   std::vector<Landing> landings_;     // implicit kd-trees
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 
@@ -11,8 +11,8 @@ struct Rectangle {
   Vec2 lower, upper;
 };
 
-Rectangle rectangleOf(const Elements& elements, ElementId leaf) {
-  const PatchDomain& d = elements.domain[leaf.index()];
+Rectangle rectangleOf(const hierarchy::Elements& elements, hierarchy::ElementId leaf) {
+  const hierarchy::PatchDomain& d = elements.domain[leaf.index()];
   if (!elements.at(leaf).flat) return {{d.u0, d.v0}, {d.u1, d.v1}};
   Rectangle r{Vec2(kInfinity), Vec2(-kInfinity)};
   for (const Vec2& q : elements.outline(leaf)) r.lower = glm::min(r.lower, q), r.upper = glm::max(r.upper, q);
@@ -31,13 +31,13 @@ float relativeRadius(const Shape& shape, double v) {
   return 1.0f;
 }
 
-PatchSupport::PatchSupport(const Elements& elements, const Scene& scene, ElementId leaf)
+PatchSupport::PatchSupport(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId leaf)
     : flat_(elements.at(leaf).flat) {
   const Rectangle r = rectangleOf(elements, leaf);
   const Vec2 center = 0.5 * (r.lower + r.upper), half = glm::max(0.5 * (r.upper - r.lower), Vec2(1e-12));
-  const PatchDomain& d = elements.domain[leaf.index()];
+  const hierarchy::PatchDomain& d = elements.domain[leaf.index()];
   if (flat_) {
-    const PlaneFrame& f = elements.frames[d.frame];
+    const hierarchy::PlaneFrame& f = elements.frames[d.frame];
     const Vec3 n = glm::cross(f.edgeU, f.edgeV);
     const double squared = std::max(glm::dot(n, n), 1e-300);
     origin_ = Vec3f(f.at(center));
@@ -54,10 +54,10 @@ PatchSupport::PatchSupport(const Elements& elements, const Scene& scene, Element
   dualV_.x = static_cast<float>(1.0 / half.y);
 }
 
-bool PatchSupport::reaches(const Elements& elements, const Scene& scene, ElementId leaf) const {
+bool PatchSupport::reaches(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId leaf) const {
   glm::vec2 lower(std::numeric_limits<float>::infinity()), upper(-lower);
   if (flat_) {
-    const PlaneFrame& f = elements.frames[elements.domain[leaf.index()].frame];
+    const hierarchy::PlaneFrame& f = elements.frames[elements.domain[leaf.index()].frame];
     for (const Vec2& q : elements.outline(leaf)) {
       SupportPoint p;
       p.position = Vec3f(f.at(q));
@@ -66,7 +66,7 @@ bool PatchSupport::reaches(const Elements& elements, const Scene& scene, Element
     }
     return lower.x < kReach && upper.x > -kReach && lower.y < kReach && upper.y > -kReach;
   }
-  const PatchDomain& d = elements.domain[leaf.index()];
+  const hierarchy::PatchDomain& d = elements.domain[leaf.index()];
   const Shape& shape = scene[d.primitive].shape;
   const float smallest = std::min(relativeRadius(shape, d.v0), relativeRadius(shape, d.v1));
   const float um = 0.5f * (d.u0 + d.u1), apart = um - origin_.x;
@@ -75,11 +75,11 @@ bool PatchSupport::reaches(const Elements& elements, const Scene& scene, Element
          (d.v1 - origin_.y) * dualV_.x > -kReach;
 }
 
-BoxF PatchSupport::bounds(const Elements& elements, ElementId leaf) const {
-  const ElementGeometry& g = elements.shape(leaf);
+BoxF PatchSupport::bounds(const hierarchy::Elements& elements, hierarchy::ElementId leaf) const {
+  const hierarchy::ElementGeometry& g = elements.shape(leaf);
   BoxF box;
   if (flat_) {
-    const PlaneFrame& f = elements.frames[elements.domain[leaf.index()].frame];
+    const hierarchy::PlaneFrame& f = elements.frames[elements.domain[leaf.index()].frame];
     const Rectangle r = rectangleOf(elements, leaf);
     const Vec2 half = 0.5 * (r.upper - r.lower);
     for (const double u : {-kReach, kReach})
@@ -92,4 +92,4 @@ BoxF PatchSupport::bounds(const Elements& elements, ElementId leaf) const {
   return {box.lower - slack, box.upper + slack};
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

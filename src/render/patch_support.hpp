@@ -8,7 +8,7 @@
 #include "base/box_tree.hpp"
 #include "hierarchy/element.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 /// A surface point as supports see it. `radius` is that of the primitive's circle through the point, up to a factor
 /// per primitive (curved ones; see relativeRadius).
@@ -24,7 +24,7 @@ float relativeRadius(const Shape&, double v);
 class PatchSupport {
  public:
   PatchSupport() = default;
-  PatchSupport(const Elements&, const Scene&, ElementId leaf);
+  PatchSupport(const hierarchy::Elements&, const Scene&, hierarchy::ElementId leaf);
 
   bool flat() const { return flat_; }
   /// In [0,1]; 0 outside.
@@ -33,9 +33,9 @@ class PatchSupport {
     return falloff(t.x) * falloff(t.y);
   }
   /// Whether a point of `leaf` may have a weight (never missed; may be said of a few that have none).
-  bool reaches(const Elements&, const Scene&, ElementId leaf) const;
+  bool reaches(const hierarchy::Elements&, const Scene&, hierarchy::ElementId leaf) const;
   /// Bounds of all points with a weight.
-  BoxF bounds(const Elements&, ElementId leaf) const;
+  BoxF bounds(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
 
  private:
   static constexpr float kReach = 2.5f;  // in half sizes: weights vanish there
@@ -59,4 +59,4 @@ class PatchSupport {
   bool flat_ = true;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -59,14 +59,14 @@ class LightMeter {
   std::optional<SurfaceSpot> surfaceAt(const ProbePoint& point) const {
     const double reach = kOnSurface * size_;
     const Vec3f n(point.normal);
-    Ray ray;
+    tracing::Ray ray;
     ray.origin = Vec3f(point.position + reach * point.normal);
     ray.direction = -n;
     ray.tFar = static_cast<float>(2 * reach);
     std::optional<SurfaceSpot> best;
     double least = kInfinity;
     for (int layer = 0; layer < kMaxLayers; ++layer) {
-      const Hit hit = tracer_.closestHit(ray);
+      const tracing::Hit hit = tracer_.closestHit(ray);
       if (!hit) break;
       const Vec3 p(hit.position);
       const double away = glm::length(p - point.position);
@@ -75,7 +75,7 @@ class LightMeter {
         least = away;
         best = SurfaceSpot{hit.primitive, hit.triangle, hit.front, p, Vec3(side)};
       }
-      ray.origin = offsetOrigin(Vec3f(p), hit.normal, ray.direction);
+      ray.origin = tracing::offsetOrigin(Vec3f(p), hit.normal, ray.direction);
       ray.tFar -= hit.t;
       if (!(ray.tFar > 0)) break;
     }
@@ -83,16 +83,16 @@ class LightMeter {
   }
 
   ProbeResult onSurface(const SurfaceSpot& spot, std::uint64_t key) const {
-    const ElementId side = reconstruction_.locator.side(spot.primitive, spot.triangle, spot.front);
-    const Receiver receiver{spot.position, spot.normal};
+    const hierarchy::ElementId side = reconstruction_.locator.side(spot.primitive, spot.triangle, spot.front);
+    const radiosity::Receiver receiver{spot.position, spot.normal};
     if (!side.valid()) {
       if (settings_.mesh) return {};
       return reconstruction_.direct.measure(reconstruction_.direct.choiceAt(receiver), receiver, Rgb(0.0f),
                                             settings_.error, settings_.maxSamples, key);
     }
-    const LeafPoint at = reconstruction_.locator.locate(side, spot.position);
+    const hierarchy::LeafPoint at = reconstruction_.locator.locate(side, spot.position);
     if (settings_.mesh) {
-      const ElementLight& l = elements_.radiometry[at.leaf.index()];
+      const hierarchy::ElementLight& l = elements_.radiometry[at.leaf.index()];
       ProbeResult result;
       result.irradiance = RgbSum(l.direct + l.indirect + l.particle);
       return result;
@@ -104,17 +104,18 @@ class LightMeter {
     return result;
   }
 
-  Rgb indirectAt(const LeafPoint& at, const SurfaceSpot& spot) const {
+  Rgb indirectAt(const hierarchy::LeafPoint& at, const SurfaceSpot& spot) const {
     return sampler_.atPoint(at.leaf, Vec3f(spot.position), Vec3f(spot.normal), gatherRays_) + particleLight(spot);
   }
 
   Rgb particleLight(const SurfaceSpot& spot) const {
-    const auto caustic = causticLight(caustics_, scene_, spot.primitive, spot.triangle, spot.front, spot.position);
+    const auto caustic =
+        rendering::causticLight(caustics_, scene_, spot.primitive, spot.triangle, spot.front, spot.position);
     return caustic ? *caustic : particles_.at(spot.primitive, spot.front, spot.position, spot.normal);
   }
 
   ProbeResult inFreeSpace(const ProbePoint& point, std::uint64_t key) const {
-    const Receiver receiver{point.position, point.normal};
+    const radiosity::Receiver receiver{point.position, point.normal};
     const ProbeResult gathered = gather(receiver, combineKeys(key, 1));
     ProbeResult result =
         reconstruction_.direct.measure(reconstruction_.direct.choiceAt(receiver), receiver, Rgb(gathered.irradiance),
@@ -127,11 +128,11 @@ class LightMeter {
   }
 
   /// Light from surfaces: cosine-distributed rays read what they see.
-  ProbeResult gather(const Receiver& x, std::uint64_t key) const {
+  ProbeResult gather(const radiosity::Receiver& x, std::uint64_t key) const {
     ProbeResult result;
     const Frame frame(x.normal);
     RgbSum sum(0.0), squares(0.0);
-    Sights sights(elements_, reconstruction_);
+    rendering::Sights sights(elements_, reconstruction_);
     int batches = 0;
     while (batches < kFirstBatches ||
            result.samples + kGatherBatch <= static_cast<std::uint64_t>(settings_.maxSamples)) {
@@ -139,7 +140,7 @@ class LightMeter {
       const std::uint64_t own = combineKeys(key, batches);
       for (std::uint32_t i = 0; i < kGatherBatch; ++i) {
         const UnitPair u = scrambledSobol(i, own);
-        EyeRay eye;
+        rendering::EyeRay eye;
         eye.ray.origin = Vec3f(x.position);
         eye.ray.direction = Vec3f(cosineDirection(frame, u.x, u.y));
         eye.emitters = false;  // lights in plain view are measured apart
@@ -162,14 +163,14 @@ class LightMeter {
   }
 
   const Scene& scene_;
-  const Elements& elements_;
-  const Caustics& caustics_;
-  const RayTracer& tracer_;
+  const hierarchy::Elements& elements_;
+  const caustics::Caustics& caustics_;
+  const tracing::RayTracer& tracer_;
   const ProbeSettings& settings_;
-  Reconstruction reconstruction_;
-  EyePaths paths_;
-  ParticleField particles_;
-  IndirectSampler sampler_;
+  rendering::Reconstruction reconstruction_;
+  rendering::EyePaths paths_;
+  rendering::ParticleField particles_;
+  radiosity::IndirectSampler sampler_;
   double size_;
   int gatherRays_;
 };
@@ -181,7 +182,7 @@ std::vector<ProbeResult> probe(const SolutionView& solution, std::span<const Pro
   DELTALUX_CHECK(settings.error > 0 && settings.error < 1, "the error is a fraction between 0 and 1");
   const LightMeter meter(solution.get(), settings);
   std::vector<ProbeResult> results(points.size());
-  WorkProgress work(progress, "probe", points.size());
+  rendering::WorkProgress work(progress, "probe", points.size());
   parallelFor(points.size(), 1, [&](std::size_t i) {
     work.begin();
     results[i] = meter.measure(points[i], combineKeys(settings.seed, i));

@@ -2,7 +2,7 @@
 
 #include "solution/solution.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 constexpr float kNoise = 2.0f;  // of leaves, times the error that was asked for
@@ -15,4 +15,4 @@ Reconstruction::Reconstruction(const Solution& s)
       direct(s.scene, s.elements, s.links, *s.tracer),
       choices(direct, s.elements.size()) {}
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -13,39 +13,43 @@ namespace deltalux {
 
 struct Solution;
 
+}  // namespace deltalux
+
+namespace deltalux::rendering {
+
 /// Sender choices of the leaves that were met, each made once, whichever thread comes first.
 class ChoiceCache {
  public:
-  ChoiceCache(const DirectLight& direct, std::size_t elements) : direct_(direct), choices_(elements) {}
+  ChoiceCache(const radiosity::DirectLight& direct, std::size_t elements) : direct_(direct), choices_(elements) {}
   ~ChoiceCache() {
     for (auto& c : choices_) delete c.load();
   }
   ChoiceCache(const ChoiceCache&) = delete;
   ChoiceCache& operator=(const ChoiceCache&) = delete;
 
-  const SenderChoice& at(ElementId leaf) const {
+  const radiosity::SenderChoice& at(hierarchy::ElementId leaf) const {
     auto& place = choices_[leaf.index()];
-    if (const SenderChoice* known = place.load(std::memory_order_acquire)) return *known;
-    auto made = std::make_unique<SenderChoice>(direct_.choiceAt(leaf));
-    const SenderChoice* expected = nullptr;
+    if (const radiosity::SenderChoice* known = place.load(std::memory_order_acquire)) return *known;
+    auto made = std::make_unique<radiosity::SenderChoice>(direct_.choiceAt(leaf));
+    const radiosity::SenderChoice* expected = nullptr;
     // Choices depend on the leaf alone: when two threads make one, either serves.
     if (place.compare_exchange_strong(expected, made.get(), std::memory_order_acq_rel)) return *made.release();
     return *expected;
   }
 
  private:
-  const DirectLight& direct_;
-  mutable std::vector<std::atomic<const SenderChoice*>> choices_;
+  const radiosity::DirectLight& direct_;
+  mutable std::vector<std::atomic<const radiosity::SenderChoice*>> choices_;
 };
 
 struct Reconstruction {
   /// The solution must outlive this.
   explicit Reconstruction(const Solution&);
 
-  SideLocator locator;
+  hierarchy::SideLocator locator;
   IrradianceField field;
-  DirectLight direct;
+  radiosity::DirectLight direct;
   ChoiceCache choices;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

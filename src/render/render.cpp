@@ -35,7 +35,7 @@ class Painter {
   /// Looks around first, then at every pixel.
   void paint(Image& image, int x0, int y0) const {
     const int x1 = std::min(x0 + kTile, image.width), y1 = std::min(y0 + kTile, image.height);
-    Sights sights(elements_, reconstruction_);
+    rendering::Sights sights(elements_, reconstruction_);
     if (!settings_.meshDirect) {
       const std::uint64_t key = combineKeys(settings_.seed, kSurveyKey);
       for (int y = y0; y < y1; ++y)
@@ -49,7 +49,7 @@ class Painter {
   }
 
  private:
-  Rgb pixel(const Image& image, int x, int y, Sights& sights) const {
+  Rgb pixel(const Image& image, int x, int y, rendering::Sights& sights) const {
     const auto samples = static_cast<std::uint32_t>(settings_.samplesPerPixel);
     RgbSum sum(0.0);
     for (std::uint32_t s = 0; s < samples; ++s)
@@ -57,10 +57,10 @@ class Painter {
     return Rgb(sum / double(samples));
   }
 
-  EyeRay eyeRay(const Image& image, int x, int y, std::uint32_t index, std::uint64_t key) const {
+  rendering::EyeRay eyeRay(const Image& image, int x, int y, std::uint32_t index, std::uint64_t key) const {
     const UnitPair u = scrambledSobol(index, key);
     const ViewRay from = viewRay(view_, (x + u.x) / image.width, (y + u.y) / image.height);
-    EyeRay eye;
+    rendering::EyeRay eye;
     eye.ray.origin = Vec3f(from.origin);
     eye.ray.direction = Vec3f(from.direction);
     eye.key = key;
@@ -68,11 +68,11 @@ class Painter {
     return eye;
   }
 
-  const Elements& elements_;
+  const hierarchy::Elements& elements_;
   const View& view_;
   const RenderSettings& settings_;
-  Reconstruction reconstruction_;
-  EyePaths paths_;
+  rendering::Reconstruction reconstruction_;
+  rendering::EyePaths paths_;
 };
 
 }  // namespace
@@ -86,7 +86,7 @@ Image render(const SolutionView& solution, const View& view, const RenderSetting
   const Painter painter(solution.get(), view, settings);
   const int across = (image.width + kTile - 1) / kTile, down = (image.height + kTile - 1) / kTile;
   const auto tiles = static_cast<std::size_t>(across) * static_cast<std::size_t>(down);
-  WorkProgress work(progress, "render", tiles);
+  rendering::WorkProgress work(progress, "render", tiles);
   parallelFor(tiles, 1, [&](std::size_t t) {
     work.begin();
     painter.paint(image, static_cast<int>(t % across) * kTile, static_cast<int>(t / across) * kTile);

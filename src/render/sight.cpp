@@ -5,7 +5,7 @@
 
 #include "base/morton.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 
@@ -20,25 +20,26 @@ constexpr float kFaintShare = 1e-3f;     // of all rays: squares that get fewer 
 constexpr int kFewestRays = 256;         // to learn from
 
 /// Senders side by side stand side by side; cells of a sky along a curve that fills it.
-std::pair<std::uint32_t, std::uint64_t> placeInOrder(const Elements& elements, ElementId e) {
+std::pair<std::uint32_t, std::uint64_t> placeInOrder(const hierarchy::Elements& elements, hierarchy::ElementId e) {
   if (!elements.isDistant(e)) return {0, e.value};
-  const PatchDomain& d = elements.domain[e.index()];
+  const hierarchy::PatchDomain& d = elements.domain[e.index()];
   const auto bits = [](float x) { return static_cast<std::uint32_t>(static_cast<double>(x) * 0x1p30); };
   return {1 + elements.light[e.index()].value, morton(bits(d.u0), bits(d.v0))};
 }
 
 }  // namespace
 
-Sight::Sight(const Elements& elements, const SenderChoice& choice) : Sight(elements, std::array{&choice}) {}
+Sight::Sight(const hierarchy::Elements& elements, const radiosity::SenderChoice& choice)
+    : Sight(elements, std::array{&choice}) {}
 
-Sight::Sight(const Elements& elements, std::span<const SenderChoice* const> choices) {
-  const auto add = [&](const SenderList& list, float scale) {
+Sight::Sight(const hierarchy::Elements& elements, std::span<const radiosity::SenderChoice* const> choices) {
+  const auto add = [&](const radiosity::SenderList& list, float scale) {
     for (std::size_t i = 0; i < list.senders.size(); ++i) {
       const float share = scale * (list.cumulative[i] - (i > 0 ? list.cumulative[i - 1] : 0.0f));
       if (share > 0) squares_.push_back({list.senders[i], Vec2(0.0), 1.0, share, share});
     }
   };
-  for (const SenderChoice* choice : choices) {
+  for (const radiosity::SenderChoice* choice : choices) {
     add(choice->seen, 1.0f);
     const float seen = choice->seen.total(), unseen = choice->unseen.total();
     add(choice->unseen, seen > 0 && unseen > 0 ? kUnseenShare / (1 - kUnseenShare) * seen / unseen : 1.0f);
@@ -52,8 +53,8 @@ Sight::Sight(const Elements& elements, std::span<const SenderChoice* const> choi
   sumShares();
 }
 
-Sight Sight::of(const SenderChoice& choice) const {
-  std::vector<ElementId> senders = choice.seen.senders;
+Sight Sight::of(const radiosity::SenderChoice& choice) const {
+  std::vector<hierarchy::ElementId> senders = choice.seen.senders;
   senders.insert(senders.end(), choice.unseen.senders.begin(), choice.unseen.senders.end());
   std::sort(senders.begin(), senders.end());
   Sight part;
@@ -86,7 +87,8 @@ std::size_t Sight::indexAt(float part) const {
   return static_cast<std::size_t>(it - cumulative_.begin());
 }
 
-void Sight::learn(const DirectLight& direct, std::span<const Receiver> places, int rays, std::uint64_t key) {
+void Sight::learn(const radiosity::DirectLight& direct, std::span<const radiosity::Receiver> places, int rays,
+                  std::uint64_t key) {
   std::vector<Look> looks;
   for (int round = 0; round < kRounds && !dark(); ++round) {
     look(direct, places, rays / kRounds, combineKeys(key, round), looks);
@@ -94,15 +96,15 @@ void Sight::learn(const DirectLight& direct, std::span<const Receiver> places, i
   }
 }
 
-void Sight::look(const DirectLight& direct, std::span<const Receiver> places, int rays, std::uint64_t key,
-                 std::vector<Look>& looks) const {
+void Sight::look(const radiosity::DirectLight& direct, std::span<const radiosity::Receiver> places, int rays,
+                 std::uint64_t key, std::vector<Look>& looks) const {
   const double shift = toUnit(mix64(key));
   for (int k = 0; k < rays; ++k) {
     const std::size_t index = indexAt(static_cast<float>((k + shift) / rays));
     const Square& square = squares_[index];
     const auto i = static_cast<std::uint32_t>(k);
     const Vec2 u = square.at(scrambledSobol(i, combineKeys(key, 1)));
-    const Receiver& x =
+    const radiosity::Receiver& x =
         places[static_cast<std::size_t>(scrambledSobol(i, combineKeys(key, 2)).x * double(places.size()))];
     const auto arrival = direct.arrival(square.sender, x, u);
     const float E = arrival ? static_cast<float>(glm::dot(arrival->direction, x.normal)) * gray(arrival->E) : 0.0f;
@@ -169,7 +171,7 @@ void Sight::divide(const Square& square, std::span<Look> looks, std::vector<Squa
 }
 
 /// Alike for all leaves of it.
-std::uint64_t Sights::sideOf(ElementId leaf) const {
+std::uint64_t Sights::sideOf(hierarchy::ElementId leaf) const {
   return 2 * std::uint64_t(elements_.domain[leaf.index()].primitive.value) + (elements_.at(leaf).front ? 1 : 0);
 }
 
@@ -187,9 +189,9 @@ void Sights::learn(int raysOfPlace, std::uint64_t key) {
 }
 
 void Sights::learn(std::span<const Place> ofSide, int rays, std::uint64_t key) {
-  std::vector<ElementId> leaves;
-  std::vector<const SenderChoice*> choices;
-  std::vector<Receiver> places;
+  std::vector<hierarchy::ElementId> leaves;
+  std::vector<const radiosity::SenderChoice*> choices;
+  std::vector<radiosity::Receiver> places;
   for (const Place& p : ofSide) {
     places.push_back(p.at);
     if (!leaves.empty() && leaves.back() == p.leaf) continue;
@@ -200,9 +202,9 @@ void Sights::learn(std::span<const Place> ofSide, int rays, std::uint64_t key) {
   for (std::size_t i = 0; i < leaves.size(); ++i) known_.emplace(leaves[i], all.of(*choices[i]));
 }
 
-const Sight& Sights::at(ElementId leaf) {
+const Sight& Sights::at(hierarchy::ElementId leaf) {
   if (const auto found = known_.find(leaf); found != known_.end()) return found->second;
   return known_.emplace(leaf, Sight(elements_, reconstruction_.choices.at(leaf))).first->second;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -17,26 +17,26 @@
 #include "radiosity/direct_light.hpp"
 #include "render/reconstruction.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 class Sight {
  public:
   /// As the choice of a leaf has it, in whole senders.
-  Sight(const Elements&, const SenderChoice&);
+  Sight(const hierarchy::Elements&, const radiosity::SenderChoice&);
   /// To learn from, for several leaves at once: as the choice of any of them has it.
-  Sight(const Elements&, std::span<const SenderChoice* const>);
+  Sight(const hierarchy::Elements&, std::span<const radiosity::SenderChoice* const>);
   /// Of its senders, those of one leaf.
-  Sight of(const SenderChoice&) const;
+  Sight of(const radiosity::SenderChoice&) const;
 
   /// Learns by `rays` shadow rays from these places.
-  void learn(const DirectLight&, std::span<const Receiver> places, int rays, std::uint64_t key);
+  void learn(const radiosity::DirectLight&, std::span<const radiosity::Receiver> places, int rays, std::uint64_t key);
 
   bool dark() const { return !(total() > 0); }
   /// visit(LightArrival) for each of `rays` shadow rays that is not blocked: the sum of all of them is the estimate.
   /// `index` and `key` name the stratified numbers to use.
   template <class Visit>
-  void sample(const DirectLight& direct, const Receiver& x, int rays, std::uint32_t index, std::uint64_t key,
-              const Visit& visit) const {
+  void sample(const radiosity::DirectLight& direct, const radiosity::Receiver& x, int rays, std::uint32_t index,
+              std::uint64_t key, const Visit& visit) const {
     if (dark()) return;
     const double shift = scrambledSobol(index, combineKeys(key, 1)).x;
     for (int k = 0; k < rays; ++k) {
@@ -55,7 +55,7 @@ class Sight {
 
   /// A part of a sender's unit square.
   struct Square {
-    ElementId sender;
+    hierarchy::ElementId sender;
     Vec2 lower{0};
     double size = 1;
     float guess = 0;     // of its strength, before any ray looked at the square alone
@@ -76,7 +76,7 @@ class Sight {
   const Square& squareAt(float part) const { return squares_[indexAt(part)]; }
   void limitBrightest();
   void sumShares();
-  void look(const DirectLight&, std::span<const Receiver> places, int rays, std::uint64_t key,
+  void look(const radiosity::DirectLight&, std::span<const radiosity::Receiver> places, int rays, std::uint64_t key,
             std::vector<Look>&) const;
   void judge(std::vector<Look>&);
   static bool uneven(const Square&, std::span<const Look>);
@@ -91,26 +91,26 @@ class Sight {
 class Sights {
  public:
   /// Both must outlive this.
-  Sights(const Elements& elements, const Reconstruction& reconstruction)
+  Sights(const hierarchy::Elements& elements, const Reconstruction& reconstruction)
       : elements_(elements), reconstruction_(reconstruction) {}
 
-  void note(ElementId leaf, const Receiver& place) { places_.push_back({leaf, place}); }
+  void note(hierarchy::ElementId leaf, const radiosity::Receiver& place) { places_.push_back({leaf, place}); }
   /// By so many rays a place that was noted.
   void learn(int raysOfPlace, std::uint64_t key);
-  const Sight& at(ElementId leaf);
+  const Sight& at(hierarchy::ElementId leaf);
 
  private:
-  const Elements& elements_;
+  const hierarchy::Elements& elements_;
   const Reconstruction& reconstruction_;
   struct Place {
-    ElementId leaf;
-    Receiver at;
+    hierarchy::ElementId leaf;
+    radiosity::Receiver at;
   };
   std::vector<Place> places_;
-  std::unordered_map<ElementId, Sight> known_;
+  std::unordered_map<hierarchy::ElementId, Sight> known_;
 
-  std::uint64_t sideOf(ElementId leaf) const;
+  std::uint64_t sideOf(hierarchy::ElementId leaf) const;
   void learn(std::span<const Place> ofSide, int rays, std::uint64_t key);
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -21,7 +21,7 @@ std::string fitForFile(std::string name) {
   return name.empty() ? "surface" : name;
 }
 
-Image imageOf(const CausticTexture& t) {
+Image imageOf(const caustics::CausticTexture& t) {
   Image image;
   image.width = t.width, image.height = t.height;
   for (int y = t.height - 1; y >= 0; --y)
@@ -57,7 +57,7 @@ void paste(DisplayImage& sheet, int left, int top, int size, const Image& image)
 std::vector<TextureImage> textureImages(const SolutionView& view) {
   const Solution& s = view.get();
   std::vector<TextureImage> images;
-  for (const SurfaceCaustics& surface : s.caustics.surfaces) {
+  for (const caustics::SurfaceCaustics& surface : s.caustics.surfaces) {
     const ObjectId object = s.scene[surface.primitive].object;
     const std::string name = fitForFile(object.valid() ? s.scene[object].name : "") + "-" +
                              std::to_string(surface.primitive.index()) + (surface.front ? "" : "-back");

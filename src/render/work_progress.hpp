@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string_view>
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 class WorkProgress {
  public:
@@ -31,4 +31,4 @@ class WorkProgress {
   std::size_t done_ = 0;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

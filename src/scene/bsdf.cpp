@@ -4,7 +4,7 @@
 #include "scene/bsdf_ggx.hpp"
 #include "scene/bsdf_ward.hpp"
 
-namespace deltalux {
+namespace deltalux::scene {
 
 namespace {
 
@@ -188,4 +188,4 @@ std::optional<std::array<BsdfSample, 2>> bothWays(const Bsdf& bsdf, const Vec3& 
   return std::array{diracSample(bsdf, c, wo, ScatterEvent::MirrorReflection), diracSample(bsdf, c, wo, onward)};
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -12,7 +12,7 @@
 #include <deltalux/material.hpp>
 #include <optional>
 
-namespace deltalux {
+namespace deltalux::scene {
 
 /// What a material does on one of its sides. `ior` is the medium's behind over the one before the surface.
 struct Bsdf {
@@ -65,4 +65,4 @@ std::optional<std::array<BsdfSample, 2>> bothWays(const Bsdf&, const Vec3& wo);
 /// Reflectance of the perfect-mirror part at `cosIncidence` > 0: mirrors, panes, polished lobes, dielectrics.
 Rgb mirrorReflectance(const Bsdf&, double cosIncidence);
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

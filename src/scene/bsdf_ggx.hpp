@@ -1,11 +1,11 @@
 #pragma once
 // GGX with Smith's height-correlated masking, sampled by visible normals.
-// [Walter et al. 2007; Heitz 2014; DB23: Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps"]
+// [WMLT07; Heitz14; DB23]
 #include <deltalux/math.hpp>
 
 #include "base/unit_circle.hpp"
 
-namespace deltalux::ggx {
+namespace deltalux::scene::ggx {
 
 /// Smith's Lambda: G1 = 1 / (1 + Lambda).
 inline double lambda(double alpha, const Vec3& w) {
@@ -42,4 +42,4 @@ inline Vec3 sample(double alpha, const Vec3& wo, const Vec2& u) {
   return 2.0 * glm::dot(wo, h) * h - wo;
 }
 
-}  // namespace deltalux::ggx
+}  // namespace deltalux::scene::ggx

@@ -3,7 +3,7 @@
 #include "base/unit_circle.hpp"
 #include "scene/shape_kinds.hpp"
 
-namespace deltalux::kinds {
+namespace deltalux::scene::kinds {
 
 double area(const Cone& c) {
   return kPi * (c.radius0 + c.radius1) * std::hypot(glm::distance(c.p0, c.p1), c.radius1 - c.radius0);
@@ -51,4 +51,4 @@ std::optional<Shape> transformed(const Cone& c, const ShapeMap& map) {
   return Cone{map.point(c.p0), map.point(c.p1), *map.scale * c.radius0, *map.scale * c.radius1, c.inward};
 }
 
-}  // namespace deltalux::kinds
+}  // namespace deltalux::scene::kinds

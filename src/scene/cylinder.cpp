@@ -3,7 +3,7 @@
 #include "base/unit_circle.hpp"
 #include "scene/shape_kinds.hpp"
 
-namespace deltalux::kinds {
+namespace deltalux::scene::kinds {
 
 double area(const Cylinder& c) { return 2 * kPi * c.radius * glm::distance(c.p0, c.p1); }
 
@@ -37,4 +37,4 @@ std::optional<Shape> transformed(const Cylinder& c, const ShapeMap& map) {
   return Cylinder{map.point(c.p0), map.point(c.p1), *map.scale * c.radius, c.inward};
 }
 
-}  // namespace deltalux::kinds
+}  // namespace deltalux::scene::kinds

@@ -1,6 +1,6 @@
 #include "scene/diffuse_only.hpp"
 
-namespace deltalux {
+namespace deltalux::scene {
 
 namespace {
 void drop(Opaque& s) { s.specular.reflectance = Rgb(0.0f); }
@@ -22,4 +22,4 @@ void dropSpeculars(Scene& scene) {
   }
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -7,7 +7,7 @@
 #include "base/unit_circle.hpp"
 #include "scene/light_sampling_triangle.hpp"
 
-namespace deltalux {
+namespace deltalux::scene {
 
 namespace {
 
@@ -271,7 +271,7 @@ double LightSampler::pdf(LightId id, const Vec3& from, const Vec3& direction, do
 
 Rgb LightSampler::emittedRadiance(LightId id, const Vec3& direction, double distance, bool front) const {
   const Emission& emission = *emissionOf(scene_, std::get<AreaLight>(scene_[id].emitter).primitive);
-  return scaleOf(id) * deltalux::emittedRadiance(emission, direction, distance, front);
+  return scaleOf(id) * deltalux::scene::emittedRadiance(emission, direction, distance, front);
 }
 
 Rgb LightSampler::radianceFrom(LightId id, const Vec3& towards) const {
@@ -283,4 +283,4 @@ Rgb LightSampler::radianceFrom(LightId id, const Vec3& towards) const {
   return 0.5 * glm::dot(d, d) <= sunDepth(sun) ? sun.radiance * scaleOf(id) : Rgb(0.0f);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

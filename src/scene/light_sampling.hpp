@@ -6,7 +6,7 @@
 // an importance table; point-like lights have one direction and no density. Shadows are the caller's.
 //
 // A spotlight of area A shines only within its cone, and its radiance depends on the distance d to what it lights
-// first, L (d / (d + |direction|))^2, so that E = L A cos cos' / (d + |direction|)^2. [conventions.md]
+// first, L (d / (d + |direction|))^2, so that E = L A cos cos' / (d + |direction|)^2. [Radiance, spotlight]
 #include <deltalux/scene.hpp>
 #include <memory>
 #include <optional>
@@ -15,7 +15,7 @@
 
 #include "scene/light_sampling_dome.hpp"
 
-namespace deltalux {
+namespace deltalux::scene {
 
 struct LightSample {
   Vec3 direction;       // unit, from the point to the light
@@ -97,4 +97,4 @@ class LightSampler {
   std::vector<LightId> atInfinity_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

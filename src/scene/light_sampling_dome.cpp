@@ -4,7 +4,7 @@
 
 #include "base/unit_circle.hpp"
 
-namespace deltalux {
+namespace deltalux::scene {
 
 namespace {
 constexpr int kLooks = 3;               // per cell and dimension, when the table is made
@@ -57,4 +57,4 @@ double DomeTable::pdf(const Vec3& towards) const {
   return chance * kRings * kSectors / (2.0 * kPi * depth_);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -4,7 +4,7 @@
 #include <deltalux/light.hpp>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::scene {
 
 class DomeTable {
  public:
@@ -29,4 +29,4 @@ class DomeTable {
   std::vector<double> cumulative_;  // of the cells' chances, kRings * kSectors
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -1,10 +1,10 @@
 #pragma once
 // Triangles seen from a point: their solid angle, and directions uniform in it.
-// [OS83: van Oosterom and Strackee 1983; Arvo95: Arvo 1995, "Stratified Sampling of Spherical Triangles"]
+// [OS83; Arvo95]
 #include <algorithm>
 #include <deltalux/math.hpp>
 
-namespace deltalux {
+namespace deltalux::scene {
 
 /// Solid angle of the triangle of unit directions a, b, c [sr], in [0, 2 pi].
 inline double sphericalTriangleArea(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -31,4 +31,4 @@ inline Vec3 sampleSphericalTriangle(const Vec3& a, const Vec3& b, const Vec3& c,
   return glm::normalize(z * b + std::sqrt(std::max(0.0, 1.0 - z * z)) * orthogonal(onEdge, b));
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -57,7 +57,7 @@ SurfacePoint surfacePoint(const Mesh& m, const TrianglePoint& p, Vec2 uv) {
           static_cast<std::uint32_t>(p.triangle)};
 }
 
-/// Weights of the point of the triangle nearest to `p`, by its Voronoi regions. [Ericson 2005, 5.1.5]
+/// Weights of the point of the triangle nearest to `p`, by its Voronoi regions. [Ericson05 5.1.5]
 Vec2 nearestWeights(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
@@ -98,6 +98,10 @@ std::optional<Mesh> makeMesh(std::vector<Vec3> positions, std::vector<std::array
   if (m.triangles.empty() || !std::isfinite(total)) return std::nullopt;
   return m;
 }
+
+}  // namespace deltalux
+
+namespace deltalux::scene {
 
 namespace kinds {
 
@@ -160,4 +164,4 @@ std::optional<Shape> transformed(const Mesh& m, const ShapeMap& map) {
 
 }  // namespace kinds
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

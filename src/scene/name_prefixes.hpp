@@ -1,7 +1,7 @@
 #pragma once
 #include <string_view>
 
-namespace deltalux {
+namespace deltalux::scene {
 
 /// Calls `visit` with every prefix of `name` that ends before a separator, shortest first, and then with `name` itself.
 /// Empty parts make no prefix of their own: "a..b" has "a" and "a..b".
@@ -13,4 +13,4 @@ void forEachPrefix(std::string_view name, char separator, Visit&& visit) {
   visit(name);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -9,7 +9,7 @@ namespace deltalux {
 
 namespace {
 
-/// Levenshtein distance [Levenshtein 1966], by rows.
+/// Levenshtein distance [Levenshtein66], by rows.
 std::size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

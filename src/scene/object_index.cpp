@@ -2,7 +2,7 @@
 
 #include "scene/name_prefixes.hpp"
 
-namespace deltalux {
+namespace deltalux::scene {
 
 ObjectIndex::ObjectIndex(Scene& scene) : scene_(scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) byName_.emplace(scene.objects[i].name, ObjectId(i));
@@ -23,4 +23,4 @@ ObjectId ObjectIndex::findOrMake(std::string_view name, ObjectId parent) {
   return made;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <unordered_map>
 
-namespace deltalux {
+namespace deltalux::scene {
 
 class ObjectIndex {
  public:
@@ -26,4 +26,4 @@ class ObjectIndex {
   std::unordered_map<std::string, ObjectId, Hash, std::equal_to<>> byName_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace deltalux {
+namespace deltalux::scene {
 
 namespace {
 
@@ -99,4 +99,4 @@ std::vector<Indices> outlineLoops(std::span<const Vec2> outline) {
   return loops;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

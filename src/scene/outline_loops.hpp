@@ -11,10 +11,10 @@
 #include <span>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::scene {
 
 /// Closed walks (indices into `outline`, which is counter-clockwise) over all edges, each free of crossings at its
 /// repeated points: one, unless the outline only touches itself there. The outline as it is, when that cannot be had.
 std::vector<std::vector<std::uint32_t>> outlineLoops(std::span<const Vec2> outline);
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -30,7 +30,7 @@ void dropRepeatedVertices(std::vector<Vec3>& vertices) {
   while (vertices.size() > 1 && same(vertices.front(), vertices.back())) vertices.pop_back();
 }
 
-/// Area times normal, from coordinates relative to the first vertex. [Newell; Sutherland, Sproull, Schumacker 1974]
+/// Area times normal, from coordinates relative to the first vertex. [SSS74]
 Vec3 newellVector(const std::vector<Vec3>& vertices) {
   Vec3 sum(0);
   for (std::size_t i = 1; i + 1 < vertices.size(); ++i)
@@ -114,7 +114,7 @@ void fillTables(Polygon& p) {
   p.dualU = glm::cross(p.edgeV, cross) / squared;
   p.dualV = glm::cross(cross, p.edgeU) / squared;
   p.outline.clear(), p.cumulativeArea.clear(), p.area = 0;
-  for (const Vec3& v : p.vertices) p.outline.push_back(kinds::parameterAt(p, v));
+  for (const Vec3& v : p.vertices) p.outline.push_back(scene::kinds::parameterAt(p, v));
   for (const auto& [a, b, c] : p.triangles) {
     p.area += 0.5 * glm::length(glm::cross(p.vertices[b] - p.vertices[a], p.vertices[c] - p.vertices[a]));
     p.cumulativeArea.push_back(p.area);
@@ -135,13 +135,17 @@ std::optional<Polygon> makePolygon(std::vector<Vec3> vertices) {
   Polygon p;
   p.vertices = std::move(vertices);
   p.normal = *normal;
-  p.triangles = triangulate(flatOutline(p.vertices, p.normal));
+  p.triangles = scene::triangulate(flatOutline(p.vertices, p.normal));
   if (p.triangles.empty()) return std::nullopt;
   p.fillsFrame = frameParallelogram(p);
   if (!p.fillsFrame) frameRectangle(p);
   fillTables(p);
   return p;
 }
+
+}  // namespace deltalux
+
+namespace deltalux::scene {
 
 namespace kinds {
 
@@ -201,4 +205,4 @@ std::optional<Shape> transformed(const Polygon& p, const ShapeMap& map) {
 
 }  // namespace kinds
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

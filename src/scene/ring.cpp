@@ -3,7 +3,7 @@
 #include "base/unit_circle.hpp"
 #include "scene/shape_kinds.hpp"
 
-namespace deltalux::kinds {
+namespace deltalux::scene::kinds {
 
 namespace {
 double square(double x) { return x * x; }
@@ -36,4 +36,4 @@ std::optional<Shape> transformed(const Ring& r, const ShapeMap& map) {
               *map.scale * r.outerRadius};
 }
 
-}  // namespace deltalux::kinds
+}  // namespace deltalux::scene::kinds

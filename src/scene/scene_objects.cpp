@@ -24,7 +24,7 @@ std::string_view lastPathPart(std::string_view path) {
 ObjectId internObject(Scene& scene, std::string_view name, char separator) {
   if (const ObjectId known = objectOfName(scene, name); known.valid()) return known;
   ObjectId parent;
-  forEachPrefix(name, separator, [&](std::string_view prefix) {
+  scene::forEachPrefix(name, separator, [&](std::string_view prefix) {
     ObjectId object = objectOfName(scene, prefix);
     if (!object.valid()) {
       object = ObjectId(scene.objects.size());

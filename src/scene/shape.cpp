@@ -7,42 +7,42 @@
 namespace deltalux {
 
 double area(const Shape& shape) {
-  return std::visit([](const auto& s) { return kinds::area(s); }, shape);
+  return std::visit([](const auto& s) { return scene::kinds::area(s); }, shape);
 }
 
 Box bounds(const Shape& shape) {
-  return std::visit([](const auto& s) { return kinds::bounds(s); }, shape);
+  return std::visit([](const auto& s) { return scene::kinds::bounds(s); }, shape);
 }
 
 SurfacePoint pointAt(const Shape& shape, Vec2 uv) {
-  return std::visit([&](const auto& s) { return kinds::pointAt(s, uv); }, shape);
+  return std::visit([&](const auto& s) { return scene::kinds::pointAt(s, uv); }, shape);
 }
 
 Vec2 parameterAt(const Shape& shape, const Vec3& p, std::uint32_t triangle) {
   return std::visit(
       [&]<class Kind>(const Kind& s) {
         if constexpr (std::is_same_v<Kind, Mesh>)
-          return kinds::parameterAt(s, p, triangle);
+          return scene::kinds::parameterAt(s, p, triangle);
         else
-          return kinds::parameterAt(s, p);
+          return scene::kinds::parameterAt(s, p);
       },
       shape);
 }
 
 bool covers(const Shape& shape, Vec2 uv) {
   if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return false;
-  if (const auto* polygon = std::get_if<Polygon>(&shape)) return kinds::covers(*polygon, uv);
-  if (const auto* mesh = std::get_if<Mesh>(&shape)) return kinds::covers(*mesh, uv);
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) return scene::kinds::covers(*polygon, uv);
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) return scene::kinds::covers(*mesh, uv);
   return true;
 }
 
 SurfacePoint samplePoint(const Shape& shape, Vec2 uniform) {
-  return std::visit([&](const auto& s) { return kinds::samplePoint(s, uniform); }, shape);
+  return std::visit([&](const auto& s) { return scene::kinds::samplePoint(s, uniform); }, shape);
 }
 
 std::optional<Shape> transformed(const Shape& shape, const Mat4& matrix) {
-  const kinds::ShapeMap map(matrix);
-  return std::visit([&](const auto& s) { return kinds::transformed(s, map); }, shape);
+  const scene::kinds::ShapeMap map(matrix);
+  return std::visit([&](const auto& s) { return scene::kinds::transformed(s, map); }, shape);
 }
 
 std::size_t tessellatedPolygonCount(const Shape& shape) {
@@ -52,6 +52,10 @@ std::size_t tessellatedPolygonCount(const Shape& shape) {
   if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->triangles.size();
   return around;
 }
+
+}  // namespace deltalux
+
+namespace deltalux::scene {
 
 namespace kinds {
 
@@ -93,4 +97,4 @@ Vec2 uniformInTriangle(Vec2 uniform) {
 
 }  // namespace kinds
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -2,7 +2,7 @@
 // The functions of deltalux/shape.hpp, kind by kind: one file per kind, joined in shape.cpp.
 #include <deltalux/shape.hpp>
 
-namespace deltalux::kinds {
+namespace deltalux::scene::kinds {
 
 double area(const Polygon&);
 double area(const Sphere&);
@@ -76,4 +76,4 @@ Choice choose(const std::vector<double>& cumulative, double uniform);
 /// Barycentric weights of the second and third corner, uniform over a triangle.
 Vec2 uniformInTriangle(Vec2 uniform);
 
-}  // namespace deltalux::kinds
+}  // namespace deltalux::scene::kinds

@@ -20,7 +20,7 @@ double clearSky(const RadianceSky& sky, double cosZenith, double cosSun) {
 
 double overcastSky(const RadianceSky& sky, double cosZenith) { return sky.zenith * (1 + 2 * cosZenith) / 3; }
 
-/// [Matsuura 1987], as skybright.cal has it.
+/// [Matsuura87], as skybright.cal has it.
 double intermediateSky(const RadianceSky& sky, double cosZenith, double cosSun, double cosSunZenith) {
   const double eta = angleOf(cosZenith), sunZenith = angleOf(cosSunZenith);
   const double zenithPart = (1.35 * std::sin(5.631 - 3.59 * eta) + 3.12) * std::sin(4.396 - 2.6 * sunZenith);
@@ -70,6 +70,10 @@ constexpr std::array<CieParameters, 15> kCieSkies{{{4, -0.7, 0, -1, 0},
 
 }  // namespace
 
+}  // namespace deltalux
+
+namespace deltalux::scene {
+
 double radiance(const RadianceSky& sky, const Vec3& towards, const Vec3& up) {
   const double cosZenith = std::clamp(glm::dot(towards, up), -1.0, 1.0);
   const double above = skyPart(sky, cosZenith, glm::dot(towards, sky.sunDirection), glm::dot(up, sky.sunDirection));
@@ -87,14 +91,18 @@ double radiance(const CieSky& sky, const Vec3& towards, const Vec3& up) {
   return sky.zenith * relative;
 }
 
+}  // namespace deltalux::scene
+
+namespace deltalux {
+
 Rgb skyRadiance(const DomeLight& dome, const Vec3& towards) {
   constexpr double kRim = 1e-12;  // the rim of a hemisphere is inside: sky and ground meet without a gap
   if (glm::dot(towards, dome.axis) < std::cos(dome.halfAngle) - kRim) return Rgb(0.0f);
   struct Visitor {
     const Vec3 &towards, &up;
     double operator()(const UniformSky& sky) const { return sky.radiance; }
-    double operator()(const RadianceSky& sky) const { return radiance(sky, towards, up); }
-    double operator()(const CieSky& sky) const { return radiance(sky, towards, up); }
+    double operator()(const RadianceSky& sky) const { return scene::radiance(sky, towards, up); }
+    double operator()(const CieSky& sky) const { return scene::radiance(sky, towards, up); }
   };
   return static_cast<float>(std::visit(Visitor{towards, dome.up}, dome.distribution)) * dome.scale;
 }

@@ -3,7 +3,7 @@
 #include "base/unit_circle.hpp"
 #include "scene/shape_kinds.hpp"
 
-namespace deltalux::kinds {
+namespace deltalux::scene::kinds {
 
 double area(const Sphere& s) { return 4 * kPi * s.radius * s.radius; }
 
@@ -30,4 +30,4 @@ std::optional<Shape> transformed(const Sphere& s, const ShapeMap& map) {
   return Sphere{map.point(s.center), *map.scale * s.radius, s.inward};
 }
 
-}  // namespace deltalux::kinds
+}  // namespace deltalux::scene::kinds

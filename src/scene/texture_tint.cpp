@@ -1,6 +1,6 @@
 #include "scene/texture_tint.hpp"
 
-namespace deltalux {
+namespace deltalux::scene {
 
 namespace {
 /// Coordinates of p along the edges b - a and c - a of a triangle.
@@ -23,4 +23,4 @@ Rgb textureTint(const Scene& scene, PrimitiveId primitive, std::uint32_t triangl
   return scene.textures[opaque->diffuseTexture.index()].sample(a + uv.x * (b - a) + uv.y * (c - a));
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -1,9 +1,9 @@
 #pragma once
 #include <deltalux/scene.hpp>
 
-namespace deltalux {
+namespace deltalux::scene {
 
 /// Factor of the diffuse colour at a point of a textured mesh; 1 on every other surface.
 Rgb textureTint(const Scene&, PrimitiveId, std::uint32_t triangle, const Vec3& position);
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -5,7 +5,7 @@
 
 #include "scene/outline_loops.hpp"
 
-namespace deltalux {
+namespace deltalux::scene {
 
 namespace {
 
@@ -117,4 +117,4 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const Vec2> outl
   return triangles;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::scene

@@ -14,13 +14,13 @@ namespace deltalux {
 struct Solution {
   Scene scene;  // what was solved: without speculars when settings.diffuseOnly
   SolveSettings settings;
-  std::shared_ptr<const RayTracer> tracer;  // over `scene`
-  Elements elements;
-  Links links;
-  Particles particles;            // a function of scene, seed and target count
-  LeafTransfers transfers;        // empty before the last round
-  std::vector<Rgb> sampledScale;  // by light: its scale when links and rows last followed it
-  Caustics caustics;              // how the particles' light is shown; never feeds back
+  std::shared_ptr<const tracing::RayTracer> tracer;  // over `scene`
+  hierarchy::Elements elements;
+  hierarchy::Links links;
+  particles::Particles particles;      // a function of scene, seed and target count
+  radiosity::LeafTransfers transfers;  // empty before the last round
+  std::vector<Rgb> sampledScale;       // by light: its scale when links and rows last followed it
+  caustics::Caustics caustics;         // how the particles' light is shown; never feeds back
   SolveReport report;
 };
 

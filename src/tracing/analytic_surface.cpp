@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 namespace {
 Vec3 rejection(const Vec3& v, const Vec3& unitAxis) { return v - glm::dot(v, unitAxis) * unitAxis; }
@@ -123,4 +123,4 @@ Crossings ThinTriangleSurface::crossings(const Vec3& origin, const Vec3& directi
   return found;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

@@ -3,11 +3,10 @@
 // sphere, a cylinder, a cone frustum, a ring or a thin triangle, and the normal there.
 //
 // Everything is computed in double precision from a point of the ray near the primitive, so that small primitives far
-// from the ray's origin keep their shape: t and normal are good to single precision. [Haines et al. 2019, Precision
-// Improvements for Ray/Sphere Intersection]
+// from the ray's origin keep their shape: t and normal are good to single precision. [Haines19]
 #include <deltalux/shape.hpp>
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 /// Parameters of the points where a line meets a surface, ascending.
 struct Crossings {
@@ -68,4 +67,4 @@ struct ThinTriangleSurface {
   Vec3 front;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

@@ -8,7 +8,7 @@
 #include "base/check.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 namespace {
 
@@ -234,4 +234,4 @@ std::unique_ptr<RayTracer> makeBruteForceTracer(const Scene& scene) {
   return std::make_unique<BruteForceTracer>(scene);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

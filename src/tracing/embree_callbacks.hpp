@@ -9,7 +9,7 @@
 #include "tracing/embree_queries.hpp"
 #include "tracing/embree_records.hpp"
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 template <class Surface>
 const AnalyticRecord<Surface>& recordOf(const void* userData, unsigned primitive) {
@@ -125,4 +125,4 @@ void triangleFilter(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

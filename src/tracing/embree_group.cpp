@@ -6,7 +6,7 @@
 
 #include "tracing/embree_callbacks.hpp"
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 namespace {
 
@@ -180,4 +180,4 @@ Hit EmbreeGroup::hit(const ClosestQuery& query, const RTCHit& found) const {
   }
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

@@ -16,7 +16,7 @@
 #include "tracing/embree_queries.hpp"
 #include "tracing/embree_records.hpp"
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 class EmbreeGroup {
  public:
@@ -59,4 +59,4 @@ class EmbreeGroup {
   bool empty_ = true;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

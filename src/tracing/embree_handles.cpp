@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 EmbreeDevice makeEmbreeDevice() {
   EmbreeDevice device(rtcNewDevice(nullptr));
@@ -25,4 +25,4 @@ void throwEmbreeError(RTCDevice device) {
   }
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 template <class Handle, void (*release)(Handle)>
 struct EmbreeRelease {
@@ -20,4 +20,4 @@ EmbreeDevice makeEmbreeDevice();
 /// The error that this thread's last calls left in the device, thrown as above; nothing when there is none.
 void throwEmbreeError(RTCDevice);
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <variant>
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 ClosestQuery::ClosestQuery(const Ray& ray)
     : ray_(&ray), originSize_(std::max({std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)})) {
@@ -48,4 +48,4 @@ bool PassageQuery::cross(PrimitiveId pane, float t, double cosIncidence) {
   return !isBlack(passed);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

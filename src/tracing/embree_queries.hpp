@@ -11,7 +11,7 @@
 #include "tracing/embree_records.hpp"
 #include "tracing/ray.hpp"
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 /// What a closest-hit query knows besides its ray: the nearest hit so far. Where surfaces coincide (in single
 /// precision) the primitive of the lowest id is hit, in whatever order Embree meets them. Triangles count by their
@@ -82,4 +82,4 @@ inline float ClosestQuery::reach() const {
   return std::min(t + doubt(t), ray_->tFar);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

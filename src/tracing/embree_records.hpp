@@ -5,7 +5,7 @@
 #include <deltalux/ids.hpp>
 #include <deltalux/math.hpp>
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 enum class Passage : unsigned { Opaque = 1, Pane = 2 };  // ray masks
 
@@ -49,4 +49,4 @@ AnalyticRecord<Surface>::AnalyticRecord(const Surface& s, PrimitiveId id, const 
   lower = Vec3f(box.lower - margin), upper = Vec3f(box.upper + margin);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

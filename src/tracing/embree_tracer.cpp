@@ -9,7 +9,7 @@
 #include "tracing/embree_group.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 namespace {
 
@@ -178,4 +178,4 @@ class EmbreeTracer final : public RayTracer {
 
 std::unique_ptr<RayTracer> makeEmbreeTracer(const Scene& scene) { return std::make_unique<EmbreeTracer>(scene); }
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

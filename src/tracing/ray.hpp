@@ -5,7 +5,7 @@
 #include <deltalux/math.hpp>
 #include <limits>
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 /// A ray segment in single precision; direction is unit, t in scene units.
 struct Ray {
@@ -60,4 +60,4 @@ inline Ray segment(const Vec3f& from, const Vec3f& fromNormal, const Vec3f& to, 
   return ray;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

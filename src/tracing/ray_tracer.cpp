@@ -3,7 +3,7 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 namespace {
 constexpr std::size_t kBatchBlock = 1024;  // rays per task: enough to hide the scheduling, few enough to balance
@@ -27,4 +27,4 @@ void RayTracer::passings(std::span<const Ray> rays, std::span<Passing> results) 
   for (std::size_t i = 0; i < rays.size(); ++i) one(i);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

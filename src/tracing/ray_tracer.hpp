@@ -11,7 +11,7 @@
 
 #include "tracing/ray.hpp"
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 using GroupId = Id<struct GroupTag>;  // group 0 is the static rest of the scene
 
@@ -63,4 +63,4 @@ class RayTracer {
 std::unique_ptr<RayTracer> makeEmbreeTracer(const Scene&);
 std::unique_ptr<RayTracer> makeBruteForceTracer(const Scene&);
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

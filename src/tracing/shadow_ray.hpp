@@ -5,7 +5,7 @@
 
 #include "tracing/ray.hpp"
 
-namespace deltalux {
+namespace deltalux::tracing {
 
 /// The open segment from `from`, or the ray when `distance` is infinite; zero normals in free space.
 inline Ray shadowRay(const Vec3& from, const Vec3& fromNormal, const Vec3& direction, double distance,
@@ -18,4 +18,4 @@ inline Ray shadowRay(const Vec3& from, const Vec3& fromNormal, const Vec3& direc
   return ray;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::tracing

@@ -8,6 +8,8 @@
 #include "caustics/shapes.hpp"
 
 namespace deltalux {
+using namespace caustics;
+
 namespace {
 
 class ChartOfShape : public testing::TestWithParam<test::NamedShape> {};

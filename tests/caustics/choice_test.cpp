@@ -6,6 +6,8 @@
 #include "caustics/synthetic.hpp"
 
 namespace deltalux {
+using namespace caustics;
+
 namespace {
 
 struct Histogram {
@@ -14,16 +16,16 @@ struct Histogram {
   CellGrid grid = test::gridOver(shape, charts, 16, 16);
   CellLight light;
 
-  explicit Histogram(const std::vector<Impact>& impacts) {
+  explicit Histogram(const std::vector<particles::Impact>& impacts) {
     light = collect(grid, placeImpacts(shape, charts, impacts)[0]);
   }
 };
 
 TEST(Choice, ContrastIsThatOfTheExtremes) {
   // (1): two texels of a 16 x 16 histogram hold all flux; (2).
-  std::vector<Impact> impacts(3);
+  std::vector<particles::Impact> impacts(3);
   impacts[0].uv = {0.1f, 0.1f}, impacts[1].uv = {0.1f, 0.1f}, impacts[2].uv = {0.9f, 0.9f};
-  for (Impact& i : impacts) i.flux = Rgb(1.0f);
+  for (particles::Impact& i : impacts) i.flux = Rgb(1.0f);
   const Histogram h(impacts);
   EXPECT_FLOAT_EQ(h.light.E[h.grid.cellAt({0.1, 0.1})].r, 2 * 16 * 16);
   EXPECT_DOUBLE_EQ(contrast(h.light), 1.0);
@@ -58,7 +60,7 @@ TEST(Choice, FiguresGetTextures) {
 }
 
 /// Every so-many-th of the particles is so many times heavier: light that few paths bring.
-std::vector<Impact> withHeavyOnes(std::vector<Impact> impacts, std::size_t every, float times) {
+std::vector<particles::Impact> withHeavyOnes(std::vector<particles::Impact> impacts, std::size_t every, float times) {
   for (std::size_t i = 0; i < impacts.size(); i += every) impacts[i].flux *= times;
   return impacts;
 }
@@ -69,8 +71,8 @@ TEST(Choice, FewHeavyParticlesDoNotHideAFigureElsewhere) {
     return test::inSquare(0.1 * u, 1 - 0.1 * rng.uniform());
   };
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    std::vector<Impact> impacts = test::drawImpacts(5000, seed, test::discInVeil);
-    const std::vector<Impact> heavy = withHeavyOnes(test::drawImpacts(5000, seed, corner), 1, 300.0f);
+    std::vector<particles::Impact> impacts = test::drawImpacts(5000, seed, test::discInVeil);
+    const std::vector<particles::Impact> heavy = withHeavyOnes(test::drawImpacts(5000, seed, corner), 1, 300.0f);
     impacts.insert(impacts.end(), heavy.begin(), heavy.begin() + 3);
     const Histogram h(impacts);
     EXPECT_TRUE(deservesTexture(departure(h.grid, h.light), 0.05, 0)) << seed;

@@ -8,6 +8,8 @@
 #include "caustics/synthetic.hpp"
 
 namespace deltalux {
+using namespace caustics;
+
 namespace {
 
 class FlowOver : public testing::TestWithParam<test::NamedShape> {};

@@ -6,6 +6,8 @@
 #include "caustics/synthetic.hpp"
 
 namespace deltalux {
+using namespace caustics;
+
 namespace {
 
 TEST(Resolution, PapersFormulaKeepsTheVarianceBelowEpsilon) {

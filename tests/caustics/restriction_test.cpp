@@ -5,6 +5,8 @@
 #include "caustics/synthetic.hpp"
 
 namespace deltalux {
+using namespace caustics;
+
 namespace {
 
 std::vector<char> marks(const CellGrid& grid, const std::vector<glm::ivec2>& texels) {

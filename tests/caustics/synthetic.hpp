@@ -12,13 +12,13 @@ namespace deltalux::test {
 inline Shape unitSquare() { return *makePolygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}); }
 
 /// `count` impacts of equal flux, 1 W in all, at points that `draw` makes.
-inline std::vector<Impact> drawImpacts(std::size_t count, std::uint64_t seed,
-                                       const std::function<SurfacePoint(Rng&)>& draw) {
-  std::vector<Impact> impacts;
+inline std::vector<particles::Impact> drawImpacts(std::size_t count, std::uint64_t seed,
+                                                  const std::function<SurfacePoint(Rng&)>& draw) {
+  std::vector<particles::Impact> impacts;
   Rng rng(seed);
   for (std::size_t i = 0; i < count; ++i) {
     const SurfacePoint p = draw(rng);
-    Impact impact;
+    particles::Impact impact;
     impact.primitive = PrimitiveId(0), impact.triangle = p.triangle;
     impact.uv = glm::vec2(p.uv);
     impact.flux = Rgb(1.0f, 0.5f, 0.25f) / static_cast<float>(count);
@@ -50,7 +50,7 @@ inline SurfacePoint evenly(Rng& rng) {
 }
 
 /// Root mean square error of the red channel over the unit square.
-inline double squareError(const SurfaceCaustics& s, const std::function<double(double, double)>& truth) {
+inline double squareError(const caustics::SurfaceCaustics& s, const std::function<double(double, double)>& truth) {
   constexpr int n = 256;
   double sum = 0;
   for (int y = 0; y < n; ++y)
@@ -63,18 +63,18 @@ inline double squareError(const SurfaceCaustics& s, const std::function<double(d
 }
 
 /// The grid over all of a shape's chart.
-inline CellGrid gridOver(const Shape& shape, const Charts& charts, int width, int height,
-                         std::vector<float>* areas = nullptr);
+inline caustics::CellGrid gridOver(const Shape& shape, const caustics::Charts& charts, int width, int height,
+                                   std::vector<float>* areas = nullptr);
 
 }  // namespace deltalux::test
 
 #include "caustics/coverage.hpp"
 
-inline deltalux::CellGrid deltalux::test::gridOver(const Shape& shape, const Charts& charts, int width, int height,
-                                                   std::vector<float>* areas) {
-  const Region whole{Vec2(0), charts.all[0].size};
-  std::vector<float> covered = coveredAreas(shape, charts, 0, whole, width, height);
-  CellGrid grid(charts.all[0], whole, width, height, covered);
+inline deltalux::caustics::CellGrid deltalux::test::gridOver(const Shape& shape, const caustics::Charts& charts,
+                                                             int width, int height, std::vector<float>* areas) {
+  const caustics::Region whole{Vec2(0), charts.all[0].size};
+  std::vector<float> covered = caustics::coveredAreas(shape, charts, 0, whole, width, height);
+  caustics::CellGrid grid(charts.all[0], whole, width, height, covered);
   if (areas) *areas = std::move(covered);
   return grid;
 }

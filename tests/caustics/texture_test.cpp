@@ -7,10 +7,12 @@
 #include "caustics/synthetic.hpp"
 
 namespace deltalux {
+using namespace caustics;
+
 namespace {
 
 /// Points of the shape nearer to `center` than `radius`, uniform by area, and a few anywhere.
-std::vector<Impact> patchOn(const Shape& shape, const Vec3& center, double radius, std::size_t count) {
+std::vector<particles::Impact> patchOn(const Shape& shape, const Vec3& center, double radius, std::size_t count) {
   const auto* mesh = std::get_if<Mesh>(&shape);
   return test::drawImpacts(count, 5, [&](Rng& rng) {
     for (;;) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 namespace deltalux {
+using namespace caustics;
+
 namespace {
 
 TEST(VectorMath, ExponentialsAgree) {

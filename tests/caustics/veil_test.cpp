@@ -6,6 +6,8 @@
 #include "caustics/synthetic.hpp"
 
 namespace deltalux {
+using namespace caustics;
+
 namespace {
 
 /// Root mean square step of E over the borders of the fine textures, relative to `E`.

@@ -93,14 +93,14 @@ class MeshLight {
   }
 
  private:
-  static std::vector<LeafIrradiance> particlesOf(const Elements& elements) {
-    std::vector<LeafIrradiance> values(elements.size());
+  static std::vector<rendering::LeafIrradiance> particlesOf(const hierarchy::Elements& elements) {
+    std::vector<rendering::LeafIrradiance> values(elements.size());
     for (std::size_t i = 0; i < values.size(); ++i) values[i].indirect = elements.radiometry[i].particle;
     return values;
   }
 
-  SideLocator locator_;
-  IrradianceField field_;
+  hierarchy::SideLocator locator_;
+  rendering::IrradianceField field_;
 };
 
 /// A square of a surface's parameters, in pixels.
@@ -129,7 +129,7 @@ class Pixels {
   std::vector<double> ofParticles(const Solution& s) const {
     std::vector<double> E(kSide * kSide, 0.0);
     const double pixel = area(shape_) * width_ * width_ / static_cast<double>(E.size());
-    for (const Impact& impact : impacts(s.particles, s.elements, s.scene)) {
+    for (const particles::Impact& impact : particles::impacts(s.particles, s.elements, s.scene)) {
       if (impact.primitive != primitive_ || !impact.front) continue;
       const Vec2 at = double(kSide) / width_ * (Vec2(impact.uv) - lower_);
       if (at.x < 0 || at.y < 0 || at.x >= kSide || at.y >= kSide) continue;
@@ -174,7 +174,7 @@ TEST(CausticError, OfATextureIsBelowHalfOfAMeshsOnTheSameParticles) {
   const std::vector<double> few = pixels.ofParticles(s);
   const MeshLight mesh(m);
   const auto ofTexture =
-      pixels.of([&](const Vec3& p) { return gray(*causticLight(s.caustics, scene, table, 0, true, p)); });
+      pixels.of([&](const Vec3& p) { return gray(*rendering::causticLight(s.caustics, scene, table, 0, true, p)); });
   const auto ofMesh = pixels.of([&](const Vec3& p) { return mesh.at(table, p); });
   const double noise = squares(few, truth) / (kTimes + 1);
   const double ratio = std::sqrt((squares(ofTexture, truth) - noise) / (squares(ofMesh, truth) - noise));

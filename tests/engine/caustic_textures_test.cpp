@@ -28,10 +28,10 @@ TEST(CausticTexturesOf, TheRingAreOnTheTableAndHoldItsFlux) {
   const Solution& s = engine.solution().get();
   ASSERT_NO_THROW(validate(s.caustics));
   const PrimitiveId table = primitivesOf(s.scene, findObjects(s.scene, "table").at(0)).at(0);
-  const SurfaceCaustics* caustics = s.caustics.of(table, true);
+  const caustics::SurfaceCaustics* caustics = s.caustics.of(table, true);
   ASSERT_TRUE(caustics);
   RgbSum landed(0.0);
-  for (const Impact& i : impacts(s.particles, s.elements, s.scene))
+  for (const particles::Impact& i : particles::impacts(s.particles, s.elements, s.scene))
     if (i.primitive == table && i.front) landed += RgbSum(i.flux);
   EXPECT_NEAR(gray(caustics->flux()) / gray(landed), 1.0, 1e-5);
   // The ring's surroundings alone need fine texels.
@@ -44,8 +44,8 @@ TEST(CausticTexturesOf, SolutionsAreTheSameForAnyNumberOfThreads) {
     const ThreadLimit limit(threads);
     const Engine engine = solvedScene("ring/ring.rad", 0.1);
     std::vector<Rgb> all;
-    for (const SurfaceCaustics& s : engine.solution().get().caustics.surfaces)
-      for (const CausticTexture& t : s.textures) all.insert(all.end(), t.texels.begin(), t.texels.end());
+    for (const caustics::SurfaceCaustics& s : engine.solution().get().caustics.surfaces)
+      for (const caustics::CausticTexture& t : s.textures) all.insert(all.end(), t.texels.begin(), t.texels.end());
     return all;
   };
   EXPECT_EQ(texels(1), texels(3));

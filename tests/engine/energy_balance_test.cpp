@@ -82,7 +82,7 @@ TEST(EnergyBalance, NothingLeaksIntoAClosedGap) {
   Engine engine(bundled("ring/ring.rad"), settings);
   engine.solve();
   const Solution& s = engine.solution().get();
-  const SideLocator locator(s.elements, s.scene);
+  const hierarchy::SideLocator locator(s.elements, s.scene);
   int shells = 0;
   for (std::size_t i = 0; i < s.scene.primitives.size(); ++i) {
     const std::string& name = s.scene.objects[s.scene.primitives[i].object.index()].name;
@@ -111,11 +111,11 @@ TEST(EnergyBalance, GlossyThingsDoNotFeedEachOther) {
   settings.error = 0.1, settings.particles = 20000, settings.causticTextures = false;
   Engine engine(std::move(scene), settings);
   const EnergyLedger ledger = engine.solve().energy;
-  const Elements& elements = engine.solution().get().elements;
+  const hierarchy::Elements& elements = engine.solution().get().elements;
   float lit = 0, most = 0;
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (!elements.isReceivingLeaf(ElementId(i))) continue;
-    const ElementLight& l = elements.radiometry[i];
+    if (!elements.isReceivingLeaf(hierarchy::ElementId(i))) continue;
+    const hierarchy::ElementLight& l = elements.radiometry[i];
     lit = std::max(lit, l.direct.r), most = std::max(most, (l.direct + l.indirect + l.particle).r);
   }
   EXPECT_LT(most, lit / (1 - kRed - kGloss));

@@ -7,6 +7,8 @@
 #include "support/temp_folder.hpp"
 
 namespace deltalux {
+using namespace engine;
+
 namespace {
 
 constexpr std::size_t kRoom = 0, kTile = 7, kBox = 12;  // floor of the room, top of the tile, bottom of the box
@@ -51,11 +53,11 @@ Edit move(const char* object, const Vec3& by) {
 
 /// Elements of the front of a primitive that take light.
 std::size_t awake(const Engine& engine, std::size_t primitive) {
-  const Elements& e = engine.solution().get().elements;
+  const hierarchy::Elements& e = engine.solution().get().elements;
   std::size_t count = 0;
   for (std::size_t i = 0; i < e.size(); ++i)
-    count += e.isInputLevel(ElementId(i)) && !e.topology[i].emitter && !e.topology[i].blocker && e.topology[i].front &&
-             e.domain[i].primitive == PrimitiveId(primitive);
+    count += e.isInputLevel(hierarchy::ElementId(i)) && !e.topology[i].emitter && !e.topology[i].blocker &&
+             e.topology[i].front && e.domain[i].primitive == PrimitiveId(primitive);
   return count;
 }
 

@@ -45,15 +45,15 @@ TEST(LightEdits, ALightThatWasOffWhileThingsMovedIsThereWhenItIsOn) {
   test::expectAsSolved(engine, diffuseOnly(), 0.01, 0.03);
 }
 
-bool isFrom(const Solution& s, const LeafTransfer& t, const std::string& light) {
+bool isFrom(const Solution& s, const radiosity::LeafTransfer& t, const std::string& light) {
   return s.scene[s.elements.light[t.leaf.index()]].name == light;
 }
 
 /// Sum over leaves of what a light brings them. [W]
 double powerFrom(const Solution& s, const std::string& light) {
   double sum = 0;
-  for (const LeafRow& row : s.transfers.rows())
-    for (const LeafTransfer& t : row.direct.transfers)
+  for (const radiosity::LeafRow& row : s.transfers.rows())
+    for (const radiosity::LeafTransfer& t : row.direct.transfers)
       if (isFrom(s, t, light))
         sum += double(s.elements.shape(row.leaf).area) * gray(t.T * s.elements.radiometry[t.leaf.index()].B);
   return sum;
@@ -75,9 +75,9 @@ TEST(LightEdits, ACurvedLampMayComeCloseToASurfaceThatItLights) {
 /// Irradiance that a light brings to leaves, by their keys. [W/m^2, gray]
 std::map<std::uint64_t, float> irradianceFrom(const Solution& s, const std::string& light) {
   std::map<std::uint64_t, float> E;
-  for (const LeafRow& row : s.transfers.rows()) {
+  for (const radiosity::LeafRow& row : s.transfers.rows()) {
     float& sum = E[s.elements.key[row.leaf.index()]];
-    for (const LeafTransfer& t : row.direct.transfers)
+    for (const radiosity::LeafTransfer& t : row.direct.transfers)
       if (isFrom(s, t, light)) sum += gray(t.T * s.elements.radiometry[t.leaf.index()].B);
   }
   return E;
@@ -109,24 +109,24 @@ TEST(LightEdits, RowsFollowALampThatMovesTogetherWithThings) {
 TEST(LightEdits, AMovedLampLeavesTheRowsOfOthersAlone) {
   Engine engine = solvedRoom();
   struct Known {
-    ElementId leaf;
-    std::vector<LeafTransfer> of;
+    hierarchy::ElementId leaf;
+    std::vector<radiosity::LeafTransfer> of;
   };
-  const auto ofSpot = [&](const Solution& s, const LeafRow& row) {
-    std::vector<LeafTransfer> of;
-    for (const LeafTransfer& t : row.direct.transfers)
+  const auto ofSpot = [&](const Solution& s, const radiosity::LeafRow& row) {
+    std::vector<radiosity::LeafTransfer> of;
+    for (const radiosity::LeafTransfer& t : row.direct.transfers)
       if (isFrom(s, t, "spot")) of.push_back(t);
     return of;
   };
   std::vector<Known> before;
-  for (const LeafRow& row : engine.solution().get().transfers.rows())
+  for (const radiosity::LeafRow& row : engine.solution().get().transfers.rows())
     if (auto of = ofSpot(engine.solution().get(), row); !of.empty()) before.push_back({row.leaf, std::move(of)});
   ASSERT_GT(before.size(), 100u);
   engine.apply(MoveLight{"globe", {0.05, -0.05, -0.05}});
   engine.update();
   const Solution& s = engine.solution().get();
   std::size_t same = 0;
-  for (const LeafRow& row : s.transfers.rows())
+  for (const radiosity::LeafRow& row : s.transfers.rows())
     for (const Known& k : before)
       if (k.leaf == row.leaf) {
         const auto of = ofSpot(s, row);

@@ -8,6 +8,8 @@
 #include "support/settled.hpp"
 
 namespace deltalux {
+using namespace engine;
+
 namespace {
 
 /// A room with a mirror, a glass ball, a sheet of paper that light shines through, two lamps and a box.
@@ -104,7 +106,7 @@ TEST(LightSettling, DoesNotDependOnTheThreadCount) {
       engine.update();
     }
     light.emplace_back();
-    for (const ElementLight& l : engine.solution().get().elements.radiometry) light.back().push_back(l.B);
+    for (const hierarchy::ElementLight& l : engine.solution().get().elements.radiometry) light.back().push_back(l.B);
   }
   EXPECT_EQ(light[0], light[1]);
 }
@@ -120,10 +122,10 @@ TEST(LightSettling, LeavesAnotherRoomAlone) {
   Engine engine(std::move(scene), settings());
   engine.solve();
   const auto next = [&] {
-    const Elements& e = engine.solution().get().elements;
+    const hierarchy::Elements& e = engine.solution().get().elements;
     std::vector<float> B;
     for (std::size_t i = 0; i < e.size(); ++i)
-      if (e.isReceivingLeaf(ElementId(i)) && e.domain[i].primitive.index() >= first)
+      if (e.isReceivingLeaf(hierarchy::ElementId(i)) && e.domain[i].primitive.index() >= first)
         B.push_back(gray(e.radiometry[i].B));
     return B;
   };

@@ -11,6 +11,8 @@
 #include "support/update_checks.hpp"
 
 namespace deltalux {
+using namespace engine;
+
 namespace {
 
 constexpr double kNoTime = 1e-3, kAllTime = 1e6;  // [ms]
@@ -30,18 +32,18 @@ std::vector<Edit> drag() {
           shift("ball", {-0.02, 0, 0.02})};
 }
 
-std::vector<Rgb> radiosities(const Elements& elements) {
+std::vector<Rgb> radiosities(const hierarchy::Elements& elements) {
   std::vector<Rgb> B;
-  for (const ElementLight& l : elements.radiometry) B.push_back(l.B);
+  for (const hierarchy::ElementLight& l : elements.radiometry) B.push_back(l.B);
   return B;
 }
 
 /// The light of particles at every leaf is that of the paths as they are, each once, of senders that have B.
 void expectEachPathOnce(const Solution& s, const std::vector<Rgb>& B, double tolerance) {
-  Elements elements = s.elements;
+  hierarchy::Elements elements = s.elements;
   ASSERT_EQ(B.size(), elements.size());
   for (std::size_t i = 0; i < B.size(); ++i) elements.radiometry[i].B = B[i];
-  ParticleTransfer(s.particles, elements, s.scene).apply(elements, s.scene);
+  particles::ParticleTransfer(s.particles, elements, s.scene).apply(elements, s.scene);
   double sum = 0, difference = 0;
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (elements.topology[i].childCount > 0) continue;
@@ -59,8 +61,8 @@ void expectEachPathOnce(const Solution& s) { expectEachPathOnce(s, radiosities(s
 /// Textures hold the flux of the particles on their side.
 void expectTexturesHoldTheFlux(const Solution& s) {
   std::vector<RgbSum> flux(s.caustics.surfaces.size(), RgbSum(0.0));
-  for (const Impact& i : impacts(s.particles, s.elements, s.scene))
-    if (const SurfaceCaustics* side = s.caustics.of(i.primitive, i.front))
+  for (const particles::Impact& i : particles::impacts(s.particles, s.elements, s.scene))
+    if (const caustics::SurfaceCaustics* side = s.caustics.of(i.primitive, i.front))
       flux[static_cast<std::size_t>(side - s.caustics.surfaces.data())] += RgbSum(i.flux);
   for (std::size_t i = 0; i < flux.size(); ++i)
     EXPECT_NEAR(gray(s.caustics.surfaces[i].flux()) / gray(flux[i]), 1.0, 0.01) << "side " << i;
@@ -82,7 +84,8 @@ TEST(Motion, SettlesToWhatOneUpdateGives) {
   EXPECT_NO_THROW(a.transfers.validate(a.elements, a.links));
   EXPECT_NO_THROW(validate(a.caustics));
   EXPECT_EQ(a.particles.hash(), b.particles.hash());
-  EXPECT_EQ(a.particles.hash(), traceParticles(a.scene, *makeEmbreeTracer(a.scene), {20000, a.settings.seed}).hash());
+  EXPECT_EQ(a.particles.hash(),
+            particles::traceParticles(a.scene, *tracing::makeEmbreeTracer(a.scene), {20000, a.settings.seed}).hash());
   // Rows are dealt out by the light there is, which the frames had already moved.
   const CheckReport check = compareSolutions(dragged.solution(), at_once.solution(), test::kQuickCheck);
   EXPECT_LT(check.medianRelDiff, 0.005);

@@ -13,7 +13,7 @@ namespace {
 template <class Check>
 void forEachLeaf(const Solution& s, const Check& check) {
   for (std::size_t i = 0; i < s.elements.size(); ++i) {
-    if (s.elements.isReceivingLeaf(ElementId(i))) check(ElementId(i));
+    if (s.elements.isReceivingLeaf(hierarchy::ElementId(i))) check(hierarchy::ElementId(i));
   }
 }
 
@@ -32,9 +32,9 @@ TEST_P(Furnace, IsTheSameEverywhere) {
   Engine engine(furnace(GetParam()));
   EXPECT_TRUE(engine.solve().converged);
   const Solution& s = engine.solution().get();
-  forEachLeaf(s, [&](ElementId e) {
+  forEachLeaf(s, [&](hierarchy::ElementId e) {
     if (!s.elements.at(e).front) return;
-    const ElementLight& l = s.elements.radiometry[e.index()];
+    const hierarchy::ElementLight& l = s.elements.radiometry[e.index()];
     EXPECT_NEAR((l.direct + l.indirect).g, exact, 0.005 * exact);
   });
   EXPECT_NO_THROW(validate(s.elements));
@@ -72,8 +72,8 @@ Scene room(float lamp = 10.0f, float second = 0.0f) {
 std::vector<float> leafIrradiances(const Engine& engine) {
   std::vector<float> values;
   const Solution& s = engine.solution().get();
-  forEachLeaf(s, [&](ElementId e) {
-    const ElementLight& l = s.elements.radiometry[e.index()];
+  forEachLeaf(s, [&](hierarchy::ElementId e) {
+    const hierarchy::ElementLight& l = s.elements.radiometry[e.index()];
     values.push_back(l.direct.r + l.indirect.r);
   });
   return values;
@@ -117,7 +117,7 @@ TEST(Solve, WhatNoLightReachesHasNoElement) {
   engine.solve();
   const Solution& s = engine.solution().get();
   for (std::size_t i = 0; i < s.elements.size(); ++i) {
-    const ElementId e(i);
+    const hierarchy::ElementId e(i);
     if (!s.elements.isInputLevel(e) || s.elements.at(e).emitter) continue;
     const std::string& name = s.scene[s.scene[s.elements.domain[i].primitive].object].name;
     if (name.starts_with("block") || name.starts_with("room")) {

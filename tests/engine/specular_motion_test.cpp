@@ -28,7 +28,7 @@ Mat4 turn(double degrees, const Vec3& axis, const Vec3& about) {
 
 double landedFlux(const Solution& s) {
   double sum = 0;
-  for (const Impact& i : impacts(s.particles, s.elements, s.scene)) sum += gray(i.flux);
+  for (const particles::Impact& i : particles::impacts(s.particles, s.elements, s.scene)) sum += gray(i.flux);
   return sum;
 }
 

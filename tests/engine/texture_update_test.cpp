@@ -47,12 +47,12 @@ std::size_t wallAt(const Scene& scene, double y) {
   throw std::logic_error("no such wall");
 }
 
-const SurfaceCaustics* texturesOf(const Engine& engine, double y) {
+const caustics::SurfaceCaustics* texturesOf(const Engine& engine, double y) {
   const Solution& s = engine.solution().get();
   return s.caustics.of(PrimitiveId(wallAt(s.scene, y)), true);
 }
 
-bool identical(const SurfaceCaustics& a, const SurfaceCaustics& b) {
+bool identical(const caustics::SurfaceCaustics& a, const caustics::SurfaceCaustics& b) {
   if (a.textures.size() != b.textures.size()) return false;
   for (std::size_t i = 0; i < a.textures.size(); ++i)
     if (a.textures[i].texels != b.textures[i].texels || a.textures[i].areas != b.textures[i].areas) return false;
@@ -60,7 +60,7 @@ bool identical(const SurfaceCaustics& a, const SurfaceCaustics& b) {
 }
 
 /// Root mean square difference over a wall, relative to that of the light itself.
-double difference(const SurfaceCaustics& a, const SurfaceCaustics& b, const Shape& wall) {
+double difference(const caustics::SurfaceCaustics& a, const caustics::SurfaceCaustics& b, const Shape& wall) {
   double squares = 0, light = 0;
   constexpr int n = 200;
   for (int y = 0; y < n; ++y)
@@ -83,10 +83,10 @@ Engine solvedRoom(const Scene& scene) {
 TEST(TextureUpdate, RebuildsWhatTheEditChangedAndNothingElse) {
   Engine engine = solvedRoom(roomWithTwoMirrors());
   ASSERT_TRUE(texturesOf(engine, 0) && texturesOf(engine, 3));
-  const SurfaceCaustics untouched = *texturesOf(engine, 0), before = *texturesOf(engine, 3);
+  const caustics::SurfaceCaustics untouched = *texturesOf(engine, 0), before = *texturesOf(engine, 3);
   engine.apply(move("blocker", {0, 0, -1.2}));
   const StepReport step = engine.update();
-  const SurfaceCaustics &after = *texturesOf(engine, 3), &other = *texturesOf(engine, 0);
+  const caustics::SurfaceCaustics &after = *texturesOf(engine, 3), &other = *texturesOf(engine, 0);
   EXPECT_TRUE(identical(other, untouched));
   EXPECT_GE(step.texturesRebuilt, after.textures.size());
   EXPECT_LE(step.texturesRebuilt, engine.solution().get().caustics.count() - other.textures.size());
@@ -102,7 +102,7 @@ TEST(TextureUpdate, RebuildsWhatTheEditChangedAndNothingElse) {
 
 TEST(TextureUpdate, OutAndBackIsWhereItWas) {
   Engine engine = solvedRoom(roomWithTwoMirrors());
-  const SurfaceCaustics before = *texturesOf(engine, 3);
+  const caustics::SurfaceCaustics before = *texturesOf(engine, 3);
   engine.apply(move("blocker", {0, 0, -1.2}));
   engine.update();
   engine.apply(move("blocker", {0, 0, 1.2}));
@@ -112,7 +112,7 @@ TEST(TextureUpdate, OutAndBackIsWhereItWas) {
 
 TEST(TextureUpdate, WhatHappensElsewhereRebuildsNone) {
   Engine engine = solvedRoom(roomWithTwoMirrors());
-  const SurfaceCaustics first = *texturesOf(engine, 3), second = *texturesOf(engine, 0);
+  const caustics::SurfaceCaustics first = *texturesOf(engine, 3), second = *texturesOf(engine, 0);
   engine.apply(move("pebble", {-0.03, 0.02, 0}));
   EXPECT_EQ(engine.update().texturesRebuilt, 0u);
   EXPECT_TRUE(identical(*texturesOf(engine, 3), first));
@@ -121,12 +121,12 @@ TEST(TextureUpdate, WhatHappensElsewhereRebuildsNone) {
 
 TEST(TextureUpdate, DimmedLampsScaleTheirTextures) {
   Engine engine = solvedRoom(roomWithTwoMirrors());
-  const SurfaceCaustics first = *texturesOf(engine, 3), second = *texturesOf(engine, 0);
+  const caustics::SurfaceCaustics first = *texturesOf(engine, 3), second = *texturesOf(engine, 0);
   engine.apply(ScaleLight{"first", 0.25f});
   engine.apply(ScaleLight{"second", 0.25f});
   EXPECT_EQ(engine.update().texturesRebuilt, 0u);
   for (const auto& [then, y] : {std::pair{&first, 3.0}, std::pair{&second, 0.0}}) {
-    const SurfaceCaustics& now = *texturesOf(engine, y);
+    const caustics::SurfaceCaustics& now = *texturesOf(engine, y);
     ASSERT_EQ(now.textures.size(), then->textures.size());
     EXPECT_NEAR(now.flux().r / then->flux().r, 0.25, 1e-3);
     for (std::size_t i = 0; i < now.textures[0].texels.size(); ++i)
@@ -143,7 +143,7 @@ TEST(TextureUpdate, ALampAloneIsFollowedByItsOwnTexture) {
   const Engine fresh = solvedRoom(engine.solution().scene());
   for (const double y : {0.0, 3.0}) {
     ASSERT_TRUE(texturesOf(engine, y) && texturesOf(fresh, y));
-    const SurfaceCaustics& now = *texturesOf(engine, y);
+    const caustics::SurfaceCaustics& now = *texturesOf(engine, y);
     EXPECT_LT(difference(now, *texturesOf(fresh, y), engine.solution().scene()[now.primitive].shape), 0.02) << y;
   }
   engine.apply(SwitchLight{"first", false});
@@ -151,7 +151,7 @@ TEST(TextureUpdate, ALampAloneIsFollowedByItsOwnTexture) {
   engine.apply(SwitchLight{"first", true});
   engine.update();
   ASSERT_TRUE(texturesOf(engine, 3));
-  const SurfaceCaustics& back = *texturesOf(engine, 3);
+  const caustics::SurfaceCaustics& back = *texturesOf(engine, 3);
   EXPECT_LT(difference(back, *texturesOf(fresh, 3), engine.solution().scene()[back.primitive].shape), 0.02);
 }
 
@@ -163,7 +163,7 @@ TEST(TextureUpdate, ManySmallStepsDoNotCreep) {
     ASSERT_NO_THROW(validate(engine.solution().get().caustics));
   }
   const Engine fresh = solvedRoom(engine.solution().scene());
-  const SurfaceCaustics& now = *texturesOf(engine, 3);
+  const caustics::SurfaceCaustics& now = *texturesOf(engine, 3);
   EXPECT_LT(difference(now, *texturesOf(fresh, 3), engine.solution().scene()[now.primitive].shape), 0.02);
 }
 

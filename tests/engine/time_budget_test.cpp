@@ -9,6 +9,8 @@
 #include "support/solved.hpp"
 
 namespace deltalux {
+using namespace engine;
+
 namespace {
 
 using namespace test;
@@ -16,9 +18,9 @@ using namespace test;
 TEST(TimeBudget, MoreTimeReachesASmallerError) {
   const Engine engine = solved(loadScene({bundledScene("cornell/cornell.rad")}).scene, 0.2);
   const Solution& s = engine.solution().get();
-  OracleSettings oracle;
+  radiosity::OracleSettings oracle;
   oracle.error = 4;
-  const LinkErrors errors(s.links, s.elements, oracle);
+  const radiosity::LinkErrors errors(s.links, s.elements, oracle);
   EXPECT_GT(errors.madeBy(0.5), errors.madeBy(1.0));
   EXPECT_GT(errors.madeBy(1.0), 0);
 
@@ -53,7 +55,7 @@ TEST(TimeBudget, WhatStandsWhenTimeIsUpHoldsTogether) {
 }
 
 TEST(TimeBudget, RaysShrinkToTheTimeLeft) {
-  const LeafTransferSettings all;
+  const radiosity::LeafTransferSettings all;
   EXPECT_EQ(shrunk(all, 1, 2).gatherRays, all.gatherRays);
   EXPECT_EQ(shrunk(all, 2, 1).gatherRays, all.gatherRays / 2);
   EXPECT_GT(shrunk(all, 1e9, 1).gatherRays, 0);

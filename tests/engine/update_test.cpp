@@ -33,17 +33,17 @@ Edit moveBox(const Vec3& by) {
 /// Area-weighted relative difference of E between the leaves of two solutions of one scene, at the leaves of the first.
 test::Spread difference(const Engine& a, const Engine& b) {
   const Solution &s = a.solution().get(), &t = b.solution().get();
-  const SideLocator locator(t.elements, t.scene);
+  const hierarchy::SideLocator locator(t.elements, t.scene);
   std::vector<double> differences;
   for (std::size_t i = 0; i < s.elements.size(); ++i) {
-    const ElementTopology& topology = s.elements.topology[i];
-    if (topology.kind != ElementKind::Patch || topology.emitter || topology.childCount > 0) continue;
-    const PatchDomain& d = s.elements.domain[i];
-    const ElementId side = locator.side(d.primitive, d.triangle, topology.front);
+    const hierarchy::ElementTopology& topology = s.elements.topology[i];
+    if (topology.kind != hierarchy::ElementKind::Patch || topology.emitter || topology.childCount > 0) continue;
+    const hierarchy::PatchDomain& d = s.elements.domain[i];
+    const hierarchy::ElementId side = locator.side(d.primitive, d.triangle, topology.front);
     if (!side.valid()) continue;
     const Vec3f center = s.elements.geometry[i].center;
-    const ElementLight &x = s.elements.radiometry[i],
-                       &y = t.elements.radiometry[locator.locate(side, Vec3(center)).leaf.index()];
+    const hierarchy::ElementLight &x = s.elements.radiometry[i],
+                                  &y = t.elements.radiometry[locator.locate(side, Vec3(center)).leaf.index()];
     const double E = gray(y.direct + y.indirect);
     if (E > 0.01) differences.push_back(std::abs(gray(x.direct + x.indirect) - E) / E);
   }
@@ -90,31 +90,32 @@ struct Staleness {
 };
 
 Staleness staleness(const Solution& s) {
-  Elements elements = s.elements;
-  LeafTransfers transfers = s.transfers;
-  LinkMarks all;
-  all.changes = LinkChanges(s.links.size(), LinkChange::Touched);
-  SpaceChange everywhere;
+  hierarchy::Elements elements = s.elements;
+  radiosity::LeafTransfers transfers = s.transfers;
+  radiosity::LinkMarks all;
+  all.changes = radiosity::LinkChanges(s.links.size(), radiosity::LinkChange::Touched);
+  radiosity::SpaceChange everywhere;
   everywhere.add(elements.sceneBox);
-  ConcernedLeaves leaves;
-  for (const LeafRow& row : transfers.rows()) leaves.byLeaves.push_back(row.leaf);
+  radiosity::ConcernedLeaves leaves;
+  for (const radiosity::LeafRow& row : transfers.rows()) leaves.byLeaves.push_back(row.leaf);
   std::sort(leaves.byLeaves.begin(), leaves.byLeaves.end());
   transfers.update(elements, s.links, s.scene, *s.tracer, {}, all, {}, everywhere, leaves);
   Staleness stale;
   for (std::size_t i = 0; i < transfers.rows().size(); ++i) {
-    const TransferRow &was = s.transfers.rows()[i].indirect, &is = transfers.rows()[i].indirect;
+    const radiosity::TransferRow &was = s.transfers.rows()[i].indirect, &is = transfers.rows()[i].indirect;
     EXPECT_EQ(was.terms.size(), is.terms.size());
     std::vector<RgbSum> bring(is.terms.size(), RgbSum(0.0));
-    const auto add = [&](const TransferRow& row, double sign) {
-      forEachTerm(row, [&](std::uint32_t k, const RowTerm&, std::span<const LeafTransfer> transfer) {
-        for (const LeafTransfer& x : transfer) bring[k] += sign * RgbSum(x.T);
-      });
+    const auto add = [&](const radiosity::TransferRow& row, double sign) {
+      radiosity::forEachTerm(
+          row, [&](std::uint32_t k, const radiosity::RowTerm&, std::span<const radiosity::LeafTransfer> transfer) {
+            for (const radiosity::LeafTransfer& x : transfer) bring[k] += sign * RgbSum(x.T);
+          });
     };
     add(was, 1), add(is, -1);
     for (std::size_t k = 0; k < bring.size(); ++k) {
       if (!elements.isLeaf(is.terms[k].sender)) continue;  // another ray, since its sender has been split
       ++stale.terms, stale.bring += glm::length(bring[k]) > 1e-6;
-      stale.towards += !(towards(was.rays[k]) == towards(is.rays[k]));
+      stale.towards += !(radiosity::towards(was.rays[k]) == radiosity::towards(is.rays[k]));
     }
   }
   return stale;
@@ -152,9 +153,9 @@ TEST(Update, NoRayIsMissed) {
 
 /// Rays towards an object from leaves that see nothing of it.
 std::size_t raysInVain(const Solution& s, const char* object) {
-  std::vector<ElementId> inputs;
-  SpaceChange space;
-  for (const ElementId e : s.elements.inputs) {
+  std::vector<hierarchy::ElementId> inputs;
+  radiosity::SpaceChange space;
+  for (const hierarchy::ElementId e : s.elements.inputs) {
     if (!s.elements.isPatch(e)) continue;
     const Primitive& p = s.scene[s.elements.domain[e.index()].primitive];
     if (s.scene.objects[p.object.index()].name != object) continue;
@@ -164,8 +165,8 @@ std::size_t raysInVain(const Solution& s, const char* object) {
   space.addMoved(inputs, s.elements, s.scene);
   space.findHidden(s.elements, s.scene);
   std::size_t rays = 0;
-  for (const LeafRow& row : s.transfers.rows())
-    for (const RowTerm& t : row.indirect.terms) rays += space.hiddenFrom(row.leaf) && space.moved(t.sender);
+  for (const radiosity::LeafRow& row : s.transfers.rows())
+    for (const radiosity::RowTerm& t : row.indirect.terms) rays += space.hiddenFrom(row.leaf) && space.moved(t.sender);
   return rays;
 }
 
@@ -261,15 +262,16 @@ TEST(Update, WhatIsHiddenForAWhileStaysRefined) {
   Engine engine = test::solved(test::furnishedRoom(), 0.05);
   int kept = 0;
   for (int i = 0; i < 4; ++i) {
-    const std::vector<Link> before = engine.solution().get().links.all;
+    const std::vector<hierarchy::Link> before = engine.solution().get().links.all;
     engine.apply(moveBox({-0.3, 0.1, 0}));
     engine.update();
-    const Links& links = engine.solution().get().links;
+    const hierarchy::Links& links = engine.solution().get().links;
     for (std::size_t id = 0; id < before.size(); ++id) {
-      const Link &was = before[id], &is = links.all[id];
-      const bool same = was.state == LinkState::Interior && was.receiver == is.receiver && was.sender == is.sender;
+      const hierarchy::Link &was = before[id], &is = links.all[id];
+      const bool same =
+          was.state == hierarchy::LinkState::Interior && was.receiver == is.receiver && was.sender == is.sender;
       if (!same || was.unseen() || !is.unseen()) continue;
-      EXPECT_EQ(is.state, LinkState::Interior) << id;
+      EXPECT_EQ(is.state, hierarchy::LinkState::Interior) << id;
       ++kept;
     }
   }

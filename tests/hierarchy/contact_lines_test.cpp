@@ -13,6 +13,8 @@
 #include "support/solved.hpp"
 
 namespace deltalux {
+using namespace hierarchy;
+
 namespace {
 
 /// A square of ground, 8 by 8, with something on it.

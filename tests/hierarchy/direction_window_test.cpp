@@ -6,6 +6,8 @@
 #include "hierarchy/patch.hpp"
 
 namespace deltalux {
+using namespace hierarchy;
+
 namespace {
 
 Vec3 anyDirection(Rng& rng) {

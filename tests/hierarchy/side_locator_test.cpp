@@ -6,6 +6,8 @@
 #include "support/solved.hpp"
 
 namespace deltalux {
+using namespace hierarchy;
+
 namespace {
 
 TEST(SideLocator, WhatWasRemovedHasNoSideAndTakesNoOthers) {

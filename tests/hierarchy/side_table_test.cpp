@@ -10,6 +10,8 @@
 #include "hierarchy/element.hpp"
 
 namespace deltalux {
+using namespace hierarchy;
+
 namespace {
 
 TEST(SideTable, FindsWhatWasAddedInAnyOrder) {

@@ -9,6 +9,8 @@
 #include "support/temp_folder.hpp"
 
 namespace deltalux {
+using namespace io;
+
 namespace {
 
 using Names = std::vector<std::string>;

@@ -7,6 +7,8 @@
 #include "io/gltf_builder.hpp"
 
 namespace deltalux {
+using namespace io;
+
 namespace {
 
 using nlohmann::json;

@@ -8,6 +8,8 @@
 #include "support/shared.hpp"
 
 namespace deltalux {
+using namespace io;
+
 namespace {
 
 using test::GltfBuilder;

@@ -9,6 +9,8 @@
 #include "support/shared.hpp"
 
 namespace deltalux {
+using namespace io;
+
 namespace {
 
 TEST(IesCorpus, IsReadOrRefused) {

@@ -10,6 +10,8 @@
 #include <functional>
 
 namespace deltalux {
+using namespace io;
+
 namespace {
 
 constexpr double kDegree = kPi / 180;

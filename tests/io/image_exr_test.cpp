@@ -10,6 +10,8 @@
 #include "support/test_image.hpp"
 
 namespace deltalux {
+using namespace io;
+
 namespace {
 
 TEST(Exr, RoundTripIsExact) {

@@ -16,6 +16,8 @@
 #include "support/test_image.hpp"
 
 namespace deltalux {
+using namespace io;
+
 namespace {
 
 /// RGBE keeps each channel to one step of 1/256 of the brightest channel's power of two.

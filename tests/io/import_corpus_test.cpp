@@ -14,6 +14,8 @@
 #include "support/temp_folder.hpp"
 
 namespace deltalux {
+using namespace io;
+
 namespace {
 
 void replay(const char* folder, const std::function<ImportedScene(const std::string&)>& read) {

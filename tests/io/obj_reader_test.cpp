@@ -10,6 +10,8 @@
 #include "support/temp_folder.hpp"
 
 namespace deltalux {
+using namespace io;
+
 namespace {
 
 ImportedScene read(const std::string& text, const std::filesystem::path& folder = "/nonexistent") {

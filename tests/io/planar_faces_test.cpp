@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 namespace deltalux {
+using namespace io;
+
 namespace {
 
 double totalArea(const std::vector<Shape>& shapes) {

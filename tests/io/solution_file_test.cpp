@@ -21,6 +21,8 @@
 #include "support/temp_folder.hpp"
 
 namespace deltalux {
+using namespace io;
+
 namespace {
 
 using test::TempFolder;
@@ -70,9 +72,9 @@ void expectSameProbes(const SolutionView& a, const SolutionView& b) {
 /// The rows of transfers bring every leaf the same, to the bit.
 void expectSameGathering(const Solution& a, const Solution& b) {
   ASSERT_FALSE(a.transfers.empty());
-  Elements before = a.elements, after = b.elements;
+  hierarchy::Elements before = a.elements, after = b.elements;
   for (auto& [transfers, elements] : {std::pair(&a.transfers, &before), std::pair(&b.transfers, &after)}) {
-    for (ElementLight& l : elements->radiometry) l.direct = l.indirect = Rgb(0.0f);
+    for (hierarchy::ElementLight& l : elements->radiometry) l.direct = l.indirect = Rgb(0.0f);
     transfers->gatherDirect(*elements);
     transfers->gatherIndirect(*elements);
   }
@@ -221,8 +223,9 @@ TEST(SolutionFile, IndicesOutOfRangeAreRefused) {
   const auto& sections = fuzz::smallSolution();
   const std::string far = "\xf0\xff\xff\x7f";
   // The first link's receiver, behind a count and a record size; the first element's child.
-  EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(3, 12 + offsetof(Link, receiver), far))), "does not hold together"));
-  EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(2, 12 + offsetof(ElementTopology, firstChild), far))),
+  EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(3, 12 + offsetof(hierarchy::Link, receiver), far))),
+                       "does not hold together"));
+  EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(2, 12 + offsetof(hierarchy::ElementTopology, firstChild), far))),
                        "does not hold together"));
   // The leaf of the first row of transfers, behind a count.
   EXPECT_TRUE(contains(refusal(fuzz::dlxOf(change(5, 8, far))), "does not hold together"));

@@ -40,7 +40,7 @@ std::vector<Vec3> aboveHorizon(const OraclePatch& polygon, const Vec3& x, const 
   return kept;
 }
 
-/// Form factor from the point x to the whole polygon. [Lambert 1760]
+/// Form factor from the point x to the whole polygon. [Lambert1760]
 double pointFactor(const Vec3& x, const Vec3& n, const OraclePatch& to) {
   if (glm::dot(to.normal, x - to.corners[0]) <= 1e-12) return 0;
   const std::vector<Vec3> corners = aboveHorizon(to, x, n);
@@ -55,13 +55,13 @@ double pointFactor(const Vec3& x, const Vec3& n, const OraclePatch& to) {
 }
 
 /// Share of `to` that a grid of rays from x reaches.
-double visibleShare(const RayTracer& tracer, const Vec3& x, const Vec3& n, const OraclePatch& to, int rays) {
+double visibleShare(const tracing::RayTracer& tracer, const Vec3& x, const Vec3& n, const OraclePatch& to, int rays) {
   int reached = 0, facing = 0;
   for (int i = 0; i < rays * rays; ++i) {
     const Vec3 y = to.at((i % rays + 0.5) / rays, (i / rays + 0.5) / rays), d = y - x;
     if (glm::dot(d, n) <= 0) continue;
     ++facing;
-    Ray ray;
+    tracing::Ray ray;
     ray.direction = Vec3f(glm::normalize(d));
     ray.origin = Vec3f(x + 1e-5 * n);
     ray.tFar = static_cast<float>(glm::length(d) * (1 - 1e-4));
@@ -71,7 +71,8 @@ double visibleShare(const RayTracer& tracer, const Vec3& x, const Vec3& n, const
 }
 
 /// Mean over the patch `from` of the form factor to `to`.
-double patchFactor(const RayTracer& tracer, const OraclePatch& from, const OraclePatch& to, int points, int rays) {
+double patchFactor(const tracing::RayTracer& tracer, const OraclePatch& from, const OraclePatch& to, int points,
+                   int rays) {
   double sum = 0;
   for (int i = 0; i < points * points; ++i) {
     const Vec3 x = from.at((i % points + 0.5) / points, (i / points + 0.5) / points);
@@ -87,7 +88,7 @@ OracleSolution solveDense(const Scene& scene, const OracleSettings& settings) {
   OracleSolution result;
   result.patches = patchesOf(scene, settings.patchSize);
   const auto n = static_cast<Eigen::Index>(result.patches.size());
-  const auto tracer = makeEmbreeTracer(scene);
+  const auto tracer = tracing::makeEmbreeTracer(scene);
   Eigen::VectorXd M(n), rho(n), areas(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const OraclePatch& p = result.patches[static_cast<std::size_t>(i)];

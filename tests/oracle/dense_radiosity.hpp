@@ -4,7 +4,7 @@
 // scene and the ray tracer.
 //
 // Form factors: from a grid of points of the one patch, the closed form of the other as a polygon cut at the horizon
-// [Lambert 1760, Schroeder & Hanrahan 1993] times the share of it that rays reach, both ways and averaged, so that they
+// [Lambert1760; SH93] times the share of it that rays reach, both ways and averaged, so that they
 // are reciprocal. Exact but for visibility and the constancy of B over a patch. Cost: patches^2 x samples.
 #include <deltalux/scene.hpp>
 #include <vector>

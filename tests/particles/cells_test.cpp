@@ -9,6 +9,8 @@
 #include "stats/chi_square.hpp"
 
 namespace deltalux {
+using namespace particles;
+
 namespace {
 
 constexpr double kSignificance = 1e-4;
@@ -18,7 +20,7 @@ double solidAngleOf(const Rectangle& r, const Vec2& low, const Vec2& high, const
   const auto towards = [&](double x, double y) { return glm::normalize(r.at({x, y}) - from); };
   const Vec3 a = towards(low.x, low.y), b = towards(high.x, low.y), c = towards(high.x, high.y),
              d = towards(low.x, high.y);
-  return sphericalTriangleArea(a, b, c) + sphericalTriangleArea(a, c, d);
+  return scene::sphericalTriangleArea(a, b, c) + scene::sphericalTriangleArea(a, c, d);
 }
 
 TEST(SolidAngleRectangle, SamplesUniformly) {

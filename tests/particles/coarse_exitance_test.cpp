@@ -7,13 +7,15 @@
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace particles;
+
 namespace {
 
 constexpr double kReflectance = kNominalReflectance;
 
 struct Estimated {
   Scene scene;
-  LightSampler lights;
+  scene::LightSampler lights;
   Senders senders;
   CoarseExitance exitance;
 
@@ -35,7 +37,7 @@ struct Estimated {
   CoarseExitance estimate(double caustic) const {
     std::vector<double> caustics(senders.cells().size(), 0.0);
     caustics[senders.surfaceCells()] = caustic;
-    return coarseExitance(scene, *makeEmbreeTracer(scene), lights, senders, caustics);
+    return coarseExitance(scene, *tracing::makeEmbreeTracer(scene), lights, senders, caustics);
   }
 };
 
@@ -114,7 +116,7 @@ TEST(CoarseExitance, KnowsNothingOfScalesAndColours) {
     scene.lights[1].scale = Rgb(scale);
     ParticleSettings settings;
     settings.count = 1000;
-    return planParticles(scene, *makeEmbreeTracer(scene), settings).nominal;
+    return planParticles(scene, *tracing::makeEmbreeTracer(scene), settings).nominal;
   };
   EXPECT_EQ(lit(0.8f, 1.0f), lit(0.1f, 0.0f));
 }

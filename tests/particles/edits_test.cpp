@@ -15,6 +15,8 @@
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace particles;
+
 namespace {
 
 constexpr std::uint64_t kCount = 30000;
@@ -44,17 +46,17 @@ Scene spotlitCornell() {
 
 struct World {
   Scene scene = cornell();
-  std::unique_ptr<RayTracer> tracer = makeEmbreeTracer(scene);
+  std::unique_ptr<tracing::RayTracer> tracer = tracing::makeEmbreeTracer(scene);
   ParticleSettings settings = {kCount, 1, 64};
   ParticleTracing tracing{scene, *tracer, settings};
   Particles particles = tracing.trace();
 
   ParticleUpdate apply(const Edit& edit) { return follow(applyEdit(scene, edit)); }
   ParticleUpdate follow(const AppliedEdit& applied) {
-    tracer->rebuild(GroupId(0));
+    tracer->rebuild(tracing::GroupId(0));
     return tracing.follow(particles, applied.change);
   }
-  Particles fresh() const { return traceParticles(scene, *makeEmbreeTracer(scene), settings); }
+  Particles fresh() const { return traceParticles(scene, *tracing::makeEmbreeTracer(scene), settings); }
 };
 
 Mat4 translation(const Vec3& v) { return glm::translate(Mat4(1.0), v); }
@@ -193,7 +195,7 @@ TEST(ParticleEdits, TheSunTurns) {
 TEST(ParticleEdits, InGroupsOfTheTracer) {
   World w;
   const std::vector<PrimitiveId> ball = primitivesOf(w.scene, findObjects(w.scene, "ball").front());
-  const GroupId group = w.tracer->separate(ball);
+  const tracing::GroupId group = w.tracer->separate(ball);
   for (const double x : {0.05, 0.05, -0.2}) {
     const AppliedEdit applied = applyEdit(w.scene, TransformObject{"ball", translation({x, 0, 0.02})});
     w.tracer->rebuild(group);
@@ -207,30 +209,30 @@ TEST(ParticleEdits, FromParticlesAlone) {
   World w;
   ParticleTracing other(w.scene, *w.tracer, w.settings);
   const AppliedEdit applied = applyEdit(w.scene, TransformObject{"ball", translation({0.1, 0, 0.1})});
-  w.tracer->rebuild(GroupId(0));
+  w.tracer->rebuild(tracing::GroupId(0));
   other.follow(w.particles, applied.change);
   expectFresh(w);
 }
 
-std::vector<Rgb> irradiances(const ParticleTransfer& transfer, Elements& elements, const Scene& scene) {
+std::vector<Rgb> irradiances(const ParticleTransfer& transfer, hierarchy::Elements& elements, const Scene& scene) {
   transfer.apply(elements, scene);
   std::vector<Rgb> E;
-  for (const ElementLight& l : elements.radiometry) E.push_back(l.particle);
+  for (const hierarchy::ElementLight& l : elements.radiometry) E.push_back(l.particle);
   return E;
 }
 
 /// Splits some of the leaves that particles land on.
-void splitLeaves(Elements& elements, const Scene& scene, std::size_t every) {
+void splitLeaves(hierarchy::Elements& elements, const Scene& scene, std::size_t every) {
   const std::size_t count = elements.size();
   for (std::size_t i = 0; i < count; i += every)
-    if (elements.receives(ElementId(i)) && !isBlack(elements.radiometry[i].particle))
-      subdivide(elements, scene, ElementId(i));
+    if (elements.receives(hierarchy::ElementId(i)) && !isBlack(elements.radiometry[i].particle))
+      hierarchy::subdivide(elements, scene, hierarchy::ElementId(i));
 }
 
 /// Transfers that follow are those made anew, and light is another on the surfaces alone that they name.
 TEST(ParticleEdits, TransferFollows) {
   World w;
-  Elements elements = buildElements(w.scene, surfaceSides(w.scene));
+  hierarchy::Elements elements = hierarchy::buildElements(w.scene, hierarchy::surfaceSides(w.scene));
   subdivideForParticles(elements, w.scene, w.particles, std::vector<bool>(2 * w.scene.primitives.size()));
   for (std::size_t i = 0; i < elements.size(); ++i) elements.radiometry[i].B = Rgb(0.1f + 0.01f * float(i % 7));
   ParticleTransfer transfer(w.particles, elements, w.scene);
@@ -240,10 +242,10 @@ TEST(ParticleEdits, TransferFollows) {
                         Edit(TransformObject{"tall_block", turn(0.1, {0.37, 0, 0.35})}), Edit(RemoveObject{"ball"})}) {
     const ParticleUpdate u = w.apply(e);
     splitLeaves(elements, w.scene, every++);
-    const std::vector<ElementId> surfaces = transfer.follow(w.particles, u, elements, w.scene);
-    Elements named = elements;
+    const std::vector<hierarchy::ElementId> surfaces = transfer.follow(w.particles, u, elements, w.scene);
+    hierarchy::Elements named = elements;
     std::vector<Rgb> B;
-    for (const ElementLight& l : named.radiometry) B.push_back(l.B);
+    for (const hierarchy::ElementLight& l : named.radiometry) B.push_back(l.B);
     std::vector<char> marks(named.size(), 0);
     transfer.apply(surfaces, named, {B, w.scene}, 1e-5f, marks);
     const std::vector<Rgb> E = irradiances(transfer, elements, w.scene);
@@ -252,7 +254,7 @@ TEST(ParticleEdits, TransferFollows) {
     before.resize(E.size(), Rgb(0.0f));
     for (std::size_t i = 0; i < E.size(); ++i) {
       EXPECT_NEAR(gray(E[i]), gray(fresh[i]), 1e-5 * (1 + gray(fresh[i])));
-      if (!elements.isLeaf(ElementId(i))) continue;
+      if (!elements.isLeaf(hierarchy::ElementId(i))) continue;
       EXPECT_EQ(named.radiometry[i].particle, E[i]);
       EXPECT_EQ(marks[i] != 0,
                 maxChannel(glm::abs(E[i] - before[i])) > 1e-5f * std::max(maxChannel(E[i]), maxChannel(before[i])));

@@ -13,6 +13,8 @@
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace particles;
+
 namespace {
 
 constexpr double kSignificance = 1e-4;
@@ -20,15 +22,15 @@ constexpr int kSamples = 40000;
 
 struct World {
   Scene scene;
-  std::unique_ptr<RayTracer> tracer;
-  std::unique_ptr<LightSampler> lights;
+  std::unique_ptr<tracing::RayTracer> tracer;
+  std::unique_ptr<scene::LightSampler> lights;
   std::unique_ptr<Senders> senders;
   std::unique_ptr<Receivers> receivers;
   std::unique_ptr<ParticleEmission> emission;
 
   explicit World(Scene s) : scene(std::move(s)) {
-    tracer = makeEmbreeTracer(scene);
-    lights = std::make_unique<LightSampler>(scene);
+    tracer = tracing::makeEmbreeTracer(scene);
+    lights = std::make_unique<scene::LightSampler>(scene);
     senders = std::make_unique<Senders>(scene, *lights);
     std::vector<float> strength(senders->cells().size(), 1.0f);
     senders->weigh(strength);
@@ -46,11 +48,11 @@ struct World {
       for (Vec2* v : {&u.choice, &u.origin, &u.direction}) *v = {rng.uniform(), rng.uniform()};
       emission->sample(ends, u, segments.emplace_back());
     }
-    std::vector<Arrival> arrivals(segments.size());
+    std::vector<FirstHit> arrivals(segments.size());
     std::uint64_t rays = 0;
     FirstRays memory;
     emission->arrive(std::vector<LinkEnds>(segments.size(), ends), segments, arrivals, memory, rays);
-    for (const Arrival& a : arrivals) m.add(a.primitive.valid() ? a.flux.g : 0.0);
+    for (const FirstHit& a : arrivals) m.add(a.primitive.valid() ? a.flux.g : 0.0);
     return m;
   }
 
@@ -81,7 +83,7 @@ struct World {
     const SenderCell& c = senders->cells()[cell];
     const Vec2 u{rng.uniform(), rng.uniform()}, v{rng.uniform(), rng.uniform()};
     const double phi = 2 * kPi * v.y;
-    Ray ray;
+    tracing::Ray ray;
     Vec3 w;
     double weight = 0;
     bool spot = false;
@@ -103,7 +105,7 @@ struct World {
       const SurfacePoint p = senders->point(cell, u);
       const double r = std::sqrt(v.x);
       w = Frame(p.normal).toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - v.x)});
-      ray.origin = offsetOrigin(Vec3f(p.position), Vec3f(p.normal), Vec3f(w));
+      ray.origin = tracing::offsetOrigin(Vec3f(p.position), Vec3f(p.normal), Vec3f(w));
       weight = c.measure;
       if (c.kind == SenderKind::Lamp) {
         spot = scene.materialOf(c.primitive).emission->spot.has_value();
@@ -114,7 +116,7 @@ struct World {
     double sum = 0, distance = 0;
     const RadixNode& r = receivers->nodes()[ends.receiver];
     for (int pane = 0; pane < 16; ++pane) {
-      const Hit hit = tracer->closestHit(ray);
+      const tracing::Hit hit = tracer->closestHit(ray);
       if (!hit) break;
       distance += hit.t;
       const std::uint32_t met = receivers->cellOf(hit);
@@ -129,7 +131,7 @@ struct World {
       const auto* glass = std::get_if<ThinGlass>(&scene.materialOf(hit.primitive).surface);
       if (!glass) break;
       weight *= transmittance(*glass, std::abs(glm::dot(hit.normal, ray.direction))).g;
-      ray.origin = offsetOrigin(hit.position, hit.normal, ray.direction);
+      ray.origin = tracing::offsetOrigin(hit.position, hit.normal, ray.direction);
     }
     return sum;
   }

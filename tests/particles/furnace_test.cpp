@@ -8,6 +8,8 @@
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace particles;
+
 namespace {
 
 constexpr float kRho = 0.5f;
@@ -23,10 +25,10 @@ Scene furnace() {
 double meanIrradiance(const Solution& s, std::size_t walls) {
   double power = 0, area = 0;
   for (std::size_t i = 0; i < s.elements.size(); ++i) {
-    const ElementTopology& t = s.elements.topology[i];
-    if (t.kind != ElementKind::Patch || t.emitter || t.blocker || t.childCount > 0 || !t.front) continue;
+    const hierarchy::ElementTopology& t = s.elements.topology[i];
+    if (t.kind != hierarchy::ElementKind::Patch || t.emitter || t.blocker || t.childCount > 0 || !t.front) continue;
     if (s.elements.domain[i].primitive.index() >= walls) continue;
-    const ElementLight& l = s.elements.radiometry[i];
+    const hierarchy::ElementLight& l = s.elements.radiometry[i];
     power += s.elements.geometry[i].area * (l.direct + l.indirect + l.particle).g;
     area += s.elements.geometry[i].area;
   }

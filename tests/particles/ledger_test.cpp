@@ -9,6 +9,8 @@
 #include "particles/particles.hpp"
 
 namespace deltalux {
+using namespace particles;
+
 namespace {
 
 class ParticleLedgers : public testing::TestWithParam<const char*> {};
@@ -16,7 +18,7 @@ class ParticleLedgers : public testing::TestWithParam<const char*> {};
 TEST_P(ParticleLedgers, Close) {
   Scene scene = loadScene({std::string(DELTALUX_SOURCE_DIR "/scenes/") + GetParam()}).scene;
   addAreaLights(scene);
-  const Particles p = traceParticles(scene, *makeEmbreeTracer(scene), {100000, 1, 64});
+  const Particles p = traceParticles(scene, *tracing::makeEmbreeTracer(scene), {100000, 1, 64});
   ASSERT_NO_THROW(validate(p, scene));
   const ParticleLedger l = p.ledger();
   EXPECT_GT(l.entered + l.passed, 0);

@@ -8,6 +8,8 @@
 #include "tracing/test_scenes.hpp"
 
 namespace deltalux {
+using namespace particles;
+
 namespace {
 
 constexpr double kMargin = 1e-4;
@@ -32,8 +34,8 @@ std::vector<Shape> someShapes() {
 }
 
 /// Whether the tracer meets the shape between a and b.
-bool hit(const RayTracer& tracer, const Vec3f& a, const Vec3f& b) {
-  Ray ray;
+bool hit(const tracing::RayTracer& tracer, const Vec3f& a, const Vec3f& b) {
+  tracing::Ray ray;
   ray.origin = a, ray.tFar = glm::length(b - a);
   ray.direction = (b - a) / ray.tFar;
   return static_cast<bool>(tracer.closestHit(ray));
@@ -44,7 +46,7 @@ TEST(MovedShapes, AgreeWithTheTracer) {
   for (const Shape& shape : someShapes()) {
     Scene scene = test::emptyScene();
     test::add(scene, shape);
-    const auto tracer = makeBruteForceTracer(scene);
+    const auto tracer = tracing::makeBruteForceTracer(scene);
     const Shape* const only = &shape;
     const MovedShapes shapes(std::span(&only, 1), kMargin);
     Rng rng(7, shape.index());

@@ -15,6 +15,8 @@
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace particles;
+
 namespace {
 
 /// A room with a lamp, a sunlit window of glass, a mirror, a metal ball, a glass ball and a glossy floor.
@@ -43,7 +45,7 @@ Scene room(float lampScale = 1.0f, float wallColour = 0.6f) {
 }
 
 Particles trace(const Scene& scene, std::uint64_t count = 20000, std::uint64_t seed = 1) {
-  const auto tracer = makeEmbreeTracer(scene);
+  const auto tracer = tracing::makeEmbreeTracer(scene);
   ParticleSettings settings;
   settings.count = count, settings.seed = seed;
   Particles p = traceParticles(scene, *tracer, settings);
@@ -112,7 +114,7 @@ TEST(Particles, LightCaughtBetweenMirrorsEnds) {
   test::addPolygon(scene, mirror, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   test::addPolygon(scene, mirror, {{0, 0, 0.1}, {0, 1, 0.1}, {1, 1, 0.1}, {1, 0, 0.1}});
   test::addLight(scene, PointLight{{0.5, 0.5, 0.05}, Rgb(1.0f)});
-  const auto tracer = makeEmbreeTracer(scene);
+  const auto tracer = tracing::makeEmbreeTracer(scene);
   ParticleSettings settings;
   settings.count = 5000, settings.maxDepth = 24;
   const Particles p = traceParticles(scene, *tracer, settings);
@@ -126,15 +128,15 @@ TEST(Particles, LightCaughtBetweenMirrorsEnds) {
 
 TEST(Particles, DepositKeepsTheirFlux) {
   const Scene scene = room();
-  const auto tracer = makeEmbreeTracer(scene);
+  const auto tracer = tracing::makeEmbreeTracer(scene);
   const Particles p = trace(scene, 50000);
-  Elements elements = buildElements(scene, surfaceSides(scene));
+  hierarchy::Elements elements = hierarchy::buildElements(scene, hierarchy::surfaceSides(scene));
   for (std::size_t i = 0; i < elements.size(); ++i) elements.radiometry[i].B = Rgb(2.0f);
   const ParticleTransfer transfer(p, elements, scene);
   transfer.apply(elements, scene);
   RgbSum deposited(0.0), landed(0.0);
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (elements.isReceivingLeaf(ElementId(i)))
+    if (elements.isReceivingLeaf(hierarchy::ElementId(i)))
       deposited += double(elements.geometry[i].area) * RgbSum(elements.radiometry[i].particle);
   }
   for (const Impact& i : impacts(p, elements, scene)) landed += RgbSum(i.flux);
@@ -145,9 +147,9 @@ TEST(Particles, DepositKeepsTheirFlux) {
 /// A path is its link's key and its number: where its link stands among the others does not matter.
 TEST(Particles, OrderOfLinksDoesNotMatter) {
   const Scene scene = room();
-  const auto tracer = makeEmbreeTracer(scene);
+  const auto tracer = tracing::makeEmbreeTracer(scene);
   const Particles p = trace(scene, 5000);
-  const LightSampler lights(scene);
+  const scene::LightSampler lights(scene);
   Senders senders(scene, lights);
   const Receivers receivers(scene);
   std::vector<float> strength(p.nominal);

@@ -10,6 +10,8 @@
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace particles;
+
 namespace {
 
 /// A room whose floor reflects as much as asked for, and all of whose other surfaces are grey.
@@ -27,8 +29,8 @@ class Floor {
     engine.solve();
     elements_ = engine.solution().get().elements;
     for (std::size_t i = 0; i < elements_.size(); ++i)
-      if (const ElementId e(i); elements_.isReceivingLeaf(e) && elements_.domain[i].primitive == floor_) {
-        top_ = surfaceOf(elements_, e), leaves_.push_back(e);
+      if (const hierarchy::ElementId e(i); elements_.isReceivingLeaf(e) && elements_.domain[i].primitive == floor_) {
+        top_ = hierarchy::surfaceOf(elements_, e), leaves_.push_back(e);
       }
   }
 
@@ -44,9 +46,9 @@ class Floor {
 
  private:
   PrimitiveId floor_;
-  Elements elements_;
-  ElementId top_;
-  std::vector<ElementId> leaves_;
+  hierarchy::Elements elements_;
+  hierarchy::ElementId top_;
+  std::vector<hierarchy::ElementId> leaves_;
   SpreadLevels levels_;
 };
 

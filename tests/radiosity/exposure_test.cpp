@@ -8,6 +8,8 @@
 #include "support/solved.hpp"
 
 namespace deltalux {
+using namespace radiosity;
+
 namespace {
 
 using namespace test;
@@ -43,8 +45,9 @@ Scene roomWithABlock() {
 template <class Visit>
 void forEachLeafOf(const Solution& s, PrimitiveId primitive, const Visit& visit) {
   for (std::size_t i = 0; i < s.elements.size(); ++i) {
-    const ElementTopology& t = s.elements.topology[i];
-    if (t.kind == ElementKind::Patch && t.childCount == 0 && t.front && s.elements.domain[i].primitive == primitive)
+    const hierarchy::ElementTopology& t = s.elements.topology[i];
+    if (t.kind == hierarchy::ElementKind::Patch && t.childCount == 0 && t.front &&
+        s.elements.domain[i].primitive == primitive)
       visit(s.elements.geometry[i], s.elements.radiometry[i]);
   }
 }
@@ -62,7 +65,7 @@ TEST(Exposure, IsTheFloorWithoutWhatStandsOnIt) {
   const Solution& s = engine.solution().get();
   double lit = 0, area = 0;
   int partly = 0;
-  forEachLeafOf(s, floorOf(s.scene), [&](const ElementGeometry& g, const ElementLight&) {
+  forEachLeafOf(s, floorOf(s.scene), [&](const hierarchy::ElementGeometry& g, const hierarchy::ElementLight&) {
     lit += g.litArea(), area += g.area;
     partly += g.exposed < 1;
   });
@@ -80,9 +83,10 @@ TEST(Exposure, WhatPeepsOutIsAsBrightAsItsSurroundings) {
   const Solution& s = engine.solution().get();
   int compared = 0;
   for (std::size_t i = 0; i < s.elements.size(); ++i) {
-    const ElementTopology& t = s.elements.topology[i];
-    const ElementGeometry& g = s.elements.geometry[i];
-    if (t.kind != ElementKind::Patch || t.childCount > 0 || !t.front || t.emitter || g.exposed >= 0.85f) continue;
+    const hierarchy::ElementTopology& t = s.elements.topology[i];
+    const hierarchy::ElementGeometry& g = s.elements.geometry[i];
+    if (t.kind != hierarchy::ElementKind::Patch || t.childCount > 0 || !t.front || t.emitter || g.exposed >= 0.85f)
+      continue;
     if (s.elements.domain[i].primitive != floorOf(s.scene) || g.exposed < 0.15f) continue;
     // Points of the leaf beside the block's foot.
     constexpr int kAcross = 16;
@@ -94,7 +98,7 @@ TEST(Exposure, WhatPeepsOutIsAsBrightAsItsSurroundings) {
     }
     double mean = 0;
     for (const ProbeResult& r : measure(engine, points)) mean += gray(r.irradiance) / double(points.size());
-    const ElementLight& l = s.elements.radiometry[i];
+    const hierarchy::ElementLight& l = s.elements.radiometry[i];
     EXPECT_NEAR(gray(l.direct + l.indirect), mean, 0.3 * mean) << i << ", exposed " << g.exposed;
     ++compared;
   }

@@ -8,6 +8,8 @@
 #include "support/solved.hpp"
 
 namespace deltalux {
+using namespace radiosity;
+
 namespace {
 
 Scene roomOfRoundThings() {
@@ -26,25 +28,25 @@ Scene roomOfRoundThings() {
 TEST(Facing, WhatTurnsAwayHasNothingBeforeIt) {
   const Engine engine = test::solved(roomOfRoundThings(), 0.1);
   const Solution& s = engine.solution().get();
-  std::vector<ElementId> curved, patches;
+  std::vector<hierarchy::ElementId> curved, patches;
   for (std::size_t i = 0; i < s.elements.size(); ++i) {
-    if (!s.elements.isPatch(ElementId(i)) || s.elements.topology[i].emitter) continue;
+    if (!s.elements.isPatch(hierarchy::ElementId(i)) || s.elements.topology[i].emitter) continue;
     patches.emplace_back(i);
     if (!s.elements.topology[i].flat && s.elements.topology[i].childCount == 0) curved.emplace_back(i);
   }
   ASSERT_GT(curved.size(), 20u);
   Rng rng(3);
-  const auto any = [&](const std::vector<ElementId>& of) {
+  const auto any = [&](const std::vector<hierarchy::ElementId>& of) {
     return of[static_cast<std::size_t>(rng.uniform() * static_cast<double>(of.size()))];
   };
   int away = 0, told = 0;
   for (int pair = 0; pair < 20000; ++pair) {
-    const ElementId a = any(curved), b = any(patches);
+    const hierarchy::ElementId a = any(curved), b = any(patches);
     const bool turned = turnsAway(s.elements.shape(a), s.elements.shape(b));
     float most = -1;
     for (int i = 0; i < 16; ++i) {
-      const PatchPoint y = samplePatch(s.elements, s.scene, a, rng.uniform(), rng.uniform());
-      const PatchPoint x = samplePatch(s.elements, s.scene, b, rng.uniform(), rng.uniform());
+      const hierarchy::PatchPoint y = hierarchy::samplePatch(s.elements, s.scene, a, rng.uniform(), rng.uniform());
+      const hierarchy::PatchPoint x = hierarchy::samplePatch(s.elements, s.scene, b, rng.uniform(), rng.uniform());
       const Vec3f d = x.position - y.position;
       if (glm::length(d) > 0) most = std::max(most, glm::dot(y.normal, d) / glm::length(d));
     }
@@ -58,7 +60,7 @@ TEST(Facing, WhatTurnsAwayHasNothingBeforeIt) {
 }
 
 TEST(Facing, OfAFlatPatchIsWhatLiesBehindItsPlane) {
-  ElementGeometry patch, box;
+  hierarchy::ElementGeometry patch, box;
   patch.lower = {0, 0, 0}, patch.upper = {1, 1, 0}, patch.normal = {0, 0, 1}, patch.normalCone = 1;
   box.lower = {2, 2, -1}, box.upper = {3, 3, 0};
   EXPECT_TRUE(turnsAway(patch, box));

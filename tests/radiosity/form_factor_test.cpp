@@ -7,6 +7,8 @@
 #include "base/random.hpp"
 
 namespace deltalux {
+using namespace radiosity;
+
 namespace {
 
 TEST(FormFactor, PatchUnderTheCornerOfARectangle) {

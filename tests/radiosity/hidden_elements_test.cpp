@@ -10,6 +10,8 @@
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
+using namespace radiosity;
+
 namespace {
 
 Vec3 pointIn(Rng& rng, const Vec3& lower, const Vec3& upper) {
@@ -39,8 +41,8 @@ Scene screens(std::uint64_t seed) {
   return scene;
 }
 
-bool pass(const RayTracer& tracer, const Vec3f& from, const Vec3f& to) {
-  Ray ray;
+bool pass(const tracing::RayTracer& tracer, const Vec3f& from, const Vec3f& to) {
+  tracing::Ray ray;
   ray.origin = from, ray.direction = to - from, ray.tNear = 0, ray.tFar = 1;
   return !tracer.occluded(ray);
 }
@@ -51,8 +53,8 @@ TEST(HiddenElements, LieBehindTheirOccluders) {
   std::size_t hidden = 0, patches = 0, seen = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Scene scene = screens(seed);
-    const Elements elements = buildElements(scene, surfaceSides(scene));
-    const auto tracer = makeEmbreeTracer(scene);
+    const hierarchy::Elements elements = hierarchy::buildElements(scene, hierarchy::surfaceSides(scene));
+    const auto tracer = tracing::makeEmbreeTracer(scene);
     Rng rng(seed);
     std::vector<char> isHidden(elements.size(), 0);
     for (const HiddenElement& h : hiddenElements(elements, scene, region)) {
@@ -60,17 +62,18 @@ TEST(HiddenElements, LieBehindTheirOccluders) {
       alone.materials = scene.materials;
       const Primitive& p = scene[elements.domain[h.occluder.index()].primitive];
       alone.primitives.push_back({p.shape, p.material, {}});
-      const auto occluder = makeEmbreeTracer(alone);
+      const auto occluder = tracing::makeEmbreeTracer(alone);
       const Box box = elements.box(h.element);
       for (int k = 0; k < 32; ++k)
         EXPECT_FALSE(pass(*occluder, Vec3f(pointIn(rng, box.lower, box.upper)),
                           Vec3f(pointIn(rng, region.lower, region.upper))));
-      forEachBelow(elements, h.element, [&](ElementId e) { return isHidden[e.index()] = 1; });
+      hierarchy::forEachBelow(elements, h.element, [&](hierarchy::ElementId e) { return isHidden[e.index()] = 1; });
     }
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      if (!elements.isPatch(ElementId(i))) continue;
+      if (!elements.isPatch(hierarchy::ElementId(i))) continue;
       ++patches, hidden += isHidden[i];
-      const PatchPoint p = samplePatch(elements, scene, ElementId(i), rng.uniform(), rng.uniform());
+      const hierarchy::PatchPoint p =
+          hierarchy::samplePatch(elements, scene, hierarchy::ElementId(i), rng.uniform(), rng.uniform());
       const bool sees = pass(*tracer, p.position + 1e-3f * p.normal, Vec3f(pointIn(rng, region.lower, region.upper)));
       EXPECT_FALSE(sees && isHidden[i]);
       seen += sees;
@@ -87,7 +90,7 @@ TEST(HiddenElements, AreNoneBehindGlassOrWhatLiesInTheRegion) {
     const MaterialId pane = test::addMaterial(scene, "pane", ThinGlass{});
     test::addPolygon(scene, glass ? pane : grey, {{1, -3, -3}, {1, 3, -3}, {1, 3, 3}, {1, -3, 3}});
     test::addBox(scene, grey, {2, -0.5, -0.5}, {3, 0.5, 0.5}, false);
-    const Elements elements = buildElements(scene, surfaceSides(scene));
+    const hierarchy::Elements elements = hierarchy::buildElements(scene, hierarchy::surfaceSides(scene));
     const Box beside{Vec3(-0.5), Vec3(0.5)}, across{Vec3(-0.5), Vec3(1.5, 0.5, 0.5)};
     EXPECT_EQ(hiddenElements(elements, scene, beside).empty(), glass);
     for (const HiddenElement& h : hiddenElements(elements, scene, across))

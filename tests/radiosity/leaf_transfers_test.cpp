@@ -11,6 +11,8 @@
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace radiosity;
+
 namespace {
 
 /// A room with a lamp below its ceiling, a block and a ball.
@@ -26,19 +28,20 @@ Scene furnished() {
 }
 
 /// Irradiance of a leaf from the radiosities of the leaves that cosine-distributed rays from it meet.
-double overHemisphere(const Solution& s, const SideLocator& locator, ElementId leaf, std::uint32_t rays) {
+double overHemisphere(const Solution& s, const hierarchy::SideLocator& locator, hierarchy::ElementId leaf,
+                      std::uint32_t rays) {
   double sum = 0;
   for (std::uint32_t k = 0; k < rays; ++k) {
     const UnitPair u = scrambledSobol(k, 11), v = scrambledSobol(k, 12);
-    const PatchPoint p = samplePatch(s.elements, s.scene, leaf, u.x, u.y);
+    const hierarchy::PatchPoint p = hierarchy::samplePatch(s.elements, s.scene, leaf, u.x, u.y);
     const double r = std::sqrt(v.x), phi = 2 * kPi * v.y;
     const Vec3f w(Frame(Vec3(p.normal)).toWorld({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - v.x)}));
-    Ray ray;
-    ray.origin = offsetOrigin(p.position, p.normal, w);
+    tracing::Ray ray;
+    ray.origin = tracing::offsetOrigin(p.position, p.normal, w);
     ray.direction = w;
-    const Hit hit = s.tracer->closestHit(ray);
+    const tracing::Hit hit = s.tracer->closestHit(ray);
     if (!hit) continue;
-    const ElementId side = locator.side(hit.primitive, hit.triangle, hit.front);
+    const hierarchy::ElementId side = locator.side(hit.primitive, hit.triangle, hit.front);
     if (side.valid())
       sum += gray(s.elements.radiometry[locator.locate(side, Vec3(hit.position)).leaf.index()].B) / double(rays);
   }
@@ -50,14 +53,14 @@ TEST(LeafTransfers, BringWhatRaysOverTheHemisphereFind) {
   engine.solve();
   const Solution& s = engine.solution().get();
   ASSERT_FALSE(s.transfers.empty());
-  const SideLocator locator(s.elements, s.scene);
+  const hierarchy::SideLocator locator(s.elements, s.scene);
   double power = 0, found = 0, apart = 0;
   int leaves = 0;
   for (std::size_t i = 0; i < s.elements.size(); i += 5) {
-    const ElementTopology& t = s.elements.topology[i];
-    if (t.kind != ElementKind::Patch || t.childCount > 0 || t.emitter) continue;
+    const hierarchy::ElementTopology& t = s.elements.topology[i];
+    if (t.kind != hierarchy::ElementKind::Patch || t.childCount > 0 || t.emitter) continue;
     const double A = s.elements.geometry[i].area, E = gray(s.elements.radiometry[i].indirect);
-    const double truth = overHemisphere(s, locator, ElementId(i), 2000);
+    const double truth = overHemisphere(s, locator, hierarchy::ElementId(i), 2000);
     power += A * E, found += A * truth, apart += A * std::abs(E - truth);
     ++leaves;
   }
@@ -67,7 +70,7 @@ TEST(LeafTransfers, BringWhatRaysOverTheHemisphereFind) {
 }
 
 /// What a row of a leaf brings: irradiance from today's radiosities, without the light that it has too much of.
-double broughtBy(const TransferRow& row, const Elements& elements) {
+double broughtBy(const TransferRow& row, const hierarchy::Elements& elements) {
   double sum = 0;
   for (const LeafTransfer& t : row.transfers) sum += gray(t.T * elements.radiometry[t.leaf.index()].B);
   return sum;
@@ -78,22 +81,22 @@ TEST(LeafTransfers, PartsOfALeafInheritItsRays) {
   Engine engine(furnished());
   engine.solve();
   const Solution& s = engine.solution().get();
-  Elements elements = s.elements;
-  const SideLocator locator(s.elements, s.scene);
+  hierarchy::Elements elements = s.elements;
+  const hierarchy::SideLocator locator(s.elements, s.scene);
   double found = 0, asFresh = 0, light = 0, leaves = 0, cheaper = 0;
   for (const LeafRow& whole : s.transfers.rows()) {
     if (whole.leaf.index() % 5 != 0 || !elements.at(whole.leaf).flat) continue;
     const std::size_t before = elements.size();
-    if (!subdivide(elements, s.scene, whole.leaf)) continue;
+    if (!hierarchy::subdivide(elements, s.scene, whole.leaf)) continue;
     const IndirectSampler sampler(s.scene, elements, s.links, *s.tracer);
     std::uint64_t rays = 0;
     const TransferRow from = sampler.atLeaf(whole.leaf, kRays, rays);
     for (std::size_t part = before; part < elements.size(); ++part) {
       std::uint64_t traced = 0, anew = 0;
-      const TransferRow row = sampler.inherited(ElementId(part), from, {}, {}, kRays, traced);
+      const TransferRow row = sampler.inherited(hierarchy::ElementId(part), from, {}, {}, kRays, traced);
       const double A = elements.geometry[part].area;
       found += A * broughtBy(row, elements);
-      asFresh += A * broughtBy(sampler.atLeaf(ElementId(part), kRays, anew), elements);
+      asFresh += A * broughtBy(sampler.atLeaf(hierarchy::ElementId(part), kRays, anew), elements);
       light += A * overHemisphere(s, locator, whole.leaf, 500);
       cheaper += row.terms.size() == from.terms.size(), ++leaves;
       for (const RowTerm& t : row.terms) ASSERT_TRUE(t.link.index() < s.links.size());
@@ -126,11 +129,11 @@ TEST(LeafTransfers, BringWhatSendersSendThatAreCoveredInPart) {
   Engine engine(sunkPosts());
   engine.solve();
   const Solution& s = engine.solution().get();
-  const SideLocator locator(s.elements, s.scene);
+  const hierarchy::SideLocator locator(s.elements, s.scene);
   double power = 0, found = 0;
   int leaves = 0, covered = 0;
   for (const LeafRow& row : s.transfers.rows()) {
-    const ElementGeometry& g = s.elements.shape(row.leaf);
+    const hierarchy::ElementGeometry& g = s.elements.shape(row.leaf);
     const bool ofFloor = s.elements.at(row.leaf).flat && g.normal.z > 0.99f && std::abs(g.center.z) < 1e-3f;
     covered += g.exposed < 1.0f && !ofFloor;
     if (!ofFloor || g.exposed < 1.0f) continue;

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 namespace deltalux {
+using namespace radiosity;
+
 namespace {
 
-Link sampled(float V) {
-  Link link;
-  link.state = LinkState::Active;
-  link.visibility = Visibility::Sampled;
+hierarchy::Link sampled(float V) {
+  hierarchy::Link link;
+  link.state = hierarchy::LinkState::Active;
+  link.visibility = hierarchy::Visibility::Sampled;
   link.K = 0.1f;
   link.V = Rgb(V);
   link.samples = 16, link.sampleMask = 0xffff;
@@ -27,13 +29,13 @@ TEST(LinkNews, TooFewRaysDoNotStandWhereMuchMorePasses) {
 }
 
 TEST(LinkNews, WhatNeededNoRayNeedsOneWhenItIsNoLongerClear) {
-  Link clear = sampled(1.0f);
-  clear.visibility = Visibility::Clear;
+  hierarchy::Link clear = sampled(1.0f);
+  clear.visibility = hierarchy::Visibility::Clear;
   EXPECT_FALSE(samePlan(clear, sampled(0.9f)));
 }
 
 TEST(LinkNews, RaysDoNotStandWhereTheKernelIsAnother) {
-  Link near = sampled(0.9f);
+  hierarchy::Link near = sampled(0.9f);
   near.K = 0.4f;
   EXPECT_FALSE(samePlan(sampled(0.9f), near));
   EXPECT_FALSE(samePlan(near, sampled(0.9f)));

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 namespace deltalux {
+using namespace radiosity;
+
 namespace {
 
 ObjectSet of(std::uint32_t object) {

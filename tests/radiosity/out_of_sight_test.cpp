@@ -11,6 +11,8 @@
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace radiosity;
+
 namespace {
 
 Vec3 pointIn(Rng& rng, const Vec3& lower, const Vec3& upper) {
@@ -29,7 +31,7 @@ TEST(Separation, HoldsOfAllSegments) {
                                      {0.3, 0, 0.9},
                                      {0.3, 0, 0.4},
                                      {-2, 0, 0.4}});
-  const PlaneFrame frame{wall.origin, wall.edgeU, wall.edgeV, wall.normal};
+  const hierarchy::PlaneFrame frame{wall.origin, wall.edgeU, wall.edgeV, wall.normal};
   Rng rng(11);
   int separate = 0, open = 0;
   for (int k = 0; k < 4000; ++k) {
@@ -60,23 +62,23 @@ TEST(OutOfSight, HoldsOfTheOtherRoomAndOfNothingThatSees) {
   const Vec3 lower{room.upper.x + 0.1, room.lower.y, room.lower.z};
   test::addBox(scene, white, lower, lower + Vec3(2, 3, 2.5), true);
   test::addBox(scene, white, lower + Vec3(0.5, 0.5, 0), lower + Vec3(0.9, 1.1, 0.8), false);
-  const auto tracer = makeEmbreeTracer(scene);
-  const Elements elements = buildElements(scene, surfaceSides(scene));
+  const auto tracer = tracing::makeEmbreeTracer(scene);
+  const hierarchy::Elements elements = hierarchy::buildElements(scene, hierarchy::surfaceSides(scene));
   const Box region{room.center(), room.center() + Vec3(0.4, 0.3, 0.3)};
   const OutOfSight hidden(elements, scene, region);
   Rng rng(5);
   int inOther = 0, hiddenThere = 0, seeing = 0;
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    const ElementId e(i);
+    const hierarchy::ElementId e(i);
     if (!elements.isPatch(e)) continue;
     const bool isHidden = hidden.holds(e);
     const bool other = elements.at(e).front && elements.shape(e).lower.x > room.upper.x + 0.05;
     inOther += other, hiddenThere += other && isHidden;
     for (int k = 0; k < 16; ++k) {
-      const PatchPoint p = samplePatch(elements, scene, e, rng.uniform(), rng.uniform());
+      const hierarchy::PatchPoint p = hierarchy::samplePatch(elements, scene, e, rng.uniform(), rng.uniform());
       const Vec3f q(pointIn(rng, region.lower, region.upper));
       if (glm::dot(q - p.position, p.normal) <= 0) continue;
-      const bool sees = !tracer->occluded(segment(p.position, p.normal, q, Vec3f(0.0f)));
+      const bool sees = !tracer->occluded(tracing::segment(p.position, p.normal, q, Vec3f(0.0f)));
       EXPECT_FALSE(isHidden && sees);
       seeing += sees;
     }

@@ -11,20 +11,22 @@
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace radiosity;
+
 namespace {
 
 /// A square of ground, 8 by 8, as one leaf, with a block on it.
 struct Ground {
   Scene scene;
-  Elements elements;
-  std::unique_ptr<RayTracer> tracer;
+  hierarchy::Elements elements;
+  std::unique_ptr<tracing::RayTracer> tracer;
 
   Ground(const Vec3& lower, const Vec3& upper) {
     const MaterialId grey = test::addMaterial(scene, "grey", test::lambert(0.5f));
     test::addPolygon(scene, grey, {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}});
     test::addBox(scene, grey, lower, upper, false);
-    elements = buildElements(scene, surfaceSides(scene));
-    tracer = makeEmbreeTracer(scene);
+    elements = hierarchy::buildElements(scene, hierarchy::surfaceSides(scene));
+    tracer = tracing::makeEmbreeTracer(scene);
   }
   bool parted(std::size_t a, std::size_t b) const {
     return standsBetween(elements, scene, *tracer, elements.side(PrimitiveId(0u), 0, true), a, b);
@@ -72,13 +74,13 @@ Scene shed(float sky, double angle) {
 double inShed(float sky, double angle) {
   Engine engine(shed(sky, angle));
   engine.solve();
-  const Elements& elements = engine.solution().get().elements;
+  const hierarchy::Elements& elements = engine.solution().get().elements;
   double inside = 0;
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    const ElementId e(i);
+    const hierarchy::ElementId e(i);
     if (!elements.isReceivingLeaf(e) || elements.domain[i].primitive == PrimitiveId(0u) || elements.at(e).front)
       continue;
-    const ElementLight& l = elements.radiometry[i];
+    const hierarchy::ElementLight& l = elements.radiometry[i];
     inside += double(elements.shape(e).area) * gray(l.direct + l.indirect);
   }
   return inside;

@@ -12,6 +12,8 @@
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace radiosity;
+
 namespace {
 
 class RayShares : public testing::Test {
@@ -21,16 +23,16 @@ class RayShares : public testing::Test {
     Scene scene;
     test::addPolygon(scene, test::addMaterial(scene, "plate", test::lambert(0.5f)),
                      {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
-    elements = buildElements(scene, surfaceSides(scene));
-    const ElementId plate = elements.inputs.front();
-    ASSERT_TRUE(subdivide(elements, scene, plate));
-    for (std::size_t i = 0; i < 4; ++i) ASSERT_TRUE(subdivide(elements, scene, elements.child(plate, i)));
-    forEachLeafBelow(elements, plate, [&](ElementId e) { leaves.push_back(e); });
+    elements = hierarchy::buildElements(scene, hierarchy::surfaceSides(scene));
+    const hierarchy::ElementId plate = elements.inputs.front();
+    ASSERT_TRUE(hierarchy::subdivide(elements, scene, plate));
+    for (std::size_t i = 0; i < 4; ++i) ASSERT_TRUE(hierarchy::subdivide(elements, scene, elements.child(plate, i)));
+    hierarchy::forEachLeafBelow(elements, plate, [&](hierarchy::ElementId e) { leaves.push_back(e); });
     ASSERT_EQ(leaves.size(), 16u);
   }
 
-  Elements elements;
-  std::vector<ElementId> leaves;  // four of a patch, then those of the next
+  hierarchy::Elements elements;
+  std::vector<hierarchy::ElementId> leaves;  // four of a patch, then those of the next
 };
 
 TEST_F(RayShares, RoundingsOfLeavesBesideEachOtherAreStratified) {
@@ -65,13 +67,13 @@ TEST_F(RayShares, FirstSamplesOfLeavesBesideEachOtherAreStratified) {
 
 TEST_F(RayShares, LeavesOfAGroupHaveTheirPlaces) {
   std::set<unsigned> places;
-  for (const ElementId leaf : leaves) {
+  for (const hierarchy::ElementId leaf : leaves) {
     EXPECT_EQ(groupOf(elements, leaf).key, groupOf(elements, leaves.front()).key);
     places.insert(groupOf(elements, leaf).place);
   }
   EXPECT_EQ(places.size(), leaves.size());
   EXPECT_LT(*places.rbegin(), LeafGroup::kPlaces);
-  const ElementId above = elements.at(leaves.front()).parent;
+  const hierarchy::ElementId above = elements.at(leaves.front()).parent;
   EXPECT_NE(groupOf(elements, above).key, groupOf(elements, leaves.front()).key) << "leaves of other sizes draw alone";
 }
 
@@ -91,7 +93,7 @@ TEST_F(RayShares, LeavesTogetherDealOutWhatAPartIsWorth) {
   for (std::uint32_t deal = 0; deal < kDeals; ++deal) {
     std::vector<RayShare> parts{{2 * deal, 0, 0, 0.3f}, {2 * deal + 1, 0, 1, 0.7f}};
     int first = 0;
-    for (const ElementId leaf : leaves)
+    for (const hierarchy::ElementId leaf : leaves)
       dealOut(parts, 1, Roundings(elements, leaf), [&](std::uint32_t i, int rays) { first += i == 0 ? rays : 0; });
     EXPECT_TRUE(first == 4 || first == 5) << first;
     sum += first;

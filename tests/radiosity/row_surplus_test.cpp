@@ -12,6 +12,8 @@
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace radiosity;
+
 namespace {
 
 class RowSurpluses : public testing::Test {
@@ -29,12 +31,12 @@ class RowSurpluses : public testing::Test {
     engine.solve();
     elements = engine.solution().get().elements;
     for (std::size_t i = 0; i < elements.size(); ++i)
-      if (elements.isReceivingLeaf(ElementId(i))) leaves.emplace_back(i);
-    for (const ElementId leaf : leaves) factors.push_back(about(leaf, 1));
+      if (elements.isReceivingLeaf(hierarchy::ElementId(i))) leaves.emplace_back(i);
+    for (const hierarchy::ElementId leaf : leaves) factors.push_back(about(leaf, 1));
   }
 
   /// One in the mean, twice as much here and there.
-  float about(ElementId leaf, std::uint64_t salt) const {
+  float about(hierarchy::ElementId leaf, std::uint64_t salt) const {
     const double u = toUnit(mix64(combineKeys(elements.key[leaf.index()], salt)));
     return elements.shape(leaf).exposed * static_cast<float>(u < 0.1 ? 2.0 : 0.8 + 0.2 * u);
   }
@@ -42,7 +44,7 @@ class RowSurpluses : public testing::Test {
     RowSurplus surplus;
     surplus.resize(elements);
     for (std::size_t i = 0; i < leaves.size(); ++i) surplus.set(leaves[i], factors[i]);
-    std::vector<ElementId> concerned;
+    std::vector<hierarchy::ElementId> concerned;
     surplus.follow(elements, leaves, concerned);
     surplus.validate(elements);
     return surplus;
@@ -53,13 +55,13 @@ class RowSurpluses : public testing::Test {
     for (std::size_t i = 0; i < leaves.size(); ++i)
       elements.radiometry[leaves[i].index()].indirect = Rgb(surplus.scale(leaves[i]) * factors[i] * B);
     const RowSurplus::Pools pools = surplus.pools(elements);
-    for (const ElementId leaf : leaves)
+    for (const hierarchy::ElementId leaf : leaves)
       E.push_back(gray(elements.radiometry[leaf.index()].indirect + surplus.share(elements, leaf, pools)));
     return E;
   }
 
-  Elements elements;
-  std::vector<ElementId> leaves;
+  hierarchy::Elements elements;
+  std::vector<hierarchy::ElementId> leaves;
   std::vector<float> factors;
 };
 
@@ -69,7 +71,7 @@ TEST_F(RowSurpluses, LoseNothingAndGiveNobodyTooMuch) {
   double gathered = 0, given = 0;
   int scaled = 0;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const ElementGeometry& g = elements.shape(leaves[i]);
+    const hierarchy::ElementGeometry& g = elements.shape(leaves[i]);
     const float rho = maxChannel(elements.radiometry[leaves[i].index()].rho);
     gathered += double(g.area) * factors[i] * 3, given += double(g.litArea()) * E[i];
     EXPECT_LE(E[i], 3 * std::max(1.0f, 0.98f / rho) * 1.0001f);
@@ -93,7 +95,7 @@ TEST_F(RowSurpluses, LeaveInTheDarkWhatSeesLittle) {
 TEST_F(RowSurpluses, FollowChangesAsIfListedAnew) {
   RowSurplus surplus = listed();
   const std::vector<float> before = received(surplus, 1);
-  std::vector<ElementId> changed, concerned;
+  std::vector<hierarchy::ElementId> changed, concerned;
   for (std::size_t i = 0; i < leaves.size(); i += 17) {
     factors[i] = about(leaves[i], 2 + i);
     surplus.set(leaves[i], factors[i]);
@@ -117,7 +119,7 @@ TEST_F(RowSurpluses, AreHeardOfWhereTheyAreAnother) {
   const RowSurplus surplus = listed();
   received(surplus, 1);
   RowSurplus::Pools heard = surplus.pools(elements);
-  std::vector<ElementId> sharing;
+  std::vector<hierarchy::ElementId> sharing;
   surplus.listen(elements, surplus.pools(elements), 1e-3f, heard, sharing);
   EXPECT_TRUE(sharing.empty());
   received(surplus, 1.1f);
@@ -125,7 +127,7 @@ TEST_F(RowSurpluses, AreHeardOfWhereTheyAreAnother) {
   surplus.listen(elements, now, 1e-3f, heard, sharing);
   EXPECT_EQ(heard, now);
   EXPECT_FALSE(sharing.empty());
-  for (const ElementId leaf : sharing) EXPECT_GT(maxChannel(surplus.share(elements, leaf, now)), 0);
+  for (const hierarchy::ElementId leaf : sharing) EXPECT_GT(maxChannel(surplus.share(elements, leaf, now)), 0);
 }
 
 TEST_F(RowSurpluses, RaysGoByAreaAndLight) {
@@ -133,8 +135,8 @@ TEST_F(RowSurpluses, RaysGoByAreaAndLight) {
   settings.inAll = 0;
   const MeanLeaf mean = meanOf(leaves, elements);
   const GatherRays rays(settings, leaves.size(), mean);
-  const ElementId leaf = leaves.front();
-  ElementGeometry& g = elements.geometry[leaf.index()];
+  const hierarchy::ElementId leaf = leaves.front();
+  hierarchy::ElementGeometry& g = elements.geometry[leaf.index()];
   Rgb& E = elements.radiometry[leaf.index()].indirect;
   const auto with = [&](double area, double light) {
     g.exposed = 1, g.area = static_cast<float>(area * mean.area);

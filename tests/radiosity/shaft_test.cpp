@@ -5,27 +5,29 @@
 #include "base/random.hpp"
 
 namespace deltalux {
+using namespace radiosity;
+
 namespace {
 
 Vec3f randomPoint(Rng& rng, float size) {
   return {float(rng.uniform() - 0.5) * size, float(rng.uniform() - 0.5) * size, float(rng.uniform() - 0.5) * size};
 }
 
-ElementGeometry randomBox(Rng& rng) {
-  ElementGeometry g;
+hierarchy::ElementGeometry randomBox(Rng& rng) {
+  hierarchy::ElementGeometry g;
   const Vec3f a = randomPoint(rng, 10), b = a + randomPoint(rng, 4);
   g.lower = glm::min(a, b), g.upper = glm::max(a, b);
   return g;
 }
 
-Vec3f inside(Rng& rng, const ElementGeometry& g) {
+Vec3f inside(Rng& rng, const hierarchy::ElementGeometry& g) {
   return glm::mix(g.lower, g.upper, Vec3f(float(rng.uniform()), float(rng.uniform()), float(rng.uniform())));
 }
 
 TEST(Shaft, NeverMissesABoxOnALineBetweenTheEnds) {
   Rng rng(11);
   for (int k = 0; k < 20000; ++k) {
-    const ElementGeometry a = randomBox(rng), b = randomBox(rng);
+    const hierarchy::ElementGeometry a = randomBox(rng), b = randomBox(rng);
     const Vec3f p = glm::mix(inside(rng, a), inside(rng, b), float(rng.uniform()));
     const Vec3f half = glm::abs(randomPoint(rng, 0.2f)) + 1e-4f;
     EXPECT_TRUE(Shaft(a, b).meets(p - half, p + half));
@@ -34,7 +36,7 @@ TEST(Shaft, NeverMissesABoxOnALineBetweenTheEnds) {
 
 TEST(Shaft, IsTighterThanTheBoxOfBothEnds) {
   // Two small boxes at opposite corners: most of their common box lies outside the shaft.
-  ElementGeometry a, b;
+  hierarchy::ElementGeometry a, b;
   a.lower = {0, 0, 0}, a.upper = {1, 1, 1}, b.lower = {9, 9, 9}, b.upper = {10, 10, 10};
   const Shaft shaft(a, b);
   EXPECT_FALSE(shaft.meets({8, 1, 1}, {9, 2, 2}));

@@ -5,6 +5,8 @@
 #include "base/random.hpp"
 
 namespace deltalux {
+using namespace radiosity;
+
 namespace {
 
 Vec3f point(Rng& rng, float size) {
@@ -25,8 +27,8 @@ SpaceChange boxes(Rng& rng, int count) {
   return space;
 }
 
-ElementGeometry boxAround(const Vec3f& center, float radius) {
-  ElementGeometry g;
+hierarchy::ElementGeometry boxAround(const Vec3f& center, float radius) {
+  hierarchy::ElementGeometry g;
   g.lower = center - radius, g.upper = center + radius;
   return g;
 }
@@ -68,17 +70,17 @@ TEST(SpaceChange, HullsAndBeamsHoldTheirRays) {
       const Vec3f p = inBall(rng, a, ra), q = inBall(rng, b, rb);
       const Vec3f d = inBall(rng, Vec3f(0.0f), 1.0f), across = glm::normalize(glm::cross(axis, d));
       const float off = upTo(angle);
-      const bool far = space.meets(Ray{p, 0.0f, d, 1e30f}),
+      const bool far = space.meets(tracing::Ray{p, 0.0f, d, 1e30f}),
                  near = mayMeet(space, a, ra, rayCode(directionCode(d), 1e30f, false));
       unseen += !near;
       EXPECT_TRUE(near || !far);
-      EXPECT_FALSE(!hull && space.meets(Ray{p, 0.0f, q - p, 1.0f}));
+      EXPECT_FALSE(!hull && space.meets(tracing::Ray{p, 0.0f, q - p, 1.0f}));
       const Vec3f w = std::cos(off) * axis + std::sin(off) * across;
-      EXPECT_FALSE(!beam && space.meets(Ray{p, 0.0f, w, 1e30f}));
-      EXPECT_FALSE(!boxBeam && space.meets(Ray{a + point(rng, ra), 0.0f, w, 1e30f}));
+      EXPECT_FALSE(!beam && space.meets(tracing::Ray{p, 0.0f, w, 1e30f}));
+      EXPECT_FALSE(!boxBeam && space.meets(tracing::Ray{a + point(rng, ra), 0.0f, w, 1e30f}));
       const bool within = !seen || glm::dot(Vec3(w), middle) > std::cos(*seen) - 1e-5;
       outside += !within;
-      EXPECT_TRUE(within || !space.meets(Ray{p, 0.0f, w, 1e30f}));
+      EXPECT_TRUE(within || !space.meets(tracing::Ray{p, 0.0f, w, 1e30f}));
     }
   }
   EXPECT_GT(hulls, 500);
@@ -96,14 +98,14 @@ TEST(SpaceChange, CodesAndReachHoldRaysWithEnds) {
     const SpaceChange space = boxes(rng, 1);
     const Vec3f a = point(rng, 2.0f);
     const float radius = static_cast<float>(0.2 * rng.uniform());
-    const ElementGeometry leaf = boxAround(a, radius);
+    const hierarchy::ElementGeometry leaf = boxAround(a, radius);
     RowReach reach;
     bool any = false;
     for (int i = 0; i < 4; ++i) {
       const Vec3f from = a + point(rng, radius), to = point(rng, 2.0f);
       const float seen = static_cast<float>(0.1 + 0.8 * rng.uniform());
       const Vec3f hit = from + seen * (to - from);
-      const bool meets = space.meets(Ray{from, 0.0f, to - from, 1.0f}), there = space.meets(hit, hit);
+      const bool meets = space.meets(tracing::Ray{from, 0.0f, to - from, 1.0f}), there = space.meets(hit, hit);
       const bool open = mayMeet(space, a, radius, rayCode(to - a, false));
       const bool blocked = mayMeet(space, a, radius, rayCode(seen * (to - a), true));
       EXPECT_TRUE(open || !meets);

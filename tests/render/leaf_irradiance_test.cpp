@@ -9,6 +9,8 @@
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace rendering;
+
 namespace {
 
 /// A closed room whose walls, and what stands in it, all shine and reflect alike: light is even, so that leaves differ
@@ -27,7 +29,7 @@ TEST(LeafIrradiance, NoiseIsWhatLeavesVaryBy) {
   const std::vector<LeafIrradiance> values = meshIrradiance(s.elements, s.caustics, s.transfers);
   double area = 0, sum = 0, squares = 0, predicted = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!s.elements.isReceivingLeaf(ElementId(i)) || s.elements.geometry[i].exposed < 1) continue;
+    if (!s.elements.isReceivingLeaf(hierarchy::ElementId(i)) || s.elements.geometry[i].exposed < 1) continue;
     const double A = s.elements.geometry[i].area, E = gray(values[i].indirect);
     area += A, sum += A * E, squares += A * E * E, predicted += A * values[i].noise * values[i].noise;
   }

@@ -9,6 +9,8 @@
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace rendering;
+
 namespace {
 
 /// The sun, low in the east, is thrown by a mirror on the ground onto a wall in the west: z in [1,2], y in [0,1].

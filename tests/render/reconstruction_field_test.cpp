@@ -3,6 +3,8 @@
 #include "mesh_scenes.hpp"
 
 namespace deltalux {
+using namespace rendering;
+
 namespace {
 
 using test::FieldReader;
@@ -14,7 +16,7 @@ constexpr int kLeast = 2, kMost = 6;
 
 Rgb linear(const Vec3f& p) { return {1.0f + p.x + 0.5f * p.y + 0.25f * p.z, 6.0f - p.x - p.y, 1.0f + 0.3f * p.y}; }
 
-Rgb noise(const Vec3f&, const MeshScene& mesh, ElementId e) {
+Rgb noise(const Vec3f&, const MeshScene& mesh, hierarchy::ElementId e) {
   Rng rng(mesh.elements.key[e.index()]);
   return {static_cast<float>(rng.uniform()), static_cast<float>(rng.uniform()), static_cast<float>(rng.uniform())};
 }
@@ -24,7 +26,7 @@ float largestDifference(const Rgb& a, const Rgb& b) { return maxChannel(glm::abs
 TEST(IrradianceField, ReproducesLinearFieldsUpToTheEdges) {
   MeshScene mesh({square(0, 0)});
   mesh.splitIrregularly(kLeast, kMost, 1);
-  mesh.light([](const Vec3f& c, ElementId) { return linear(c); });
+  mesh.light([](const Vec3f& c, hierarchy::ElementId) { return linear(c); });
   const FieldReader reader{mesh};
   Rng rng(2);
   for (int i = 0; i < 20000; ++i) {
@@ -38,17 +40,17 @@ TEST(IrradianceField, ReproducesLinearFieldsUpToTheEdges) {
 TEST(IrradianceField, AveragesNoiseAndKeepsEdges) {
   MeshScene mesh({square(0, 0)});
   mesh.splitIrregularly(4, 6, 1);
-  mesh.light([&](const Vec3f& c, ElementId e) {
+  mesh.light([&](const Vec3f& c, hierarchy::ElementId e) {
     return (c.x < 0.5f ? 1.0f : 2.0f) * (Rgb(1.0f) + 0.1f * (noise(c, mesh, e) - 0.5f));
   });
   const IrradianceField rough = mesh.field(), quiet = mesh.field(0.05f);
-  const SideLocator locator(mesh.elements, mesh.scene);
+  const hierarchy::SideLocator locator(mesh.elements, mesh.scene);
   Rng rng(3);
   double before = 0, after = 0;
   for (int i = 0; i < 4000; ++i) {
     const Vec3 p(rng.uniform(), rng.uniform(), 0);
     if (std::abs(p.x - 0.5) < 0.1) continue;
-    const LeafPoint at = locator.locate(locator.side(PrimitiveId(0), 0, true), p);
+    const hierarchy::LeafPoint at = locator.locate(locator.side(PrimitiveId(0), 0, true), p);
     const double truth = p.x < 0.5 ? 1 : 2;
     const double a = rough.indirect(at, Vec3f(p)).x / truth - 1, b = quiet.indirect(at, Vec3f(p)).x / truth - 1;
     before += a * a, after += b * b;
@@ -63,15 +65,15 @@ TEST(IrradianceField, AveragesByTheNoiseOfEachLeaf) {
   const auto errorWith = [](float known) {
     MeshScene mesh({square(0, 0)});
     mesh.splitIrregularly(4, 6, 1);
-    mesh.light([&](const Vec3f& c, ElementId e) { return Rgb(1.0f) + 0.8f * (noise(c, mesh, e) - 0.5f); });
+    mesh.light([&](const Vec3f& c, hierarchy::ElementId e) { return Rgb(1.0f) + 0.8f * (noise(c, mesh, e) - 0.5f); });
     for (LeafIrradiance& v : mesh.values) v.noise = known;
     const IrradianceField field = mesh.field(0.01f);
-    const SideLocator locator(mesh.elements, mesh.scene);
+    const hierarchy::SideLocator locator(mesh.elements, mesh.scene);
     Rng rng(3);
     double squares = 0;
     for (int i = 0; i < 2000; ++i) {
       const Vec3 p(rng.uniform(), rng.uniform(), 0);
-      const LeafPoint at = locator.locate(locator.side(PrimitiveId(0), 0, true), p);
+      const hierarchy::LeafPoint at = locator.locate(locator.side(PrimitiveId(0), 0, true), p);
       squares += std::pow(field.indirect(at, Vec3f(p)).x - 1, 2);
     }
     return squares;
@@ -85,7 +87,7 @@ TEST(IrradianceField, ReproducesLinearFieldsOnSlantedPolygonsWithHoles) {
   MeshScene mesh({polygon(
       {at(0, 0), at(3, 0), at(3, 2), at(0, 2), at(0, 0), at(1, 0.7), at(1, 1.5), at(2, 1.5), at(2, 0.7), at(1, 0.7)})});
   mesh.splitIrregularly(3, 6, 3);
-  mesh.light([](const Vec3f& c, ElementId) { return linear(c); });
+  mesh.light([](const Vec3f& c, hierarchy::ElementId) { return linear(c); });
   const FieldReader reader{mesh};
   Rng rng(4);
   for (int i = 0; i < 5000; ++i) {
@@ -101,7 +103,7 @@ TEST(IrradianceField, ConstantStaysConstantOnEveryShape) {
                   {Cone{{9, 0, 0}, {9, 0, 1}, 1, 0.2}, MaterialId(0), {}},
                   {Ring{{12, 0, 0}, {0, 0, 1}, 0, 1}, MaterialId(0), {}}});
   mesh.splitIrregularly(1, 5, 5);
-  mesh.light([](const Vec3f&, ElementId) { return Rgb(2.0f); });
+  mesh.light([](const Vec3f&, hierarchy::ElementId) { return Rgb(2.0f); });
   const FieldReader reader{mesh};
   Rng rng(6);
   for (std::uint32_t k = 0; k < mesh.scene.primitives.size(); ++k) {
@@ -117,7 +119,7 @@ TEST(IrradianceField, IsContinuousWhateverTheMesh) {
   // Leaves of sizes 1/4 to 1/64 with independent values: along lines, steps of 1e-5 must change E by little.
   MeshScene mesh({square(0, 0)});
   mesh.splitIrregularly(kLeast, kMost, 7);
-  mesh.light([&](const Vec3f& c, ElementId e) { return noise(c, mesh, e); });
+  mesh.light([&](const Vec3f& c, hierarchy::ElementId e) { return noise(c, mesh, e); });
   const FieldReader reader{mesh};
   const Vec3 lines[][2] = {{{0, 0.313, 0}, {1, 0.313, 0}}, {{0.25, 0, 0}, {0.25, 1, 0}}, {{0, 0.02, 0}, {1, 0.93, 0}}};
   for (const auto& line : lines) {
@@ -140,7 +142,7 @@ TEST(IrradianceField, IsContinuousAroundSeamsAndOverPoles) {
                   {Cylinder{{5, 0, 0}, {5, 0, 3}, 1}, MaterialId(0), {}},
                   {Ring{{9, 0, 0}, {0, 0, 1}, 0, 1}, MaterialId(0), {}}});
   mesh.splitIrregularly(3, 5, 8);
-  mesh.light([&](const Vec3f& c, ElementId e) { return noise(c, mesh, e); });
+  mesh.light([&](const Vec3f& c, hierarchy::ElementId e) { return noise(c, mesh, e); });
   const FieldReader reader{mesh};
   constexpr int kSteps = 100000;
   const auto walk = [&](std::uint32_t primitive, const std::function<Vec3(double)>& path) {
@@ -168,7 +170,7 @@ TEST(IrradianceField, IsContinuousAroundSeamsAndOverPoles) {
 TEST(IrradianceField, StaysWithinWhatTheLeavesDiffer) {
   MeshScene mesh({square(0, 0)});
   mesh.splitIrregularly(kLeast, kMost, 9);
-  mesh.light([&](const Vec3f& c, ElementId e) { return noise(c, mesh, e); });
+  mesh.light([&](const Vec3f& c, hierarchy::ElementId e) { return noise(c, mesh, e); });
   const FieldReader reader{mesh};
   Rng rng(10);
   float low = 1, high = 0;
@@ -184,7 +186,7 @@ TEST(IrradianceField, StaysWithinWhatTheLeavesDiffer) {
 TEST(IrradianceField, IsSmoothOnABallOfFewLeaves) {
   MeshScene mesh({{Sphere{{0, 0, 0}, 0.088, false}, MaterialId(0), ObjectId()}});
   mesh.splitIrregularly(2, 2, 1);
-  mesh.light([](const Vec3f& c, ElementId) { return Rgb(c.y < 0 ? 0.4f : 0.0f); });
+  mesh.light([](const Vec3f& c, hierarchy::ElementId) { return Rgb(c.y < 0 ? 0.4f : 0.0f); });
   const FieldReader reader{mesh};
   const auto at = [&](double x, double z) {
     return reader.at(PrimitiveId(0), 0.088 * Vec3(x, -std::sqrt(1 - x * x - z * z), z)).x;
@@ -205,7 +207,7 @@ TEST(IrradianceField, LeavesThatAreAllButCoveredTiltNothing) {
   MeshScene mesh({square(0, 0)});
   mesh.splitIrregularly(kLeast, kMost, 9);
   int covered = 0;
-  mesh.light([&](const Vec3f&, ElementId e) {
+  mesh.light([&](const Vec3f&, hierarchy::ElementId e) {
     if (Rng(7, mesh.elements.key[e.index()]).uniform() > 0.05) return Rgb(1.0f);
     mesh.elements.geometry[e.index()].exposed = 0.02f;
     ++covered;
@@ -225,8 +227,8 @@ TEST(IrradianceField, JoinsPolygonsOfOnePlaneAndNoOthers) {
   MeshScene mesh({square(0, 0), square(1, 0), polygon({{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}),
                   polygon({{0.4, 0.4, 0.02}, {0.6, 0.4, 0.02}, {0.6, 0.6, 0.02}, {0.4, 0.6, 0.02}})});
   mesh.splitIrregularly(3, 5, 11);
-  const auto primitive = [&](ElementId e) { return mesh.elements.domain[e.index()].primitive.value; };
-  mesh.light([&](const Vec3f& c, ElementId e) { return primitive(e) < 2 ? linear(c) : Rgb(100.0f); });
+  const auto primitive = [&](hierarchy::ElementId e) { return mesh.elements.domain[e.index()].primitive.value; };
+  mesh.light([&](const Vec3f& c, hierarchy::ElementId e) { return primitive(e) < 2 ? linear(c) : Rgb(100.0f); });
   const FieldReader reader{mesh};
   Rng rng(12);
   for (int i = 0; i < 5000; ++i) {
@@ -241,7 +243,7 @@ TEST(IrradianceField, JoinsPolygonsOfOnePlaneAndNoOthers) {
 TEST(IrradianceField, KeepsTheSidesOfASurfaceApart) {
   MeshScene mesh({square(0, 0)});
   mesh.splitIrregularly(3, 4, 13);
-  mesh.light([&](const Vec3f&, ElementId e) { return Rgb(mesh.elements.at(e).front ? 1.0f : 0.0f); });
+  mesh.light([&](const Vec3f&, hierarchy::ElementId e) { return Rgb(mesh.elements.at(e).front ? 1.0f : 0.0f); });
   const FieldReader reader{mesh};
   EXPECT_EQ(reader.at(PrimitiveId(0), {0.37, 0.61, 0}, true), Rgb(1.0f));
   EXPECT_EQ(reader.at(PrimitiveId(0), {0.37, 0.61, 0}, false), Rgb(0.0f));
@@ -253,7 +255,7 @@ TEST(IrradianceField, DoesNotLeakUnderAWallThatStandsOnAFloor) {
     if (wall) primitives.push_back(polygon({{0.5, -1, 0}, {0.5, 2, 0}, {0.5, 2, 1}, {0.5, -1, 1}}));
     MeshScene mesh(std::move(primitives));
     mesh.splitIrregularly(3, 5, 14);
-    mesh.light([](const Vec3f& c, ElementId) { return Rgb(c.x < 0.5f ? 1.0f : 0.0f); });
+    mesh.light([](const Vec3f& c, hierarchy::ElementId) { return Rgb(c.x < 0.5f ? 1.0f : 0.0f); });
     return mesh;
   };
   const MeshScene open = build(false), split = build(true);
@@ -274,8 +276,8 @@ TEST(IrradianceField, MendsLeavesThatAWallCutsInTwo) {
   const double wall = 0.47;
   MeshScene mesh({square(0, 0), polygon({{wall, -1, 0}, {wall, 2, 0}, {wall, 2, 1}, {wall, -1, 1}})});
   mesh.splitIrregularly(3, 4, 16);
-  mesh.light([&](const Vec3f&, ElementId e) {
-    const PatchDomain& d = mesh.elements.domain[e.index()];
+  mesh.light([&](const Vec3f&, hierarchy::ElementId e) {
+    const hierarchy::PatchDomain& d = mesh.elements.domain[e.index()];
     return Rgb(static_cast<float>(std::clamp((wall - d.u0) / (d.u1 - d.u0), 0.0, 1.0)));
   });
   const FieldReader reader{mesh};

@@ -6,6 +6,8 @@
 #include "base/random.hpp"
 
 namespace deltalux {
+using namespace rendering;
+
 namespace {
 
 struct Case {

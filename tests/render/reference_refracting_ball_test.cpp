@@ -6,6 +6,8 @@
 #include "base/random.hpp"
 
 namespace deltalux {
+using namespace rendering;
+
 namespace {
 
 constexpr double kIor = 1.5;

@@ -8,6 +8,8 @@
 #include "solution/solution.hpp"
 
 namespace deltalux {
+using namespace rendering;
+
 namespace {
 
 /// A black room of 4 x 4 x 3 under a sky, with a window of 0.6 x 0.6 in one wall, and a small lamp.
@@ -36,13 +38,14 @@ struct Moments {
   double mean = 0, variance = 0;
 };
 
-Moments momentsOf(const Sight& sight, const DirectLight& direct, const Receiver& x, std::uint64_t key) {
+Moments momentsOf(const Sight& sight, const radiosity::DirectLight& direct, const radiosity::Receiver& x,
+                  std::uint64_t key) {
   constexpr int kTimes = 4000;
   double sum = 0, squares = 0;
   for (int i = 0; i < kTimes; ++i) {
     double E = 0;
     sight.sample(direct, x, 4, 0, combineKeys(key, i),
-                 [&](const LightArrival& a) { E += glm::dot(a.direction, x.normal) * gray(a.E); });
+                 [&](const radiosity::LightArrival& a) { E += glm::dot(a.direction, x.normal) * gray(a.E); });
     sum += E, squares += E * E;
   }
   const double mean = sum / kTimes;
@@ -58,9 +61,9 @@ class SightTest : public testing::Test {
     reconstruction_ = std::make_unique<Reconstruction>(*solution_);
   }
   /// A point of the wall that faces the window, and its leaf.
-  std::pair<ElementId, Receiver> place(double y, double z) const {
-    const Receiver x{{0, y, z}, {1, 0, 0}};
-    const ElementId side = reconstruction_->locator.side(PrimitiveId(4), 0, true);
+  std::pair<hierarchy::ElementId, radiosity::Receiver> place(double y, double z) const {
+    const radiosity::Receiver x{{0, y, z}, {1, 0, 0}};
+    const hierarchy::ElementId side = reconstruction_->locator.side(PrimitiveId(4), 0, true);
     EXPECT_TRUE(side.valid());
     return {reconstruction_->locator.locate(side, x.position).leaf, x};
   }
@@ -94,8 +97,8 @@ TEST_F(SightTest, WhatItDoesNotExpectIsStillFound) {
   const auto [leaf, x] = place(2.0, 0.5);
   for (int i = 0; i < 32; ++i) learnt.note(leaf, x);
   learnt.learn(64, 7);
-  const ElementGeometry& g = solution_->elements.shape(leaf);
-  const Receiver corner{Vec3(0.98 * Vec3(g.upper) + 0.02 * Vec3(g.lower)), {1, 0, 0}};
+  const hierarchy::ElementGeometry& g = solution_->elements.shape(leaf);
+  const radiosity::Receiver corner{Vec3(0.98 * Vec3(g.upper) + 0.02 * Vec3(g.lower)), {1, 0, 0}};
   const Moments a = momentsOf(plain.at(leaf), reconstruction_->direct, corner, 1),
                 b = momentsOf(learnt.at(leaf), reconstruction_->direct, corner, 2);
   EXPECT_GT(a.mean, 0.0);

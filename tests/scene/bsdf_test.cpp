@@ -8,6 +8,8 @@
 #include "stats/t_test.hpp"
 
 namespace deltalux {
+using namespace scene;
+
 namespace {
 
 using test::chiSquareDirections;

@@ -9,6 +9,8 @@
 #include "stats/t_test.hpp"
 
 namespace deltalux {
+using namespace scene;
+
 namespace {
 
 constexpr double kSignificance = 1e-4;

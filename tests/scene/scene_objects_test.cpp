@@ -4,6 +4,8 @@
 #include "scene/object_index.hpp"
 
 namespace deltalux {
+using namespace scene;
+
 namespace {
 
 Scene threeSpheres() {

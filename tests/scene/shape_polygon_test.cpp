@@ -7,6 +7,8 @@
 #include "scene/triangulation.hpp"
 
 namespace deltalux {
+using namespace scene;
+
 namespace {
 
 using Outline = std::vector<Vec2>;

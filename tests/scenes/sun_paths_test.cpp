@@ -22,7 +22,7 @@ struct Beam {
 class SunPaths {
  public:
   explicit SunPaths(const std::string& file)
-      : scene_(loadScene({test::sourceFolder() / "scenes" / file}).scene), tracer_(makeEmbreeTracer(scene_)) {
+      : scene_(loadScene({test::sourceFolder() / "scenes" / file}).scene), tracer_(tracing::makeEmbreeTracer(scene_)) {
     for (const Light& light : scene_.lights)
       if (const auto* sun = std::get_if<SunLight>(&light.emitter)) along_ = -Vec3f(sun->direction);
   }
@@ -34,14 +34,14 @@ class SunPaths {
     for (int i = 0; i < beam.steps; ++i)
       for (int j = 0; j < beam.steps; ++j) {
         const double s = (i + 0.5) / beam.steps, t = (j + 0.5) / beam.steps;
-        Ray ray;
+        tracing::Ray ray;
         ray.origin = Vec3f(beam.corner + s * beam.u + t * beam.v);
         ray.direction = along_;
-        const Hit first = firstOpaque(ray);
+        const tracing::Hit first = firstOpaque(ray);
         if (!first || !isPolished(first) || topName(first) != mirror) continue;
         ++counts[""];
-        Ray thrown = reflected(ray, first);
-        const Hit next = firstOpaque(thrown);
+        tracing::Ray thrown = reflected(ray, first);
+        const tracing::Hit next = firstOpaque(thrown);
         if (next) ++counts[topName(next)];
       }
     return counts;
@@ -55,38 +55,38 @@ class SunPaths {
         Shape& shape = scene_.primitives[p.index()].shape;
         shape = *transformed(shape, matrix);
       }
-    tracer_ = makeEmbreeTracer(scene_);
+    tracer_ = tracing::makeEmbreeTracer(scene_);
   }
 
  private:
   /// Takes the ray's origin past the panes that it crosses.
-  Hit firstOpaque(Ray& ray) const {
-    for (Hit hit = tracer_->closestHit(ray); hit; hit = tracer_->closestHit(ray)) {
+  tracing::Hit firstOpaque(tracing::Ray& ray) const {
+    for (tracing::Hit hit = tracer_->closestHit(ray); hit; hit = tracer_->closestHit(ray)) {
       if (scene_.materialOf(hit.primitive).name != "window_glass") return hit;
-      ray.origin = offsetOrigin(at(ray, hit.t), hit.normal, ray.direction);
+      ray.origin = tracing::offsetOrigin(tracing::at(ray, hit.t), hit.normal, ray.direction);
     }
     return {};
   }
 
-  static Ray reflected(const Ray& ray, const Hit& hit) {
-    Ray out;
+  static tracing::Ray reflected(const tracing::Ray& ray, const tracing::Hit& hit) {
+    tracing::Ray out;
     out.direction = ray.direction - 2.0f * glm::dot(ray.direction, hit.normal) * hit.normal;
-    out.origin = offsetOrigin(at(ray, hit.t), hit.normal, out.direction);
+    out.origin = tracing::offsetOrigin(tracing::at(ray, hit.t), hit.normal, out.direction);
     return out;
   }
 
-  bool isPolished(const Hit& hit) const {
+  bool isPolished(const tracing::Hit& hit) const {
     const std::string& material = scene_.materialOf(hit.primitive).name;
     return material == "silvering" || material == "cladding";
   }
 
-  std::string topName(const Hit& hit) const {
+  std::string topName(const tracing::Hit& hit) const {
     const std::string& name = scene_[scene_[hit.primitive].object].name;
     return name.substr(0, name.find('.'));
   }
 
   Scene scene_;
-  std::unique_ptr<RayTracer> tracer_;
+  std::unique_ptr<tracing::RayTracer> tracer_;
   Vec3f along_{0.0f};
 };
 

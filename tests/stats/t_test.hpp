@@ -7,7 +7,7 @@
 
 namespace deltalux::test {
 
-/// Mean and variance without cancellation. [Welford 1962]
+/// Mean and variance without cancellation. [Welford62]
 class Moments {
  public:
   void add(double x) {

@@ -10,16 +10,16 @@
 
 namespace deltalux::test {
 
-inline Elements settledOverAll(const Solution& s) {
-  Elements elements = s.elements;
-  const ParticleTransfer particles(s.particles, elements, s.scene);
+inline hierarchy::Elements settledOverAll(const Solution& s) {
+  hierarchy::Elements elements = s.elements;
+  const particles::ParticleTransfer particles(s.particles, elements, s.scene);
   s.transfers.gatherDirect(elements);
-  pull(elements);
+  radiosity::pull(elements);
   double first = 0;
   for (int i = 0; i < 200; ++i) {
     s.transfers.gatherIndirect(elements);
     particles.apply(elements, s.scene);
-    const double change = gray(pull(elements));
+    const double change = gray(radiosity::pull(elements));
     first = std::max(first, change);
     if (change <= 1e-6 * first) break;
   }
@@ -33,12 +33,12 @@ struct Unsettled {
 
 /// How far the light of a solution is from settled.
 inline Unsettled unsettled(const Solution& s) {
-  const Elements all = settledOverAll(s);
+  const hierarchy::Elements all = settledOverAll(s);
   double difference = 0, power = 0;
   std::vector<double> relative;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!all.isReceivingLeaf(ElementId(i)) || !(all.geometry[i].litArea() > 0)) continue;
-    const ElementLight &a = s.elements.radiometry[i], &b = all.radiometry[i];
+    if (!all.isReceivingLeaf(hierarchy::ElementId(i)) || !(all.geometry[i].litArea() > 0)) continue;
+    const hierarchy::ElementLight &a = s.elements.radiometry[i], &b = all.radiometry[i];
     const double is = gray(a.direct + a.indirect + a.particle), should = gray(b.direct + b.indirect + b.particle);
     difference += all.geometry[i].litArea() * std::abs(is - should), power += all.geometry[i].litArea() * should;
     if (should > 0) relative.push_back(std::abs(is - should) / should);

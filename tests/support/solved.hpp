@@ -29,11 +29,11 @@ inline std::vector<ProbeResult> measure(const Engine& engine, const std::vector<
 
 /// Area mean of E over the leaves on the front of a primitive. [W/m2]
 inline double meshMean(const Engine& engine, PrimitiveId primitive) {
-  const Elements& e = engine.solution().get().elements;
+  const hierarchy::Elements& e = engine.solution().get().elements;
   double sum = 0, area = 0;
   for (std::size_t i = 0; i < e.size(); ++i) {
-    const ElementTopology& t = e.topology[i];
-    if (t.kind != ElementKind::Patch || t.emitter || t.childCount > 0 || !t.front) continue;
+    const hierarchy::ElementTopology& t = e.topology[i];
+    if (t.kind != hierarchy::ElementKind::Patch || t.emitter || t.childCount > 0 || !t.front) continue;
     if (e.domain[i].primitive != primitive) continue;
     sum += double(e.geometry[i].area) * gray(e.radiometry[i].direct + e.radiometry[i].indirect);
     area += e.geometry[i].area;

@@ -7,6 +7,8 @@
 #include "tracing/test_scenes.hpp"
 
 namespace deltalux {
+using namespace tracing;
+
 namespace {
 
 constexpr std::size_t kRays = 85000;

@@ -5,6 +5,8 @@
 #include "tracing/test_scenes.hpp"
 
 namespace deltalux {
+using namespace tracing;
+
 namespace {
 
 constexpr int kOpaque = 0, kPane = 1;

@@ -10,6 +10,8 @@
 #include "tracing/test_scenes.hpp"
 
 namespace deltalux {
+using namespace tracing;
+
 namespace {
 
 bool same(const Hit& a, const Hit& b) {

@@ -4,6 +4,8 @@
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux {
+using namespace tracing;
+
 namespace {
 
 TEST(Segment, IsNotBlockedByTheSurfacesItJoins) {

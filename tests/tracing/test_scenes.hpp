@@ -192,8 +192,8 @@ inline std::vector<NamedScene> nastyScenes() {
 }
 
 /// Rays that begin anywhere around the scene: half of them in any direction, half towards a point of some primitive.
-inline Ray randomRay(const Scene& scene, const Box& box, Rng& rng) {
-  Ray ray;
+inline tracing::Ray randomRay(const Scene& scene, const Box& box, Rng& rng) {
+  tracing::Ray ray;
   const Vec3 margin = 0.1 * box.extent() + Vec3(1e-3);
   const Vec3 origin = randomIn({box.lower - margin, box.upper + margin}, rng);
   Vec3 direction = randomDirection(rng);

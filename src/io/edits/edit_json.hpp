@@ -4,7 +4,7 @@
 
 #include "io/json_view.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 inline constexpr const char* kEditHint = "docs/command_line.md shows the form of edits";
 
@@ -18,4 +18,4 @@ std::vector<EditStep> readEdits(const JsonView& document, const std::string& fil
 /// One step as an entry that readEdits takes; transforms are written as matrices.
 nlohmann::ordered_json entryOf(const EditStep&);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -9,70 +9,79 @@
 namespace deltalux {
 
 namespace fs = std::filesystem;
+
+}  // namespace deltalux
+
+namespace deltalux::io {
+
 using Json = nlohmann::ordered_json;
+
+}  // namespace deltalux::io
+
+namespace deltalux {
 
 namespace {
 
 constexpr int kRecordingVersion = 1;
 
-Json triple(const Vec3& v) { return {v.x, v.y, v.z}; }
-Json triple(const Rgb& c) { return {c.r, c.g, c.b}; }
-Json rowMajor(const Mat4& m) {
-  Json numbers = Json::array();
+io::Json triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+io::Json triple(const Rgb& c) { return {c.r, c.g, c.b}; }
+io::Json rowMajor(const Mat4& m) {
+  io::Json numbers = io::Json::array();
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column) numbers.push_back(m[column][row]);
   return numbers;
 }
 
-Json entry(const TransformObject& e) {
+io::Json entry(const TransformObject& e) {
   return {{"op", "transform"}, {"object", e.object}, {"matrix", rowMajor(e.matrix)}};
 }
-Json entry(const AddObject& e) {
+io::Json entry(const AddObject& e) {
   return {{"op", "add"}, {"object", e.object}, {"scene", e.file}, {"matrix", rowMajor(e.matrix)}};
 }
-Json entry(const RemoveObject& e) { return {{"op", "remove"}, {"object", e.object}}; }
-Json entry(const ScaleLight& e) { return {{"op", "light"}, {"light", e.light}, {"scale", e.factor}}; }
-Json entry(const ColourLight& e) { return {{"op", "light"}, {"light", e.light}, {"rgb", triple(e.rgb)}}; }
-Json entry(const SwitchLight& e) { return {{"op", "light"}, {"light", e.light}, {"on", e.on}}; }
-Json entry(const AimLight& e) { return {{"op", "light"}, {"light", e.light}, {"aim", triple(e.direction)}}; }
-Json entry(const MoveLight& e) { return {{"op", "light"}, {"light", e.light}, {"translate", triple(e.offset)}}; }
-Json entry(const SetMaterial& e) {
-  Json json{{"op", "material"}, {"material", e.material}};
+io::Json entry(const RemoveObject& e) { return {{"op", "remove"}, {"object", e.object}}; }
+io::Json entry(const ScaleLight& e) { return {{"op", "light"}, {"light", e.light}, {"scale", e.factor}}; }
+io::Json entry(const ColourLight& e) { return {{"op", "light"}, {"light", e.light}, {"rgb", triple(e.rgb)}}; }
+io::Json entry(const SwitchLight& e) { return {{"op", "light"}, {"light", e.light}, {"on", e.on}}; }
+io::Json entry(const AimLight& e) { return {{"op", "light"}, {"light", e.light}, {"aim", triple(e.direction)}}; }
+io::Json entry(const MoveLight& e) { return {{"op", "light"}, {"light", e.light}, {"translate", triple(e.offset)}}; }
+io::Json entry(const SetMaterial& e) {
+  io::Json json{{"op", "material"}, {"material", e.material}};
   if (e.reflectance) json["reflectance"] = triple(*e.reflectance);
   if (e.roughness) json["roughness"] = *e.roughness;
   return json;
 }
-Json entry(const Restore&) {
+io::Json entry(const Restore&) {
   DELTALUX_CHECK(false, "a recording says undo or redo instead of what they restore");
   return {};
 }
-Json entry(const Edit& e) {
+io::Json entry(const Edit& e) {
   return std::visit([](const auto& edit) { return entry(edit); }, e);
 }
-Json entry(Undo) { return {{"op", "undo"}}; }
-Json entry(Redo) { return {{"op", "redo"}}; }
+io::Json entry(Undo) { return {{"op", "undo"}}; }
+io::Json entry(Redo) { return {{"op", "redo"}}; }
 
-double number(const JsonView& object, const char* key, double low, double high, double otherwise) {
-  const JsonView value = object.member(key);
+double number(const io::JsonView& object, const char* key, double low, double high, double otherwise) {
+  const io::JsonView value = object.member(key);
   value.expectNumber(low, high);
   return value.present() ? value.value().get<double>() : otherwise;
 }
-std::uint64_t count(const JsonView& object, const char* key, std::uint64_t otherwise) {
-  const JsonView value = object.member(key);
+std::uint64_t count(const io::JsonView& object, const char* key, std::uint64_t otherwise) {
+  const io::JsonView value = object.member(key);
   if (!value.present()) return otherwise;
   if (!value.value().is_number_unsigned()) value.fail("is not a whole number");
   return value.value().get<std::uint64_t>();
 }
 
-SolveSettings settingsOf(const JsonView& document) {
+SolveSettings settingsOf(const io::JsonView& document) {
   SolveSettings s;
-  const JsonView json = document.member("settings");
+  const io::JsonView json = document.member("settings");
   s.error = number(json, "error", 1e-4, 0.999, s.error);
   s.seconds = number(json, "seconds", 0, 1e9, s.seconds);
   s.particles = count(json, "particles", s.particles);
   json.member("diffuse_only").expectBool();
   if (json.member("diffuse_only").present()) s.diffuseOnly = json.member("diffuse_only").value().get<bool>();
-  const JsonView textures = json.member("caustic_textures");
+  const io::JsonView textures = json.member("caustic_textures");
   textures.expectBool();
   if (textures.present()) s.causticTextures = textures.value().get<bool>();
   s.seed = count(document, "seed", s.seed);
@@ -81,17 +90,25 @@ SolveSettings settingsOf(const JsonView& document) {
 
 }  // namespace
 
+}  // namespace deltalux
+
+namespace deltalux::io {
+
 nlohmann::ordered_json entryOf(const EditStep& step) {
   return std::visit([](const auto& s) { return entry(s); }, step);
 }
 
+}  // namespace deltalux::io
+
+namespace deltalux {
+
 std::string toJson(const Recording& r) {
-  Json scene = Json::array(), luminaires = Json::array(), edits = Json::array();
+  io::Json scene = io::Json::array(), luminaires = io::Json::array(), edits = io::Json::array();
   for (const fs::path& file : r.scene) scene.push_back(file.string());
   for (const Luminaire& l : r.luminaires)
     luminaires.push_back({{"file", l.file.string()}, {"position", triple(l.position)}});
-  for (const EditStep& step : r.steps) edits.push_back(entryOf(step));
-  Json document{
+  for (const EditStep& step : r.steps) edits.push_back(io::entryOf(step));
+  io::Json document{
       {"recording", kRecordingVersion},
       {"scene", std::move(scene)},
       {"luminaires", std::move(luminaires)},
@@ -104,7 +121,7 @@ std::string toJson(const Recording& r) {
         {"diffuse_only", r.settings.diffuseOnly},
         {"caustic_textures", r.settings.causticTextures}}},
       {"edits", std::move(edits)}};
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return document.dump(2, ' ', false, io::Json::error_handler_t::replace) + "\n";
 }
 
 void saveRecording(const fs::path& path, const Recording& recording) {
@@ -113,29 +130,29 @@ void saveRecording(const fs::path& path, const Recording& recording) {
   const auto relative = [&](fs::path& file) { file = fs::absolute(file).lexically_proximate(folder); };
   for (fs::path& file : fromThere.scene) relative(file);
   for (Luminaire& l : fromThere.luminaires) relative(l.file);
-  writeFile(path, toJson(fromThere));
+  io::writeFile(path, toJson(fromThere));
 }
 
 Recording loadRecording(const fs::path& path) {
   const std::string file = path.string();
-  const nlohmann::json tree = parseEditJson(readInputFile(path), file);
-  const JsonView document(tree, file, kEditHint);
-  const JsonView version = document.member("recording");
+  const nlohmann::json tree = io::parseEditJson(io::readInputFile(path), file);
+  const io::JsonView document(tree, file, io::kEditHint);
+  const io::JsonView version = document.member("recording");
   version.expectPresent("this is no recording");
   version.expectInteger(kRecordingVersion, kRecordingVersion);
   Recording r;
-  const JsonView scene = document.member("scene"), import = document.member("import");
+  const io::JsonView scene = document.member("scene"), import = document.member("import");
   scene.expectPresent("the files of the scene");
-  for (const JsonView& name : scene.elements()) {
+  for (const io::JsonView& name : scene.elements()) {
     name.expectString();
     r.scene.push_back((path.parent_path() / name.value().get<std::string>()).lexically_normal());
   }
-  const JsonView luminaires = document.member("luminaires");
+  const io::JsonView luminaires = document.member("luminaires");
   if (luminaires.present())
-    for (const JsonView& l : luminaires.objects()) {
+    for (const io::JsonView& l : luminaires.objects()) {
       l.member("file").expectPresent("the file of a measured light");
       l.member("file").expectString();
-      const JsonView position = l.member("position");
+      const io::JsonView position = l.member("position");
       position.expectPresent("where the light is");
       position.expectNumbers(3, -1e9, 1e9);
       const auto& at = position.value();
@@ -146,7 +163,7 @@ Recording loadRecording(const fs::path& path) {
   r.import.metresPerUnit = number(import, "metres_per_unit", 1e-12, 1e12, r.import.metresPerUnit);
   r.import.luminousEfficacy = number(import, "luminous_efficacy", 1e-6, 1e6, r.import.luminousEfficacy);
   r.settings = settingsOf(document);
-  r.steps = readEdits(document, file, path.parent_path(), r.import);
+  r.steps = io::readEdits(document, file, path.parent_path(), r.import);
   return r;
 }
 

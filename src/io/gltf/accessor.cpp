@@ -5,7 +5,7 @@
 #include <cstring>
 #include <deltalux/error.hpp>
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -139,4 +139,4 @@ std::vector<std::uint32_t> readIndices(const GltfDocument& document, int index) 
   return indices;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -5,7 +5,7 @@
 
 #include "io/gltf/document.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Element by element, the `components` numbers of a vector accessor; normalized integers as fractions, sparse values
 /// put in. Throws InputError when the type differs, bytes are missing or a number is not finite.
@@ -14,4 +14,4 @@ std::vector<double> readVectors(const GltfDocument&, int accessor, int component
 /// The unsigned numbers of a scalar accessor. Throws InputError likewise.
 std::vector<std::uint32_t> readIndices(const GltfDocument&, int accessor);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

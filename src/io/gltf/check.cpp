@@ -7,7 +7,7 @@
 
 #include "io/json_view.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -268,4 +268,4 @@ void checkGltf(const nlohmann::json& tree, const std::string& name) {
   document.member("animations").elements();
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

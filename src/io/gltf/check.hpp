@@ -4,9 +4,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Throws InputError with the place in the document (a JSON pointer) of the first thing that is wrong.
 void checkGltf(const nlohmann::json& document, const std::string& name);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

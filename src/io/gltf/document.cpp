@@ -8,7 +8,7 @@
 #include "io/gltf/check.hpp"
 #include "io/import_file.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -184,4 +184,4 @@ std::string_view bytesOfView(const GltfDocument& document, int bufferView) {
   return buffer.substr(view.byteOffset, view.byteLength);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

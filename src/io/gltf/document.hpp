@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::io {
 
 struct GltfImage {
   std::string uri;  // empty: in the buffer view
@@ -36,4 +36,4 @@ std::string_view bytesOfView(const GltfDocument&, int bufferView);
 std::string bytesOfUri(const std::string& name, const std::filesystem::path& folder, const std::string& uri,
                        const std::string& where);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -5,7 +5,7 @@
 
 #include "io/gltf/document.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// The extension `name`, or nullptr.
 inline const tinygltf::Value* extensionOf(const tinygltf::ExtensionMap& extensions, const char* name) {
@@ -32,4 +32,4 @@ inline Rgb rgbOf(const std::vector<double>& numbers) {
   return {static_cast<float>(numbers[0]), static_cast<float>(numbers[1]), static_cast<float>(numbers[2])};
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

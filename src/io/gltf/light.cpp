@@ -6,7 +6,7 @@
 #include "io/gltf/extension.hpp"
 #include "io/ies.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -100,4 +100,4 @@ View viewOf(const tinygltf::Camera& camera, const Mat4& toWorld, std::string nam
   return view;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

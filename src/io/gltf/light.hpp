@@ -8,7 +8,7 @@
 
 #include "io/gltf/document.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// `light` at the origin of `toWorld`, aimed along its -Z. Candelas and lux are divided by `luminousEfficacy`.
 Light punctualLight(const tinygltf::Light& light, const Mat4& toWorld, double luminousEfficacy, std::string name);
@@ -26,4 +26,4 @@ View viewOf(const tinygltf::Camera&, const Mat4& toWorld, std::string name);
 /// Rotation of `toWorld` alone: orthonormal columns along its x and z axes; the identity where those do not exist.
 glm::dmat3 rotationOf(const Mat4& toWorld);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

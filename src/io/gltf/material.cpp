@@ -6,7 +6,7 @@
 #include "io/gltf/extension.hpp"
 #include "io/gltf/texture.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -171,4 +171,4 @@ GltfMaterials addMaterials(const GltfDocument& document, double luminousEfficacy
   return result;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -1,5 +1,5 @@
 #pragma once
-// Materials of glTF as deltalux materials. [glTF 2.0, 3.9; appendix B; KHR_materials_*]
+// Materials of glTF as deltalux materials. [glTF 2.0, 3.9 and appendix B; KHR_materials_*]
 //
 // With base colour b, metalness m, roughness r, ior n:
 //   F0      = min(((n-1)/(n+1))^2 specularColor, 1) specular                       [KHR_materials_ior, _specular]
@@ -20,7 +20,7 @@
 
 #include "io/gltf/document.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Where a mesh finds the coordinates of its texture.
 struct TextureUse {
@@ -40,4 +40,4 @@ struct GltfMaterials {
 GltfMaterials addMaterials(const GltfDocument&, double luminousEfficacy, Scene&,
                            std::map<std::string, std::size_t>& ignored);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

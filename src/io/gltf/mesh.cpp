@@ -6,7 +6,7 @@
 
 #include "io/gltf/accessor.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -162,4 +162,4 @@ Mesh placedMesh(const Mesh& mesh, const Mat4& toWorld, const std::string& file, 
   return placed;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

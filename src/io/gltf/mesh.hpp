@@ -8,7 +8,7 @@
 #include "io/gltf/document.hpp"
 #include "io/gltf/material.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// The triangles of a primitive in the coordinates of its mesh, with texture coordinates when `texture` uses them.
 /// nullopt for points and lines. Counts what is left out in `ignored`. Throws InputError.
@@ -20,4 +20,4 @@ std::optional<Mesh> readMesh(const GltfDocument&, const tinygltf::Primitive&, co
 Mesh placedMesh(const Mesh& mesh, const Mat4& toWorld, const std::string& file, const std::string& where,
                 std::map<std::string, std::size_t>& ignored);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -5,7 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <set>
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -92,4 +92,4 @@ std::vector<PlacedNode> placedNodes(const GltfDocument& document) {
   return std::move(walk.list);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

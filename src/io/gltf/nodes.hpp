@@ -7,7 +7,7 @@
 
 #include "io/gltf/document.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 struct PlacedNode {
   int node = -1;     // index in the document
@@ -20,4 +20,4 @@ struct PlacedNode {
 /// two parents, a cycle) or more than 200 deep.
 std::vector<PlacedNode> placedNodes(const GltfDocument&);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -2,7 +2,7 @@
 
 #include <deltalux/error.hpp>
 
-namespace deltalux {
+namespace deltalux::io {
 
 int GltfTextures::imageOf(int texture) const {
   const int image = document_.model.textures[static_cast<std::size_t>(texture)].source;
@@ -27,7 +27,7 @@ GltfTextures::Decoded& GltfTextures::decoded(int image, TexelEncoding encoding) 
     throw InputError(document_.name, 0, where + " is no PNG or JPEG image, or larger than 64 million texels",
                      "export the scene with smaller PNG or JPEG textures");
   }
-  const Rgb mean = deltalux::average(*texture);
+  const Rgb mean = deltalux::io::average(*texture);
   return decoded_.emplace(std::pair(image, encoding), Decoded{std::move(*texture), mean}).first->second;
 }
 
@@ -40,4 +40,4 @@ TextureId GltfTextures::put(int index, Scene& scene) {
   return entry->second;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

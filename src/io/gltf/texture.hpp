@@ -7,7 +7,7 @@
 #include "io/gltf/document.hpp"
 #include "io/import_texture.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Reads every image once per encoding; puts those that surfaces show into the scene.
 class GltfTextures {
@@ -32,4 +32,4 @@ class GltfTextures {
   std::map<int, TextureId> placed_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <deltalux/error.hpp>
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -123,7 +123,7 @@ double interpolate(const IesRecord& record, double vertical, double horizontal) 
   return (1 - fh) * here + fh * next;
 }
 
-// The angles of types A and B, vertical first, for a direction given by type C angles. [LM-63-2002; EXT_lights_ies]
+// The angles of types A and B, vertical first, for a direction given by type C angles. [LM-63, 2002; EXT_lights_ies]
 std::pair<double, double> anglesOf(PhotometricType type, double vertical, double horizontal) {
   const double sine = std::sin(vertical * kDegree);
   const double x = sine * std::cos(horizontal * kDegree);
@@ -187,4 +187,4 @@ Photometry completePhotometry(IesRecord& record, const std::string& name) {
   return photometry;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

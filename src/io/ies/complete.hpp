@@ -1,6 +1,6 @@
 #pragma once
 // From what a file measured to all directions, as type C: I(vertical, horizontal) with vertical 0 along the aim (-z),
-// 90/0 along +x, horizontal angles counter-clockwise seen from above (towards +y). [LM-63-2002; EXT_lights_ies]
+// 90/0 along +x, horizontal angles counter-clockwise seen from above (towards +y). [LM-63, 2002; EXT_lights_ies]
 //
 // Type C: one plane is axial symmetry; 0-90 quadrants; 0-180 symmetry about the plane 0-180; 90-270 (LM-63-1995) about
 // the plane 90-270; anything up to 360 wraps round. Vertical angles outside the file's range get no light, with a step.
@@ -17,10 +17,10 @@
 
 #include "io/ies/parse.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Throws InputError when the angles are none that the standard knows; `name` is the file in messages. Appends to
 /// `record.warnings`.
 Photometry completePhotometry(IesRecord& record, const std::string& name);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

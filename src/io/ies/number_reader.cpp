@@ -5,7 +5,7 @@
 #include <cmath>
 #include <deltalux/error.hpp>
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 constexpr std::string_view kSeparators(" \t\r\n,\f\v", 7);
@@ -78,4 +78,4 @@ std::vector<double> NumberReader::ascending(int count, const char* what) {
   return values;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Reads numbers from `text`, which starts at line `line` of the file `name`; blanks, commas and line ends separate
 /// them. Every function throws InputError with the line.
@@ -34,4 +34,4 @@ class NumberReader {
   int line_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::io

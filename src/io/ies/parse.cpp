@@ -9,7 +9,7 @@
 #include "io/ies/number_reader.hpp"
 #include "io/import_file.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -181,4 +181,4 @@ IesRecord parseIes(std::string_view text, const std::string& name, const std::fi
   return record;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

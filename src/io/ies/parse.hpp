@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::io {
 
 enum class PhotometricType { C = 1, B = 2, A = 3 };  // the file's own numbers
 
@@ -25,4 +25,4 @@ struct IesRecord {
 /// Throws InputError with the line of the first thing that is wrong.
 IesRecord parseIes(std::string_view text, const std::string& name, const std::filesystem::path& folder);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

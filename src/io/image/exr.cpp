@@ -13,7 +13,7 @@
 
 #include "io/image/formats.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 constexpr const char* kViewAttribute = "radianceView";
@@ -121,4 +121,4 @@ Image decodeExr(std::string_view bytes, const std::string& fileName) {
   }
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Radiance RGBE. [Radiance, "The RADIANCE Picture File Format"]
 std::string encodeHdr(const Image&);
@@ -17,4 +17,4 @@ Image decodeExr(std::string_view bytes, const std::string& file);
 
 std::string encodePng(const DisplayImage&);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -1,5 +1,5 @@
 // Radiance RGBE: header lines, a resolution line that also gives the orientation, scanlines flat or in the old or new
-// run lengths. Hostile bytes end in an InputError. [Radiance, "The RADIANCE Picture File Format"; color.c]
+// run lengths. Hostile bytes end in an InputError. [Radiance, "The RADIANCE Picture File Format"; Radiance, color.c]
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -8,7 +8,7 @@
 
 #include "io/image/formats.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 using Rgbe = std::array<std::uint8_t, 4>;
@@ -195,4 +195,4 @@ class Decoder {
 
 Image decodeHdr(std::string_view bytes, const std::string& file) { return Decoder(bytes, file).decode(); }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

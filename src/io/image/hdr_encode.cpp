@@ -8,7 +8,7 @@
 
 #include "io/image/formats.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 using Rgbe = std::array<std::uint8_t, 4>;
@@ -78,4 +78,4 @@ std::string encodeHdr(const Image& image) {
   return bytes;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -50,11 +50,11 @@ void saveImage(const std::filesystem::path& path, const Image& image, const Tone
   checkPixels(image.width, image.height, image.pixels.size());
   switch (requireFormat(path)) {
     case ImageFormat::Exr:
-      return writeFile(path, encodeExr(image));
+      return io::writeFile(path, io::encodeExr(image));
     case ImageFormat::Hdr:
-      return writeFile(path, encodeHdr(image));
+      return io::writeFile(path, io::encodeHdr(image));
     case ImageFormat::Png:
-      return writeFile(path, encodePng(toneMap(image, mapping)));
+      return io::writeFile(path, io::encodePng(toneMap(image, mapping)));
   }
 }
 
@@ -62,13 +62,13 @@ void saveImage(const std::filesystem::path& path, const DisplayImage& image) {
   checkPixels(image.width, image.height, image.pixels.size());
   if (requireFormat(path) != ImageFormat::Png)
     throw OutputError(fmt::format("cannot write {}: a picture for the screen is a .png", path.string()));
-  writeFile(path, encodePng(image));
+  io::writeFile(path, io::encodePng(image));
 }
 
 Image loadImage(const std::filesystem::path& path) {
   const std::optional<ImageFormat> format = imageFormatOf(path);
-  if (format == ImageFormat::Exr) return decodeExr(readBytes(path), path.string());
-  if (format == ImageFormat::Hdr) return decodeHdr(readBytes(path), path.string());
+  if (format == ImageFormat::Exr) return io::decodeExr(readBytes(path), path.string());
+  if (format == ImageFormat::Hdr) return io::decodeHdr(readBytes(path), path.string());
   throw InputError(path.string(), 0, "only .exr and .hdr pictures hold radiance and can be read");
 }
 

@@ -6,7 +6,7 @@
 
 #include "io/image/formats.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 std::string encodePng(const DisplayImage& image) {
   std::string bytes;
@@ -18,4 +18,4 @@ std::string encodePng(const DisplayImage& image) {
   return bytes;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

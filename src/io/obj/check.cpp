@@ -7,7 +7,7 @@
 
 #include "io/obj/lines.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -89,4 +89,4 @@ ObjSurvey surveyObj(std::string_view text, const std::string& name) {
   return survey;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

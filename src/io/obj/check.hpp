@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::io {
 
 struct ObjSurvey {
   std::vector<std::string> materialLines;  // what stands behind each mtllib
@@ -18,4 +18,4 @@ struct ObjSurvey {
 /// Throws InputError with the line of the first vertex or face that is malformed.
 ObjSurvey surveyObj(std::string_view text, const std::string& name);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -104,4 +104,4 @@ Mesh meshOf(const ObjVertices& vertices, const std::vector<Face>& faces, bool te
   return mesh;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::io {
 
 struct ObjVertices {
   std::vector<Vec3> positions, normals;
@@ -23,4 +23,4 @@ struct ObjCorner {
 Mesh meshOf(const ObjVertices&, const std::vector<std::vector<ObjCorner>>& faces, bool textured,
             std::map<std::string, std::size_t>& ignored);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

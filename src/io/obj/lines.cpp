@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace deltalux {
+namespace deltalux::io {
 
 bool LineStreambuf::loadLine() {
   if (text_.empty()) return false;
@@ -36,4 +36,4 @@ LineStreambuf::int_type LineStreambuf::underflow() {
   return gptr() < egptr() || loadLine() ? traits_type::to_int_type(*gptr()) : traits_type::eof();
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

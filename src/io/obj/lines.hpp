@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Serves one line at a time, a line that ends in a backslash together with the next. Whatever reads the stream line by
 /// line, line() is the number of the line (its last one, if joined) that was served last.
@@ -28,4 +28,4 @@ class LineStreambuf : public std::streambuf {
   int line_ = 0;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::io

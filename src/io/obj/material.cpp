@@ -9,7 +9,7 @@
 #include "io/import_texture.hpp"
 #include "io/obj/tinyobj.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -155,4 +155,4 @@ std::map<std::string, MaterialId> addObjMaterials(const ObjSurvey& survey, const
   return ids;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

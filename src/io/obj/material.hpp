@@ -1,7 +1,7 @@
 #pragma once
 // MTL materials. What the numbers mean here:
 //   Kd, Ks   diffuse and specular reflectance; where their sum exceeds 1 both are scaled down to it (counted).
-//   Ns       the lobe's rms slope is sqrt(2 / (Ns + 2)); illum 1 has no lobe. [Blinn-Phong to Beckmann]
+//   Ns       the lobe's rms slope is sqrt(2 / (Ns + 2)); illum 1 has no lobe. [WMLT07]
 //   Ke       emitted radiance [W/(sr m2)], from the front side
 //   d, Tr    below 1 (or illum 4, 6, 7, 9: "glass"): thin glass of transmissivity Tf, or 1 - d without Tf (1 if d is
 //   1),
@@ -16,7 +16,7 @@
 
 #include "io/obj/check.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Appends the materials of every file that `survey` names, and the textures that they use. Files and textures that are
 /// not there are counted in `ignored`. Throws InputError when a file leads out of `folder` or holds impossible values.
@@ -24,4 +24,4 @@ std::map<std::string, MaterialId> addObjMaterials(const ObjSurvey& survey, const
                                                   const std::filesystem::path& folder, Scene&,
                                                   std::map<std::string, std::size_t>& ignored);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

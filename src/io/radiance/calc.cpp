@@ -6,7 +6,7 @@
 #include "io/radiance/calc_compiled.hpp"
 #include "io/radiance/calc_translator.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -157,4 +157,4 @@ double Calc::evaluate(const std::string& expression) {
   return value;
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -14,7 +14,7 @@
 
 #include "io/radiance/rad_object.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 class Calc {
  public:
@@ -56,4 +56,4 @@ class Calc {
   long callsLeft_;                       // bounds the work that hostile definitions can ask for
 };
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

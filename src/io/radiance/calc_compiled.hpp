@@ -6,7 +6,7 @@
 
 #include "io/radiance/calc.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// An expression ready to run: muParser's program, and the slots it reads its parameters from.
 struct Calc::Compiled {
@@ -23,4 +23,4 @@ mu::Parser calcParser();
 /// Number of arguments of a library function, -1 for any, or nullopt when it is none.
 std::optional<int> libraryArity(std::string_view name);
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -5,7 +5,7 @@
 
 #include "io/radiance/calc_compiled.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -94,4 +94,4 @@ mu::Parser calcParser() {
   return parser;
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -6,7 +6,7 @@
 
 #include "io/radiance/calc_compiled.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -150,4 +150,4 @@ void CalcTranslator::fail(const std::string& message) const {
   calc_.fail("expression '" + std::string(text_.substr(0, 60)) + (text_.size() > 60 ? "...': " : "': ") + message);
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -6,7 +6,7 @@
 
 #include "io/radiance/calc.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// Writes an expression of calc's language as muParser's. Recursive descent over calc's grammar:
 ///   sum: product {(+|-) product}   product: power {(*|/) power}   power: signed [^ power]   signed: {+|-} primary
@@ -46,4 +46,4 @@ class CalcTranslator {
 bool beginsName(char c);
 bool inName(char c);
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

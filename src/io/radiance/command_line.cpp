@@ -1,6 +1,6 @@
 #include "io/radiance/command_line.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -96,4 +96,4 @@ std::vector<std::vector<std::string>> parsePipeline(std::string_view text, const
   return PipelineParser(text, where).parse();
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

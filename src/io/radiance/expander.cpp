@@ -9,7 +9,7 @@
 #include "io/radiance/lexer.hpp"
 #include "io/radiance/xform.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace fs = std::filesystem;
 
@@ -147,4 +147,4 @@ void Expander::checkSize(double objects, double numbers, const SourceLine& where
                    "check the counts of its arrays");
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -11,7 +11,7 @@
 #include "io/radiance/rad_parser.hpp"
 #include "io/radiance/transform.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 struct ExpansionLimits {
   std::size_t objects = 5'000'000;    // of one list; beyond it the input is taken for a mistake
@@ -44,4 +44,4 @@ class Expander {
   std::vector<std::string> open_;                                   // identities of the files being expanded
 };
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

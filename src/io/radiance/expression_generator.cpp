@@ -1,6 +1,6 @@
 #include "io/radiance/expression_generator.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 bool readDefinition(const std::string& option, ObjectMaker& maker, Calc& calc) {
   if (option == "-e") {
@@ -20,4 +20,4 @@ int segmentCount(const std::string& expression, const ObjectMaker& maker, Calc& 
   return static_cast<int>(count);
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -4,7 +4,7 @@
 
 #include "io/import_file.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace fs = std::filesystem;
 
@@ -19,4 +19,4 @@ std::optional<SourceFile> DiskAccess::open(const std::string& name, const fs::pa
   return std::nullopt;
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 struct SourceFile {
   std::string name;              // for messages
@@ -37,4 +37,4 @@ class NoAccess : public FileAccess {
   std::optional<SourceFile> open(const std::string&, const std::filesystem::path&) override { return std::nullopt; }
 };
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -4,7 +4,7 @@
 #include "io/radiance/generators.hpp"
 #include "io/radiance/object_maker.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -124,4 +124,4 @@ std::vector<RadObject> genbox(const GeneratorInput& input) {
   return maker.take();
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -10,7 +10,7 @@
 #include "io/radiance/file_access.hpp"
 #include "io/radiance/rad_object.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 struct GeneratorInput {
   std::span<const std::string> words;
@@ -30,4 +30,4 @@ std::vector<RadObject> gensurf(const GeneratorInput&);
 std::vector<RadObject> genworm(const GeneratorInput&);
 std::vector<RadObject> gensky(const GeneratorInput&);
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

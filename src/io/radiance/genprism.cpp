@@ -4,7 +4,7 @@
 #include "io/radiance/lexer.hpp"
 #include "io/radiance/object_maker.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -176,4 +176,4 @@ std::vector<RadObject> genprism(const GeneratorInput& input) {
   return maker.take();
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

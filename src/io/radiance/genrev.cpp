@@ -3,7 +3,7 @@
 #include "io/radiance/expression_generator.hpp"
 #include "io/radiance/generators.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::vector<RadObject> genrev(const GeneratorInput& input) {
   return smooth ? smoothed(maker.take(), smoothingTexture(maker)) : maker.take();
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -9,7 +9,7 @@
 #include "io/radiance/sky_pattern.hpp"
 #include "io/radiance/sun_position.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -220,4 +220,4 @@ std::vector<RadObject> gensky(const GeneratorInput& input) {
   return makeSky(maker, request);
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

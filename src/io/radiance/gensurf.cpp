@@ -6,7 +6,7 @@
 #include "io/radiance/generators.hpp"
 #include "io/radiance/lexer.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -196,4 +196,4 @@ std::vector<RadObject> gensurf(const GeneratorInput& input) {
   return maker.take();
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -4,7 +4,7 @@
 #include "io/radiance/expression_generator.hpp"
 #include "io/radiance/generators.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -61,4 +61,4 @@ std::vector<RadObject> genworm(const GeneratorInput& input) {
   return maker.take();
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

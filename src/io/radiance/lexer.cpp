@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 bool isSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
@@ -95,4 +95,4 @@ std::optional<std::string_view> Lexer::word() {
   return found;
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -5,7 +5,7 @@
 
 #include "io/radiance/rad_object.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// Largest magnitude a number of a scene may have; beyond it single-precision rays lose the scene.
 inline constexpr double kLargestNumber = 1e12;
@@ -41,4 +41,4 @@ class Lexer {
   int line_ = 1;
 };
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -4,7 +4,7 @@
 
 #include "io/radiance/rad_materials.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 constexpr std::string_view kVoid = "void";
@@ -103,4 +103,4 @@ MaterialId ModifierTable::materialFor(const RadObject& object) {
   return material;
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

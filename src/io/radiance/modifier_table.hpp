@@ -7,7 +7,7 @@
 
 #include "io/radiance/rad_object.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// What a modifier amounts to at the end of its chain of patterns, textures, mixtures and aliases.
 struct Modifier {
@@ -44,4 +44,4 @@ class ModifierTable {
   std::unordered_map<std::string, std::vector<Made>> made_;  // equal definitions of a name share one material
 };
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

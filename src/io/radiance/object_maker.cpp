@@ -2,7 +2,7 @@
 
 #include "io/radiance/lexer.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 const std::string& ObjectMaker::word(const char* what) {
   if (done()) fail(std::string("missing ") + what);
@@ -45,4 +45,4 @@ std::vector<double> flattened(std::initializer_list<Vec3> points, std::initializ
   return reals;
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -4,7 +4,7 @@
 
 #include "io/radiance/generators.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// Reads a generator's words in order and collects what it makes.
 class ObjectMaker {
@@ -41,4 +41,4 @@ class ObjectMaker {
 /// The coordinates of `points` one after another.
 std::vector<double> flattened(std::initializer_list<Vec3> points, std::initializer_list<double> rest = {});
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -2,7 +2,7 @@
 
 #include <deltalux/math.hpp>
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -130,4 +130,4 @@ Material makeMaterial(const RadObject& object, const Material* alternate) {
   }
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -3,7 +3,7 @@
 
 #include "io/radiance/rad_object.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// What a supported material does. `alternate` is the surface that a mirror or illum names instead of its own, if any.
 /// Throws InputError for colours and fractions that no material has.
@@ -11,7 +11,7 @@ namespace deltalux::radiance {
 /// plastic, metal: specular share `spec`, diffuse colour (1 - spec); plastic's lobe is uncoloured, metal's coloured.
 /// plastic2, metal2, trans2: as the isotropic one of mean roughness. trans: the share (1 - spec) is split by
 /// `transmission` into reflection and transmission, the latter by `transmitted-specular` into a lobe and a diffuse
-/// part. [Radiance reference manual, "Materials"; shared decisions in material.hpp]
+/// part. [Radiance, materials.pdf]
 Material makeMaterial(const RadObject&, const Material* alternate);
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

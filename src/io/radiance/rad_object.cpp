@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -182,4 +182,4 @@ void checkArgumentCounts(const RadObject& object) {
   }
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// Where something stands, for error messages.
 struct SourceLine {
@@ -79,4 +79,4 @@ std::vector<std::string> typeNames();
 /// Throws InputError unless the numbers of string and real arguments fit the type.
 void checkArgumentCounts(const RadObject&);
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -5,7 +5,7 @@
 #include "io/radiance/lexer.hpp"
 #include "io/radiance/sky_pattern.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -89,4 +89,4 @@ std::vector<RadItem> parseRadiance(std::string_view text, std::shared_ptr<const 
   return items;
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -7,7 +7,7 @@
 
 #include "io/radiance/rad_object.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// A `!command` line, not run by any shell.
 struct RadCommand {
@@ -20,4 +20,4 @@ using RadItem = std::variant<RadObject, RadCommand>;
 /// The objects and commands of one text, in order. Argument counts fit the types. Throws InputError.
 std::vector<RadItem> parseRadiance(std::string_view text, std::shared_ptr<const std::string> file);
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -2,7 +2,7 @@
 #include "io/radiance.hpp"
 #include "io/radiance/scene_builder.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace fs = std::filesystem;
 
@@ -18,9 +18,9 @@ ImportedScene loadRadiance(const std::vector<fs::path>& files, const ImportSetti
   return radiance::buildScene(objects, settings);
 }
 
-ImportedScene readRadiance(const radiance::SourceFile& file, radiance::FileAccess& files, const ImportSettings& settings,
-                           const radiance::ExpansionLimits& limits) {
+ImportedScene readRadiance(const radiance::SourceFile& file, radiance::FileAccess& files,
+                           const ImportSettings& settings, const radiance::ExpansionLimits& limits) {
   return radiance::buildScene(*radiance::Expander(files, limits).expand(file), settings);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -114,4 +114,4 @@ std::vector<Shape> makeShapes(const RadObject& object) {
   }
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -2,7 +2,7 @@
 
 #include "io/radiance/sky_pattern.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::optional<Light> makeSource(const RadObject& object, const Modifier& modifie
   return light;
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

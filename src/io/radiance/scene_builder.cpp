@@ -5,7 +5,7 @@
 #include "io/radiance/rad_sources.hpp"
 #include "scene/object_index.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -86,7 +86,7 @@ class SceneBuilder {
 
   ImportedScene result_;
   ModifierTable modifiers_;
-  ObjectIndex names_;
+  scene::ObjectIndex names_;
   std::size_t bent_ = 0;
   SourceLine firstBent_;
 };
@@ -99,4 +99,4 @@ ImportedScene buildScene(const std::vector<RadObject>& objects, const ImportSett
   return builder.take();
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -2,7 +2,7 @@
 
 #include "io/radiance/transform.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 void recogniseSky(RadObject& object) {
   if (object.strings.size() < 2 || object.strings[0] != "skybr" || !object.strings[1].ends_with("skybright.cal"))
@@ -52,4 +52,4 @@ Vec3 zenithOf(const RadObject& object) {
   return glm::normalize(Vec3(object.reals[7], object.reals[8], object.reals[9]));
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -3,7 +3,7 @@
 
 #include "io/radiance/rad_object.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// Turns `brightfunc` with skybr of skybright.cal into Type::SkyBrightness, whose ten reals are kind, zenith, ground,
 /// normalisation, the sun's direction and the zenith's. Others stay as they are. Throws InputError on wrong arguments.
@@ -14,4 +14,4 @@ std::vector<double> skyArguments(const RadianceSky&, const Vec3& up);
 RadianceSky skyOf(const RadObject& skyBrightness);
 Vec3 zenithOf(const RadObject& skyBrightness);
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

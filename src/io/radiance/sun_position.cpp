@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -65,4 +65,4 @@ Vec3 sunDirection(const SunAngles& angles) {
           std::sin(angles.altitude)};
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

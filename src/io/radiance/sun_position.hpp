@@ -1,11 +1,11 @@
 #pragma once
 // Where the sun stands. Solar declination and equation of time by the approximations of the IES Lighting Handbook (1984
-// Reference Volume, 7), which gensky uses; with a year, by the Astronomical Almanac's low-precision formulas [Michalsky
-// 1988].
+// Reference Volume, 7), which gensky uses; with a year, by the Astronomical Almanac's low-precision formulas
+// [Michalsky88].
 #include <deltalux/math.hpp>
 #include <optional>
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// Angles in radians; longitudes west of Greenwich are positive, as gensky takes them.
 struct Site {
@@ -28,4 +28,4 @@ SunAngles sunAngles(const SunTime&, const Site&);
 /// Unit direction to the sun: x east, y north, z up.
 Vec3 sunDirection(const SunAngles&);
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -4,7 +4,7 @@
 
 #include "io/radiance/lexer.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -86,4 +86,4 @@ Transform parseTransform(std::span<const std::string> words, std::size_t& used, 
   return transform;
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

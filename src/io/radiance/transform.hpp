@@ -7,7 +7,7 @@
 
 #include "io/radiance/rad_object.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// A similarity, and what else xform does to an object.
 struct Transform {
@@ -33,4 +33,4 @@ struct Placement {
 
 RadObject placed(const RadObject&, const Placement&);
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

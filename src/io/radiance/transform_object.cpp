@@ -3,7 +3,7 @@
 
 #include "io/radiance/transform.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -129,4 +129,4 @@ RadObject placed(const RadObject& object, const Placement& placement) {
   return result;
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

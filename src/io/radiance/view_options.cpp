@@ -2,7 +2,7 @@
 
 #include "io/radiance/lexer.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -74,4 +74,4 @@ class ViewParser {
 
 View parseView(std::string_view options, const SourceLine& where) { return ViewParser(options, where).parse(); }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -4,7 +4,7 @@
 
 #include "io/radiance/lexer.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 namespace {
 
@@ -106,4 +106,4 @@ XformCommand parseXform(std::span<const std::string> words, std::size_t mostCopi
   return command;
 }
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

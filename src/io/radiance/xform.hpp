@@ -5,7 +5,7 @@
 
 #include "io/radiance/transform.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 
 /// What an xform command asks for: one placement per copy, outermost array first, and the files it reads (none: a
 /// pipe).
@@ -19,4 +19,4 @@ struct XformCommand {
 /// change nothing here. [Radiance, xform(1)] Throws InputError, also for more than `mostCopies`.
 XformCommand parseXform(std::span<const std::string> words, std::size_t mostCopies, const SourceLine& where);
 
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

@@ -20,7 +20,7 @@
 #include <variant>
 #include <vector>
 
-namespace deltalux {
+namespace deltalux::io {
 
 inline constexpr std::uint64_t kLargeTable = 4096;
 
@@ -239,4 +239,4 @@ void transferAll(Archive& archive, T&... values) {
   (transfer(archive, values), ...);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <deltalux/error.hpp>
 
-namespace deltalux {
+namespace deltalux::io {
 
 static_assert(std::endian::native == std::endian::little, "solution files are little-endian");
 
@@ -124,4 +124,4 @@ void ContainerWriter::putChecksum() {
   checksum_ = 0;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -14,7 +14,7 @@
 
 #include "io/solution_file/archive.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 inline constexpr std::uint32_t kFormatVersion = 14;
 
@@ -50,4 +50,4 @@ class ContainerWriter : public SharedThings {
   std::uint32_t checksum_ = 0;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::io

@@ -7,7 +7,7 @@
 
 #include "scene/edit/plan.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 namespace {
 
@@ -32,56 +32,64 @@ void checkTables(const Shape& shape) {
             "mesh: its tables");
 }
 
-void checkTopology(const Elements& e) {
+void checkTopology(const hierarchy::Elements& e) {
   for (std::size_t i = 0; i < e.size(); ++i) {
-    const ElementTopology& t = e.topology[i];
-    require(byteAt(t, offsetof(ElementTopology, kind)) <= static_cast<unsigned>(ElementKind::Distant), "element: kind");
-    for (const std::size_t flag : {offsetof(ElementTopology, front), offsetof(ElementTopology, emitter),
-                                   offsetof(ElementTopology, flat), offsetof(ElementTopology, blocker)})
+    const hierarchy::ElementTopology& t = e.topology[i];
+    require(
+        byteAt(t, offsetof(hierarchy::ElementTopology, kind)) <= static_cast<unsigned>(hierarchy::ElementKind::Distant),
+        "element: kind");
+    for (const std::size_t flag :
+         {offsetof(hierarchy::ElementTopology, front), offsetof(hierarchy::ElementTopology, emitter),
+          offsetof(hierarchy::ElementTopology, flat), offsetof(hierarchy::ElementTopology, blocker)})
       require(byteAt(t, flag) <= 1, "element: flag");
     require(!t.parent.valid() || t.parent.index() < i, "element: parent");
     if (t.childCount == 0) continue;
     require(t.firstChild.index() < e.size() && t.childCount <= e.size() - t.firstChild.index(), "element: children");
     for (std::size_t c = 0; c < t.childCount; ++c)
-      require(e.at(e.child(ElementId(i), c)).parent == ElementId(i), "element: its children know it");
+      require(e.at(e.child(hierarchy::ElementId(i), c)).parent == hierarchy::ElementId(i),
+              "element: its children know it");
   }
 }
 
-void checkDomain(const Elements& e, const Scene& scene, std::size_t i) {
-  const ElementTopology& t = e.topology[i];
-  const PatchDomain& d = e.domain[i];
+void checkDomain(const hierarchy::Elements& e, const Scene& scene, std::size_t i) {
+  const hierarchy::ElementTopology& t = e.topology[i];
+  const hierarchy::PatchDomain& d = e.domain[i];
   require(d.primitive.index() < scene.primitives.size(), "patch: primitive");
   // What was removed has lost its shape, but not its elements.
-  const auto* mesh = std::get_if<Mesh>(&edits::restShape(scene, d.primitive));
+  const auto* mesh = std::get_if<Mesh>(&scene::edits::restShape(scene, d.primitive));
   require(d.triangle < (mesh ? mesh->triangles.size() : 1), "patch: triangle");
   require(d.outline <= e.outlines.size() && d.outlineSize <= e.outlines.size() - d.outline, "patch: outline");
   require(!t.flat || (d.frame < e.frames.size() && d.outlineSize >= 3), "patch: plane");
   require(std::isfinite(d.u0) && std::isfinite(d.u1) && std::isfinite(d.v0) && std::isfinite(d.v1), "patch: rectangle");
 }
 
-void checkElements(const Elements& e, const Scene& scene) {
+void checkElements(const hierarchy::Elements& e, const Scene& scene) {
   const std::size_t n = e.size();
   for (const std::size_t size : {e.geometry.size(), e.nodes.size(), e.domain.size(), e.moments.size(), e.light.size(),
                                  e.radiometry.size(), e.slot.size(), e.key.size()})
     require(size == n, "elements: arrays of one length");
   checkTopology(e);
   for (std::size_t i = 0; i < n; ++i) {
-    if (e.topology[i].kind == ElementKind::Patch) checkDomain(e, scene, i);
-    if (e.topology[i].kind == ElementKind::Cluster) require(e.slot[i] < e.clusters.size(), "cluster: slot");
+    if (e.topology[i].kind == hierarchy::ElementKind::Patch) checkDomain(e, scene, i);
+    if (e.topology[i].kind == hierarchy::ElementKind::Cluster) require(e.slot[i] < e.clusters.size(), "cluster: slot");
     require(!e.light[i].valid() || e.light[i].index() < scene.lights.size(), "element: light");
-    const bool sends = e.topology[i].kind == ElementKind::Point || e.topology[i].kind == ElementKind::Distant;
+    const bool sends =
+        e.topology[i].kind == hierarchy::ElementKind::Point || e.topology[i].kind == hierarchy::ElementKind::Distant;
     require(!sends || e.light[i].valid(), "sender: light");
   }
-  for (const ElementId root : {e.sceneRoot, e.lightRoot}) require(!root.valid() || root.index() < n, "root element");
-  for (const ElementId root : e.grown) require(root.index() < n && e.isCluster(root), "root element");
-  for (const ElementId a : e.asleep) require(a.index() < n && e.isInputLevel(a), "sleeping element");
-  for (const ElementId d : e.distant) require(d.index() < n, "distant sender");
+  for (const hierarchy::ElementId root : {e.sceneRoot, e.lightRoot})
+    require(!root.valid() || root.index() < n, "root element");
+  for (const hierarchy::ElementId root : e.grown) require(root.index() < n && e.isCluster(root), "root element");
+  for (const hierarchy::ElementId a : e.asleep) require(a.index() < n && e.isInputLevel(a), "sleeping element");
+  for (const hierarchy::ElementId d : e.distant) require(d.index() < n, "distant sender");
 }
 
-void checkLink(const Link& l, std::size_t links, const Elements& e) {
-  require(byteAt(l, offsetof(Link, state)) <= static_cast<unsigned>(LinkState::Free), "link: state");
-  if (l.state == LinkState::Free) return require(l.childCount == 0, "free link: children");
-  require(byteAt(l, offsetof(Link, visibility)) <= static_cast<unsigned>(Visibility::Sampled), "link: visibility");
+void checkLink(const hierarchy::Link& l, std::size_t links, const hierarchy::Elements& e) {
+  require(byteAt(l, offsetof(hierarchy::Link, state)) <= static_cast<unsigned>(hierarchy::LinkState::Free),
+          "link: state");
+  if (l.state == hierarchy::LinkState::Free) return require(l.childCount == 0, "free link: children");
+  require(byteAt(l, offsetof(hierarchy::Link, visibility)) <= static_cast<unsigned>(hierarchy::Visibility::Sampled),
+          "link: visibility");
   require(l.receiver.index() < e.size() && l.sender.index() < e.size(), "link: ends");
   require(!l.parent.valid() || l.parent.index() < links, "link: parent");
   require(l.childCount == 0 || (l.firstChild.index() < links && l.childCount <= links - l.firstChild.index()),
@@ -89,31 +97,32 @@ void checkLink(const Link& l, std::size_t links, const Elements& e) {
 }
 
 /// From the roots down every link is met once, and knows from where.
-void checkLinkTree(const Links& links) {
-  std::vector<LinkId> open;
+void checkLinkTree(const hierarchy::Links& links) {
+  std::vector<hierarchy::LinkId> open;
   std::size_t met = 0;
-  for (const LinkId root : links.roots) {
+  for (const hierarchy::LinkId root : links.roots) {
     require(root.index() < links.size() && !links[root].parent.valid(), "root link");
     open.push_back(root);
   }
   while (!open.empty()) {
     require(++met <= links.size(), "link: met twice");
-    const LinkId id = open.back();
+    const hierarchy::LinkId id = open.back();
     open.pop_back();
-    require(links[id].state != LinkState::Free, "link: free");
+    require(links[id].state != hierarchy::LinkState::Free, "link: free");
     for (std::size_t c = 0; c < links[id].childCount; ++c) {
-      const LinkId child = links.child(id, c);
+      const hierarchy::LinkId child = links.child(id, c);
       require(links[child].parent == id, "link: its children know it");
       open.push_back(child);
     }
   }
 }
 
-void checkCaustics(const Caustics& c, const Scene& scene) {
+void checkCaustics(const caustics::Caustics& c, const Scene& scene) {
   require(c.ofPrimitive.empty() || c.ofPrimitive.size() == scene.primitives.size(), "caustics: one entry a primitive");
   for (const auto& sides : c.ofPrimitive)
-    for (const std::uint32_t s : sides) require(s == Caustics::kNone || s < c.surfaces.size(), "caustics: surface");
-  for (const SurfaceCaustics& s : c.surfaces) {
+    for (const std::uint32_t s : sides)
+      require(s == caustics::Caustics::kNone || s < c.surfaces.size(), "caustics: surface");
+  for (const caustics::SurfaceCaustics& s : c.surfaces) {
     require(s.primitive.index() < scene.primitives.size() && !s.charts.all.empty(), "caustics: primitive");
     const auto* mesh = std::get_if<Mesh>(&scene[s.primitive].shape);
     require(s.charts.ofTriangle.size() == (mesh ? mesh->triangles.size() : 0), "caustics: charts of triangles");
@@ -128,7 +137,7 @@ void checkReferences(const Solution& s) {
   for (const Primitive& p : s.scene.primitives) checkTables(p.shape);
   for (const Placement& p : s.scene.placements) checkTables(p.rest);
   checkElements(s.elements, s.scene);
-  for (const Link& l : s.links.all) checkLink(l, s.links.size(), s.elements);
+  for (const hierarchy::Link& l : s.links.all) checkLink(l, s.links.size(), s.elements);
   checkLinkTree(s.links);
   validate(s.particles, s.scene);
   s.transfers.validate(s.elements, s.links);
@@ -136,4 +145,4 @@ void checkReferences(const Solution& s) {
   checkCaustics(s.caustics, s.scene);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

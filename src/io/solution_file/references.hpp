@@ -1,11 +1,11 @@
 #pragma once
 #include "solution/solution.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 /// Checks what memory safety and termination ask of a solution that was read from a file: every index points at
 /// something that is there, tables have the lengths that belong together, both trees are trees, flags and enumerators
 /// are such. Its numbers are as they were saved; they are not judged again. Throws std::logic_error.
 void checkReferences(const Solution&);
 
-}  // namespace deltalux
+}  // namespace deltalux::io

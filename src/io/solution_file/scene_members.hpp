@@ -5,7 +5,7 @@
 
 #include "io/solution_file/archive.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 template <>
 struct EnumRange<SpecularLobe::Distribution> {
@@ -173,4 +173,4 @@ void members(auto& archive, Is<Scene> auto& s) {
   transferAll(archive, metres, up, materials, primitives, objects, lights, textures, views, placements, off);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

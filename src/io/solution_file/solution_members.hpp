@@ -4,7 +4,7 @@
 #include "io/solution_file/scene_members.hpp"
 #include "solution/solution.hpp"
 
-namespace deltalux {
+namespace deltalux::io {
 
 void members(auto& archive, Is<SolveSettings> auto& s) {
   auto& [error, particles, seconds, diffuseOnly, causticTextures, seed] = s;
@@ -20,30 +20,30 @@ void members(auto& archive, Is<SolveReport> auto& r) {
   transferAll(archive, times, counts, memory, energy, activeLinks, provenClear, provenBlocked, cutParticles, converged);
 }
 
-void members(auto& archive, Is<Elements> auto& e) {
+void members(auto& archive, Is<hierarchy::Elements> auto& e) {
   auto& [topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines, frames,
          sceneRoot, grown, lightRoot, distant, asleep, sceneBox, inputs, sides, contacts] =
       e;  // the last three follow from the others
   transferAll(archive, topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines,
               frames, sceneRoot, grown, lightRoot, distant, asleep, sceneBox);
 }
-void members(auto& archive, Is<Links> auto& l) {
+void members(auto& archive, Is<hierarchy::Links> auto& l) {
   auto& [all, roots, arriving, free] = l;  // the latter two follow from the first
   transferAll(archive, all, roots);
 }
 
-void members(auto& archive, Is<Particles> auto& p) {
+void members(auto& archive, Is<particles::Particles> auto& p) {
   auto& [senderCells, nominal, links, link, sender, originTriangle, range, account, fate, vertices, met, primitive,
          triangleAndSide, uv, throughput, quantum, rays, looks] = p;
   transferAll(archive, senderCells, nominal, links, link, sender, originTriangle, range, account, fate, vertices, met,
               primitive, triangleAndSide, uv, throughput, quantum, rays, looks);
 }
 
-void members(auto& archive, Is<TransferRow> auto& r) {
+void members(auto& archive, Is<radiosity::TransferRow> auto& r) {
   auto& [terms, transfers, rays, reach, weightPerRay] = r;
   transferAll(archive, terms, transfers, rays, reach.furthest, reach.objects.words, weightPerRay);
 }
-void members(auto& archive, Is<LeafRow> auto& r) {
+void members(auto& archive, Is<radiosity::LeafRow> auto& r) {
   auto& [leaf, direct, indirect] = r;
   transferAll(archive, leaf, direct, indirect);
 }
@@ -53,6 +53,6 @@ struct StoredTransfers {
     transferAll(archive, rows, mean.area, mean.light);
   }
 };
-void members(auto& archive, Is<LeafTransfers> auto& t) { StoredTransfers::transfer(archive, t); }
+void members(auto& archive, Is<radiosity::LeafTransfers> auto& t) { StoredTransfers::transfer(archive, t); }
 
-}  // namespace deltalux
+}  // namespace deltalux::io

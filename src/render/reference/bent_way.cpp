@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 void BentWay::leg(const Vec3& to, const Vec3& toNormal) {
   const Vec3 d = to - at_;
@@ -13,14 +13,15 @@ void BentWay::leg(const Vec3& to, const Vec3& toNormal) {
 
 void BentWay::lastLeg(const Vec3& direction, double distance, const Vec3& toNormal) {
   if (count_ == 0) first_ = direction;
-  if (count_ < static_cast<int>(legs_.size())) legs_[count_++] = shadowRay(at_, normal_, direction, distance, toNormal);
+  if (count_ < static_cast<int>(legs_.size()))
+    legs_[count_++] = tracing::shadowRay(at_, normal_, direction, distance, toNormal);
 }
 
 bool BentWay::mirrorAt(PrimitiveId flat, const Vec3& corner, double cosine) {
   const Plane plane = *planeOf(scene_.scene()[flat].shape);
   const bool front = plane.height(at_) > 0.0;
   if (!scene_.isConnectableMirror(flat, front)) return false;
-  attenuation_ *= mirrorReflectance(scene_.bsdf(flat, front), std::abs(cosine));
+  attenuation_ *= scene::mirrorReflectance(scene_.bsdf(flat, front), std::abs(cosine));
   if (isBlack(attenuation_)) return false;
   leg(corner, plane.normal);
   return true;
@@ -42,4 +43,4 @@ void BentWay::finish(Arrival& arrival) const {
   arrival.legCount = count_;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -6,7 +6,7 @@
 
 #include "render/reference/light_connections.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 class BentWay {
  public:
@@ -32,8 +32,8 @@ class BentWay {
   Vec3 at_, normal_;
   Vec3 first_{0};
   Rgb attenuation_{1.0f};
-  std::array<Ray, 8> legs_;
+  std::array<tracing::Ray, 8> legs_;
   int count_ = 0;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -5,7 +5,7 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 
@@ -144,4 +144,4 @@ double ConnectionTable::chance(const Vec3& position, const Vec3& normal, int con
   return row[connection] - (connection > 0 ? static_cast<double>(row[connection - 1]) : 0.0);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -7,7 +7,7 @@
 
 #include "render/reference/light_connections.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 class ConnectionTable {
  public:
@@ -36,4 +36,4 @@ class ConnectionTable {
   std::vector<float> cumulative_;  // [cell][facing][connection], ends at 1
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 
@@ -19,7 +19,7 @@ void findMirrorTurns(const ReferenceScene& scene, PrimitiveId surface, const Vec
     turn.after = light.infinite ? kInfinity : glm::length(d);
     turn.onward = light.infinite ? light.at : d / turn.after;
     turn.spread = reflectedSpread(shape, from, m.position, turn.after);
-    turn.passed = mirrorReflectance(scene.bsdf(surface, m.front), std::abs(glm::dot(turn.onward, m.normal)));
+    turn.passed = scene::mirrorReflectance(scene.bsdf(surface, m.front), std::abs(glm::dot(turn.onward, m.normal)));
   }
 }
 
@@ -53,4 +53,4 @@ Turns findTurns(const ReferenceScene& scene, const Bend& bend, const Vec3& from,
   return turns;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -5,7 +5,7 @@
 #include "render/reference/light_connections.hpp"
 #include "render/reference/refracting_ball.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 struct Turn {
   Vec3 in, inNormal;    // where the bend is met from the point
@@ -25,4 +25,4 @@ struct Turns {
 
 Turns findTurns(const ReferenceScene&, const Bend&, const Vec3& from, const LightPlace&);
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

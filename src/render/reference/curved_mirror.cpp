@@ -5,7 +5,7 @@
 
 #include "base/check.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 
@@ -219,4 +219,4 @@ double reflectedSpread(const Shape& shape, const Vec3& x, const Vec3& s, double 
   return before * before * std::abs(determinant);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -11,7 +11,7 @@
 #include <array>
 #include <deltalux/shape.hpp>
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 /// A place in the scene, or for infinitely distant light the unit direction towards it.
 struct LightPlace {
@@ -40,4 +40,4 @@ MirrorPoints mirrorPoints(const Shape& shape, const Vec3& x, const LightPlace& l
 /// `after` behind it [unit^2/sr], or solid angle per solid angle far away (`after` infinite).
 double reflectedSpread(const Shape& shape, const Vec3& x, const Vec3& s, double after);
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -5,7 +5,7 @@
 #include "render/reference/bent_way.hpp"
 #include "render/reference/curved_bend.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 
@@ -69,7 +69,7 @@ void LightConnections::samplePlanes(const Connection& c, const Vec3& x, const Ve
 }
 
 LightConnections::LightEnd LightConnections::sampleEnd(LightId light, const Vec2& u) const {
-  const LightSampler& lights = scene_.lights();
+  const scene::LightSampler& lights = scene_.lights();
   if (const auto* sun = std::get_if<SunLight>(&scene_.scene()[light].emitter)) {
     return {{lights.sample(light, Vec3(0), u)->direction, true}, Vec3(0), 1.0 / solidAngle(*sun)};
   }
@@ -82,7 +82,7 @@ LightConnections::LightEnd LightConnections::sampleEnd(LightId light, const Vec2
 /// pdf.
 bool LightConnections::shine(Arrival& a, LightId light, LightEnd& end, const Vec3& onward, double distance,
                              double spread) const {
-  const LightSampler& lights = scene_.lights();
+  const scene::LightSampler& lights = scene_.lights();
   if (!(spread > 0.0)) return false;
   if (end.place.infinite) {
     a.value = lights.radianceFrom(light, end.place.at);
@@ -164,4 +164,4 @@ double LightConnections::pdf(int connection, const LightMeeting& m) const {
   return cosine > 0.0 ? spread / (scene_.lights().area(c.light) * cosine) : 0.0;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

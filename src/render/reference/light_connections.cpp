@@ -9,13 +9,13 @@
 #include "render/reference/curved_mirror.hpp"
 #include "render/reference/refracting_ball.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 
 // More connections would dilute the choice; the rest is found by scattering.
 constexpr std::size_t kMaxSingle = 2048, kMaxDouble = 48;
-constexpr double kKeptShare = 0.9995;  // of the flux that was found: more connections would only dilute the choice
+constexpr double kKeptShare = 0.9995;   // of the flux that was found: more connections would only dilute the choice
 constexpr std::size_t kMaxSecond = 24;  // single connections that are tried by way of a further bend
 constexpr int kFluxSamplesPlane = 256;  // a lit patch of a wide mirror must not be overlooked
 constexpr int kFluxSamplesCurved = 32, kFluxSamplesDouble = 24;
@@ -118,7 +118,7 @@ std::vector<Bend> LightConnections::findBends() const {
   for (std::size_t i = 0; i < scene_.scene().primitives.size(); ++i) {
     const PrimitiveId p(i);
     for (bool front : {true, false}) {
-      if (isBlack(mirrorReflectance(scene_.bsdf(p, front), 0.5))) continue;
+      if (isBlack(scene::mirrorReflectance(scene_.bsdf(p, front), 0.5))) continue;
       const auto bend = mirror(p, front);
       if (!bend) continue;
       bends.push_back(*bend);
@@ -158,10 +158,10 @@ double LightConnections::fluxLeaving(const Bend& bend, const Connection& before,
       Rgb passed(0.0f);
       if (bend.kind == Bend::Kind::Ball) {
         if (!front) continue;
-        const Rgb F = mirrorReflectance(scene_.bsdf(bend.surface, true), cosine);
+        const Rgb F = scene::mirrorReflectance(scene_.bsdf(bend.surface, true), cosine);
         passed = (Rgb(1.0f) - F) * (Rgb(1.0f) - F) * glm::pow(F, Rgb(static_cast<float>(bend.inner)));
       } else if (mirror(bend.surface, front)) {
-        passed = mirrorReflectance(scene_.bsdf(bend.surface, front), std::abs(cosine));
+        passed = scene::mirrorReflectance(scene_.bsdf(bend.surface, front), std::abs(cosine));
       }
       if (isBlack(passed)) continue;
       for (int l = 0; l < a.legCount && !isBlack(passed); ++l) passed *= scene_.rays().transmittance(a.legs[l]);
@@ -171,4 +171,4 @@ double LightConnections::fluxLeaving(const Bend& bend, const Connection& before,
   return flux * area(shape) / samples;
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

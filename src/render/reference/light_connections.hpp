@@ -14,7 +14,7 @@
 #include "render/reference/plane.hpp"
 #include "render/reference/reference_scene.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 /// A surface that turns light in one known way.
 struct Bend {
@@ -47,10 +47,10 @@ struct Connection {
 
 /// Light that a connection brings to a point, before shadows.
 struct Arrival {
-  Vec3 direction;           // unit, where it comes from at the point
-  Rgb value{0.0f};          // radiance over density; of point-like lights their irradiance at normal incidence
-  double pdf = 0;           // of this direction, per solid angle at the point [1/sr]; 0: point-like
-  std::array<Ray, 8> legs;  // to be tested for shadows
+  Vec3 direction;                    // unit, where it comes from at the point
+  Rgb value{0.0f};                   // radiance over density; of point-like lights their irradiance at normal incidence
+  double pdf = 0;                    // of this direction, per solid angle at the point [1/sr]; 0: point-like
+  std::array<tracing::Ray, 8> legs;  // to be tested for shadows
   int legCount = 0;
 };
 
@@ -111,4 +111,4 @@ class LightConnections {
   std::unordered_multimap<std::uint64_t, int> index_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

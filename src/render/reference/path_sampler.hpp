@@ -6,7 +6,7 @@
 #include "base/random.hpp"
 #include "base/sobol.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 class PathSampler {
  public:
@@ -29,4 +29,4 @@ class PathSampler {
   Rng rng_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

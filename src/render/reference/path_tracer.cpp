@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 
@@ -17,9 +17,9 @@ double powerHeuristic(double p, double q) {
 }
 
 /// A white Lambertian receiver: what it scatters is irradiance over pi.
-const Bsdf& meter() {
-  static const Bsdf bsdf = [] {
-    Bsdf b;
+const scene::Bsdf& meter() {
+  static const scene::Bsdf bsdf = [] {
+    scene::Bsdf b;
     b.diffuseReflection = Rgb(1.0f);
     return b;
   }();
@@ -59,10 +59,10 @@ RgbSum PathTracer::radiance(const Vec3& origin, const Vec3& direction, PathSampl
 RgbSum PathTracer::follow(Walk walk, PathSampler& sampler, std::uint64_t& rays) const {
   RgbSum sum(0);
   while (true) {
-    Ray ray;
+    tracing::Ray ray;
     ray.direction = Vec3f(walk.direction);
-    ray.origin = offsetOrigin(Vec3f(walk.origin), Vec3f(walk.offsetNormal), ray.direction);
-    const Hit hit = scene_.rays().closestHit(ray);
+    ray.origin = tracing::offsetOrigin(Vec3f(walk.origin), Vec3f(walk.offsetNormal), ray.direction);
+    const tracing::Hit hit = scene_.rays().closestHit(ray);
     ++rays;
     if (!hit) return sum + lightAtInfinity(walk);
     walk.anchor.distance += hit.t, walk.anchor.fromSurface += hit.t;
@@ -71,7 +71,7 @@ RgbSum PathTracer::follow(Walk walk, PathSampler& sampler, std::uint64_t& rays) 
 
     const Vec3 normal = glm::normalize(Vec3(hit.normal)) * (hit.front ? 1.0 : -1.0);
     PathVertex vertex{Vec3(hit.position), normal, -walk.direction, &scene_.bsdf(hit.primitive, hit.front), walk.medium};
-    Bsdf textured;
+    scene::Bsdf textured;
     if (scene_.isTextured(hit.primitive)) {
       textured = *vertex.bsdf;
       textured.diffuseReflection *= scene_.tint(hit.primitive, hit.triangle, vertex.position);
@@ -106,7 +106,7 @@ Rgb PathTracer::arriving(const PathVertex& v, const ConnectionTable::Choice& cho
   for (int i = 0; i < arrivals.count; ++i) {
     const Arrival& a = arrivals.list[i];
     const Vec3 wi = frame.toLocal(a.direction);
-    const Rgb f = evaluate(*v.bsdf, wo, wi);
+    const Rgb f = scene::evaluate(*v.bsdf, wo, wi);
     if (isBlack(f)) continue;
     Rgb T = passed(v.medium, a.legs[0].tFar);
     for (int l = 0; l < a.legCount && !isBlack(T); ++l) T *= scene_.rays().transmittance(a.legs[l]), ++rays;
@@ -122,14 +122,14 @@ bool PathTracer::scatter(Walk& walk, const PathVertex& v, PrimitiveId primitive,
   const Frame frame(v.normal);
   const double part = sampler.next1();
   const Vec2 u = sampler.next2();
-  const auto s = sample(*v.bsdf, frame.toLocal(v.wo), {part, u.x, u.y});
+  const auto s = scene::sample(*v.bsdf, frame.toLocal(v.wo), {part, u.x, u.y});
   if (!s) return false;
   walk.throughput *= s->weight * static_cast<float>(1.0 / s->etaSquared);
   walk.origin = v.position, walk.offsetNormal = v.normal;
   walk.direction = glm::normalize(frame.toWorld(s->direction));
 
   follow(walk.anchor, v, *s, primitive, front);
-  if (s->event == ScatterEvent::Refraction) walk.medium = front ? scene_.body(primitive) : nullptr;
+  if (s->event == scene::ScatterEvent::Refraction) walk.medium = front ? scene_.body(primitive) : nullptr;
 
   ++walk.depth;
   if (walk.depth <= kRouletteFrom) return true;
@@ -140,12 +140,12 @@ bool PathTracer::scatter(Walk& walk, const PathVertex& v, PrimitiveId primitive,
 }
 
 /// Keeps the anchor's account of how the path went on from it.
-void PathTracer::follow(Anchor& anchor, const PathVertex& v, const BsdfSample& s, PrimitiveId primitive,
+void PathTracer::follow(Anchor& anchor, const PathVertex& v, const scene::BsdfSample& s, PrimitiveId primitive,
                         bool front) const {
-  const bool throughPane = s.event == ScatterEvent::StraightTransmission && v.bsdf->pane.has_value();
+  const bool throughPane = s.event == scene::ScatterEvent::StraightTransmission && v.bsdf->pane.has_value();
   if (throughPane) return;
   anchor.fromSurface = 0;
-  if (!isDirac(s.event)) {
+  if (!scene::isDirac(s.event)) {
     anchor = {v.position, v.normal, 1, s.pdf, Anchor::Since::Connectable, {}, Vec3(0), 0.0, 0.0};
     return;
   }
@@ -156,7 +156,7 @@ void PathTracer::follow(Anchor& anchor, const PathVertex& v, const BsdfSample& s
     if (bend->kind != Bend::Kind::Plane) anchor.bendPoint = v.position;
     return true;
   };
-  const bool refracted = s.event == ScatterEvent::Refraction;
+  const bool refracted = s.event == scene::ScatterEvent::Refraction;
   if (anchor.since == Anchor::Since::InBall) {
     Bend& bend = anchor.chain.bends[anchor.chain.count - 1];
     if (bend.surface != primitive || front) {
@@ -168,7 +168,8 @@ void PathTracer::follow(Anchor& anchor, const PathVertex& v, const BsdfSample& s
     } else {
       anchor.since = Anchor::Since::Unconnectable;
     }
-  } else if (anchor.since == Anchor::Since::Connectable && !v.medium && s.event == ScatterEvent::MirrorReflection) {
+  } else if (anchor.since == Anchor::Since::Connectable && !v.medium &&
+             s.event == scene::ScatterEvent::MirrorReflection) {
     if (!addBend(connections_.mirror(primitive, front))) anchor.since = Anchor::Since::Unconnectable;
   } else if (anchor.since == Anchor::Since::Connectable && !v.medium && refracted && front) {
     anchor.since = addBend(connections_.ball(primitive)) ? Anchor::Since::InBall : Anchor::Since::Unconnectable;
@@ -199,7 +200,7 @@ RgbSum PathTracer::lightAtInfinity(const Walk& walk) const {
   return sum;
 }
 
-Rgb PathTracer::lightOf(const Walk& walk, PrimitiveId primitive, const Hit& hit) const {
+Rgb PathTracer::lightOf(const Walk& walk, PrimitiveId primitive, const tracing::Hit& hit) const {
   const LightId light = scene_.lights().lightOf(primitive);
   if (!light.valid()) return Rgb(0.0f);
   const Rgb L = scene_.lights().emittedRadiance(light, -walk.direction, walk.anchor.fromSurface, hit.front);
@@ -207,4 +208,4 @@ Rgb PathTracer::lightOf(const Walk& walk, PrimitiveId primitive, const Hit& hit)
   return L * static_cast<float>(meetingWeight(walk, light, Vec3(hit.normal), Vec3(hit.position), walk.anchor.distance));
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -21,14 +21,14 @@
 #include "render/reference/connection_table.hpp"
 #include "render/reference/path_sampler.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 /// A point where light scatters: its side towards `wo`, and what it does there.
 struct PathVertex {
   Vec3 position;
   Vec3 normal;  // unit, on the side of wo
   Vec3 wo;      // unit, back along the path
-  const Bsdf* bsdf = nullptr;
+  const scene::Bsdf* bsdf = nullptr;
   const Dielectric* medium = nullptr;  // that the vertex is in
 };
 
@@ -68,10 +68,10 @@ class PathTracer {
   Rgb connect(const PathVertex&, int count, PathSampler&, std::uint64_t& rays) const;
   Rgb arriving(const PathVertex&, const ConnectionTable::Choice&, int count, const Vec2& u, std::uint64_t& rays) const;
   bool scatter(Walk&, const PathVertex&, PrimitiveId, bool front, PathSampler&) const;
-  void follow(Anchor&, const PathVertex&, const BsdfSample&, PrimitiveId, bool front) const;
+  void follow(Anchor&, const PathVertex&, const scene::BsdfSample&, PrimitiveId, bool front) const;
   double meetingWeight(const Walk&, LightId, const Vec3& normal, const Vec3& point, double distance) const;
   RgbSum lightAtInfinity(const Walk&) const;
-  Rgb lightOf(const Walk&, PrimitiveId, const Hit&) const;
+  Rgb lightOf(const Walk&, PrimitiveId, const tracing::Hit&) const;
 
   const ReferenceScene& scene_;
   const LightConnections& connections_;
@@ -79,4 +79,4 @@ class PathTracer {
   int maxDepth_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 std::optional<Plane> planeOf(const Shape& shape) {
   if (const auto* polygon = std::get_if<Polygon>(&shape)) return Plane{polygon->vertices.front(), polygon->normal};
@@ -25,4 +25,4 @@ bool contains(const Shape& shape, const Vec3& p) {
   });
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -3,7 +3,7 @@
 #include <deltalux/shape.hpp>
 #include <optional>
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 /// Plane of a flat primitive (polygon, ring): a point and the unit normal of its front.
 struct Plane {
@@ -17,4 +17,4 @@ std::optional<Plane> planeOf(const Shape&);
 /// Whether the point `p` of the plane lies on the flat shape.
 bool contains(const Shape& flat, const Vec3& p);
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -41,7 +41,7 @@ double tableBudget(const ReferenceSettings& settings, std::size_t estimates) {
   return std::clamp(std::min(fromSamples, fromSeconds), 5e4, kMost);
 }
 
-/// Mean and spread of batch means per channel. [Welford 1962]
+/// Mean and spread of batch means per channel. [Welford62]
 struct BatchMoments {
   std::uint64_t count = 0;
   RgbSum mean{0}, squares{0};
@@ -94,9 +94,7 @@ class Reporter {
 
 struct ReferenceIntegrator::Impl {
   Impl(const Scene& s, const ReferenceSettings& wanted)
-      : settings(wanted),
-        scene(s, wanted.diffuseOnly),
-        connections(scene) {
+      : settings(wanted), scene(s, wanted.diffuseOnly), connections(scene) {
     DELTALUX_CHECK(settings.samples > 0 || settings.seconds > 0 || settings.targetError > 0,
                    "samples, seconds or a target error");
   }
@@ -118,11 +116,11 @@ struct ReferenceIntegrator::Impl {
   bool settled(const BatchMoments&) const;
 
   ReferenceSettings settings;
-  ReferenceScene scene;
-  LightConnections connections;
+  rendering::ReferenceScene scene;
+  rendering::LightConnections connections;
   double budget = 0;  // what the table was learnt with
-  std::optional<ConnectionTable> table;
-  std::optional<PathTracer> tracer;
+  std::optional<rendering::ConnectionTable> table;
+  std::optional<rendering::PathTracer> tracer;
   std::atomic<std::uint64_t> rays{0}, paths{0};
   double seconds = 0;
 };
@@ -166,7 +164,7 @@ RgbSum ReferenceIntegrator::Impl::batchMean(std::uint64_t key, std::uint32_t siz
   RgbSum sum(0);
   std::uint64_t traced = 0;
   for (std::uint32_t i = 0; i < size; ++i) {
-    PathSampler sampler(key, i);
+    rendering::PathSampler sampler(key, i);
     sum += estimate(sampler, traced);
   }
   rays.fetch_add(traced, std::memory_order_relaxed);
@@ -206,7 +204,7 @@ std::vector<ProbeResult> ReferenceIntegrator::probe(std::span<const ProbePoint> 
       const std::size_t point = active[task / batches];
       const std::uint64_t batch = schedule.done + task % batches;
       const std::uint64_t key = combineKeys(combineKeys(impl.settings.seed, point), batch);
-      means[task] = impl.batchMean(key, size, [&](PathSampler& sampler, std::uint64_t& rays) {
+      means[task] = impl.batchMean(key, size, [&](rendering::PathSampler& sampler, std::uint64_t& rays) {
         return impl.tracer->irradiance(points[point].position, glm::normalize(points[point].normal), sampler, rays);
       });
       reporter.taskDone();
@@ -246,7 +244,7 @@ Image ReferenceIntegrator::render(const View& view, int width, int height, Progr
         const double x = static_cast<double>(pixel % width), y = static_cast<double>(pixel / width);
         for (std::uint64_t b = schedule.done; b < schedule.done + batches; ++b) {
           const std::uint64_t key = combineKeys(combineKeys(~impl.settings.seed, pixel), b);
-          moments[pixel].add(impl.batchMean(key, size, [&](PathSampler& sampler, std::uint64_t& rays) {
+          moments[pixel].add(impl.batchMean(key, size, [&](rendering::PathSampler& sampler, std::uint64_t& rays) {
             const Vec2 in = sampler.next2();
             const ViewRay ray = viewRay(view, (x + in.x) / width, (y + in.y) / height);
             return impl.tracer->radiance(ray.origin, ray.direction, sampler, rays);

@@ -1,6 +1,6 @@
 #include "render/reference/reference_scene.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 
@@ -43,10 +43,10 @@ Scene diffuseOnlyScene(Scene scene) {
 }
 
 ReferenceScene::ReferenceScene(const Scene& scene, bool diffuseOnly)
-    : scene_(prepare(scene, diffuseOnly)), lights_(scene_), rays_(makeEmbreeTracer(scene_)) {
+    : scene_(prepare(scene, diffuseOnly)), lights_(scene_), rays_(tracing::makeEmbreeTracer(scene_)) {
   for (const Material& material : scene_.materials) {
     for (bool front : {false, true}) {
-      bsdfs_.push_back(makeBsdf(material, front));
+      bsdfs_.push_back(scene::makeBsdf(material, front));
       bsdfs_.back().paneReflects = !diffuseOnly;
     }
   }
@@ -64,4 +64,4 @@ Rgb ReferenceScene::tint(PrimitiveId p, std::uint32_t triangle, const Vec3& posi
   return texture->sample(w.x * mesh.texcoords[t[0]] + w.y * mesh.texcoords[t[1]] + w.z * mesh.texcoords[t[2]]);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

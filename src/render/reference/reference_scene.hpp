@@ -9,7 +9,7 @@
 #include "scene/light_sampling.hpp"
 #include "tracing/ray_tracer.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 /// `scene` with speculars off: lobes dropped, mirrors and refracting bodies black; panes stay.
 Scene diffuseOnlyScene(Scene scene);
@@ -19,10 +19,12 @@ class ReferenceScene {
   ReferenceScene(const Scene&, bool diffuseOnly);
 
   const Scene& scene() const { return scene_; }
-  const RayTracer& rays() const { return *rays_; }
-  const LightSampler& lights() const { return lights_; }
+  const tracing::RayTracer& rays() const { return *rays_; }
+  const scene::LightSampler& lights() const { return lights_; }
   /// Scattering of a primitive's side, textures left out.
-  const Bsdf& bsdf(PrimitiveId p, bool front) const { return bsdfs_[2 * scene_[p].material.index() + (front ? 1 : 0)]; }
+  const scene::Bsdf& bsdf(PrimitiveId p, bool front) const {
+    return bsdfs_[2 * scene_[p].material.index() + (front ? 1 : 0)];
+  }
   /// The diffuse colour's factor at a point of a textured mesh; 1 elsewhere.
   Rgb tint(PrimitiveId, std::uint32_t triangle, const Vec3& position) const;
   bool isTextured(PrimitiveId p) const { return textured_[p.index()]; }
@@ -33,10 +35,10 @@ class ReferenceScene {
 
  private:
   Scene scene_;
-  LightSampler lights_;
-  std::unique_ptr<RayTracer> rays_;
-  std::vector<Bsdf> bsdfs_;
+  scene::LightSampler lights_;
+  std::unique_ptr<tracing::RayTracer> rays_;
+  std::vector<scene::Bsdf> bsdfs_;
   std::vector<char> textured_;
 };
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

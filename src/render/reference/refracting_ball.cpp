@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 namespace {
 
@@ -175,4 +175,4 @@ double passageSpread(const Sphere& sphere, double ior, int inner, const Vec3& x,
   return std::abs(v / sinAlpha * inPlane);
 }
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -12,7 +12,7 @@
 
 #include "render/reference/curved_mirror.hpp"
 
-namespace deltalux {
+namespace deltalux::rendering {
 
 struct BallPassage {
   Vec3 entry, exit;             // on the sphere
@@ -37,4 +37,4 @@ BallPassages ballPassages(const Sphere&, double ior, int inner, const Vec3& x, c
 /// Cross-section per solid angle at x at distance `after` behind the exit [unit^2/sr]; solid angle ratio when infinite.
 double passageSpread(const Sphere&, double ior, int inner, const Vec3& x, const BallPassage&, double after);
 
-}  // namespace deltalux
+}  // namespace deltalux::rendering

@@ -4,7 +4,7 @@
 #include "base/sort_unique.hpp"
 #include "scene/edit/plan.hpp"
 
-namespace deltalux {
+namespace deltalux::scene {
 
 namespace edits {
 
@@ -118,9 +118,17 @@ Plan planOf(const Scene& scene, const Edit& edit) {
 
 }  // namespace edits
 
-AppliedEdit applyEdit(Scene& scene, const Edit& edit) { return edits::carryOut(scene, edits::planOf(scene, edit)); }
+}  // namespace deltalux::scene
 
-void validateEdit(const Scene& scene, const Edit& edit) { edits::shapesOf(scene, edits::planOf(scene, edit)); }
+namespace deltalux {
+
+AppliedEdit applyEdit(Scene& scene, const Edit& edit) {
+  return scene::edits::carryOut(scene, scene::edits::planOf(scene, edit));
+}
+
+void validateEdit(const Scene& scene, const Edit& edit) {
+  scene::edits::shapesOf(scene, scene::edits::planOf(scene, edit));
+}
 
 std::string editOperation(const Edit& edit) {
   constexpr const char* names[] = {"transform", "add",   "remove", "light",    "light",

@@ -2,7 +2,7 @@
 
 #include "scene/edit/plan.hpp"
 
-namespace deltalux::edits {
+namespace deltalux::scene::edits {
 
 void refuse(const std::string& message, const std::string& hint) { throw InputError("", 0, message, hint); }
 
@@ -39,4 +39,4 @@ std::vector<MaterialId> materialsNamed(const Scene& scene, const std::string& na
   return found;
 }
 
-}  // namespace deltalux::edits
+}  // namespace deltalux::scene::edits

@@ -2,7 +2,7 @@
 
 #include "scene/edit/plan.hpp"
 
-namespace deltalux::edits {
+namespace deltalux::scene::edits {
 
 namespace {
 
@@ -69,4 +69,4 @@ Shape shapeOf(const Scene& scene, const Restore::PrimitiveState& state, const Sh
          "spheres, cylinders, cones and rings can be moved, turned and scaled evenly");
 }
 
-}  // namespace deltalux::edits
+}  // namespace deltalux::scene::edits

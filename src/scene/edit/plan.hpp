@@ -2,7 +2,7 @@
 // An edit, thought through before anything changes: what is appended to the scene, and the state to put things in.
 #include <deltalux/edit.hpp>
 
-namespace deltalux::edits {
+namespace deltalux::scene::edits {
 
 struct Plan {
   std::vector<Texture> textures;  // appended, in order
@@ -50,4 +50,4 @@ std::vector<MaterialId> materialsNamed(const Scene&, const std::string&);
 
 [[noreturn]] void refuse(const std::string& message, const std::string& hint = {});
 
-}  // namespace deltalux::edits
+}  // namespace deltalux::scene::edits

@@ -2,7 +2,7 @@
 
 #include "scene/edit/plan.hpp"
 
-namespace deltalux::edits {
+namespace deltalux::scene::edits {
 
 namespace {
 
@@ -127,4 +127,4 @@ Plan plan(const Scene& scene, const MoveLight& edit) {
   return result;
 }
 
-}  // namespace deltalux::edits
+}  // namespace deltalux::scene::edits

@@ -2,7 +2,7 @@
 
 #include "scene/edit/plan.hpp"
 
-namespace deltalux::edits {
+namespace deltalux::scene::edits {
 
 namespace {
 
@@ -64,4 +64,4 @@ Plan plan(const Scene& scene, const SetMaterial& edit) {
   return result;
 }
 
-}  // namespace deltalux::edits
+}  // namespace deltalux::scene::edits

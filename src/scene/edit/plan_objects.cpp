@@ -2,7 +2,7 @@
 
 #include "scene/edit/plan.hpp"
 
-namespace deltalux::edits {
+namespace deltalux::scene::edits {
 
 namespace {
 
@@ -171,4 +171,4 @@ Plan plan(const Scene& scene, const AddObject& edit) {
   return result;
 }
 
-}  // namespace deltalux::edits
+}  // namespace deltalux::scene::edits

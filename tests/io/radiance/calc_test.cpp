@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <deltalux/math.hpp>
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 namespace {
 
 double value(const std::string& expression, const std::string& definitions = "") {
@@ -101,4 +101,4 @@ TEST(Calc, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

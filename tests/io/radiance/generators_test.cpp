@@ -4,7 +4,7 @@
 
 #include "io/radiance/memory_files.hpp"
 
-namespace deltalux::radiance::test {
+namespace deltalux::io::radiance::test {
 namespace {
 
 std::size_t countOf(const std::vector<RadObject>& objects, Type type) {
@@ -201,4 +201,4 @@ TEST(Generators, SayWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace deltalux::radiance::test
+}  // namespace deltalux::io::radiance::test

@@ -4,7 +4,7 @@
 #include "io/radiance/sky_pattern.hpp"
 #include "io/radiance/sun_position.hpp"
 
-namespace deltalux::radiance::test {
+namespace deltalux::io::radiance::test {
 namespace {
 
 SunAngles sunAt(int month, int day, double hour, double latitude, double longitude, double meridian) {
@@ -140,4 +140,4 @@ TEST(Gensky, StopsShortOfTheZenith) {
 }
 
 }  // namespace
-}  // namespace deltalux::radiance::test
+}  // namespace deltalux::io::radiance::test

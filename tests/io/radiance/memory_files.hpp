@@ -7,7 +7,7 @@
 #include "io/radiance.hpp"
 #include "io/radiance/expander.hpp"
 
-namespace deltalux::radiance::test {
+namespace deltalux::io::radiance::test {
 
 class MemoryFiles : public FileAccess {
  public:
@@ -25,7 +25,7 @@ inline SourceFile sourceFile(const std::string& text) { return {"test.rad", {}, 
 inline ImportedScene read(const std::string& text, std::map<std::string, std::string> files = {}) {
   MemoryFiles access;
   access.files = std::move(files);
-  return readRadiance(sourceFile(text), access, {});
+  return io::readRadiance(sourceFile(text), access, {});
 }
 
 /// The flat list of objects of `text`.
@@ -60,4 +60,4 @@ inline double enclosedVolume(const std::vector<RadObject>& objects) {
   return volume;
 }
 
-}  // namespace deltalux::radiance::test
+}  // namespace deltalux::io::radiance::test

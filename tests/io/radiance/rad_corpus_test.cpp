@@ -7,7 +7,7 @@
 #include "io/import_file.hpp"
 #include "support/shared.hpp"
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 namespace {
 
 TEST(RadCorpus, ReadsCleanlyWholeAndCutShort) {
@@ -32,4 +32,4 @@ TEST(RadCorpus, SeedsAreScenes) {
 }
 
 }  // namespace
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

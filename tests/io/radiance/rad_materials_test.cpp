@@ -2,7 +2,7 @@
 
 #include "io/radiance/memory_files.hpp"
 
-namespace deltalux::radiance::test {
+namespace deltalux::io::radiance::test {
 namespace {
 
 Material materialOf(const std::string& definition) { return read(definition).scene.materials.back(); }
@@ -116,4 +116,4 @@ TEST(RadSources, SkyArgumentsAreChecked) {
 }
 
 }  // namespace
-}  // namespace deltalux::radiance::test
+}  // namespace deltalux::io::radiance::test

@@ -2,7 +2,7 @@
 
 #include "io/radiance/memory_files.hpp"
 
-namespace deltalux::radiance::test {
+namespace deltalux::io::radiance::test {
 namespace {
 
 const std::string kGrey = "void plastic grey 0 0 5 .5 .5 .5 0 0\n";
@@ -151,4 +151,4 @@ TEST(LoadScene, RefusesMixedFormats) {
 }
 
 }  // namespace
-}  // namespace deltalux::radiance::test
+}  // namespace deltalux::io::radiance::test

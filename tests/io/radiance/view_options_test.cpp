@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace deltalux::radiance {
+namespace deltalux::io::radiance {
 namespace {
 
 TEST(ViewOptions, ReadsWhatRvuPrints) {
@@ -23,4 +23,4 @@ TEST(ViewOptions, RefusesWhatItCannotShow) {
 }
 
 }  // namespace
-}  // namespace deltalux::radiance
+}  // namespace deltalux::io::radiance

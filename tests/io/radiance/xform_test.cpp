@@ -2,7 +2,7 @@
 
 #include "io/radiance/memory_files.hpp"
 
-namespace deltalux::radiance::test {
+namespace deltalux::io::radiance::test {
 namespace {
 
 Vec3 center(const RadObject& sphere) { return {sphere.reals[0], sphere.reals[1], sphere.reals[2]}; }
@@ -143,4 +143,4 @@ TEST(CommandLine, QuotesAndContinuationsAsAShellReadsThem) {
 }
 
 }  // namespace
-}  // namespace deltalux::radiance::test
+}  // namespace deltalux::io::radiance::test
