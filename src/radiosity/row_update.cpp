@@ -225,7 +225,6 @@ void LeafTransfers::updateDirect(Elements& elements, const Change& change, std::
     if (anew[i]) fresh.push_back(leaves[i]);
     report.rays += rays[i];
     if (!anew[i] && !renewed[i].any) continue;
-    ++report.direct;
     report.leaves.push_back(leaves[i]);
   }
   const std::size_t known = elements.size();
@@ -277,7 +276,6 @@ void LeafTransfers::updateIndirect(const Elements& elements, const Change& chang
     report.rays += rays[i];
     if (elsewhere[i]) reaching.push_back(leaves[i]);
     if (!other[i]) continue;
-    ++report.indirect;
     report.leaves.push_back(leaves[i]);
   }
 }
