@@ -14,6 +14,7 @@ StepReport Engine::State::frame(double seconds) {
   const auto left = [&] { return kPlanned * seconds - time.seconds(); };
   Solution& s = *solution;
   StepReport step;
+  const std::uint64_t traced = tracer().traced();
   constexpr double kLikely = 0.02;  // of the time of a solve
   if (!backlog.follow.known()) backlog.follow.learn(kLikely * s.report.times.total);
   constexpr double kMostGapsInMotion = 4;  // closing them takes longer than a frame
@@ -40,6 +41,7 @@ StepReport Engine::State::frame(double seconds) {
   }
   countWaiting(step);
   step.particlesTotal = s.report.counts.particles;
+  step.rays = tracer().traced() - traced;
   step.times.total = time.seconds();
   return step;
 }
@@ -67,7 +69,7 @@ void Engine::State::followWithLinks(StepReport& step) {
   Motion motion = leave(edits, step);
   engine::RowWork work = arriveInLight(edits, motion, false, step);
   backlog.rows.add(std::move(work), s.transfers, s.elements, s.links, stale);
-  renewRows(backlog.rows.work(), backlog.rows.urgent(), step);
+  step.leavesChanged += renewRows(backlog.rows.work(), backlog.rows.urgent(), step).size();
   transfer.emplace(s.particles, s.elements, s.scene);
   backlog.framesSinceLinks = 0, backlog.linksFollowed = std::chrono::steady_clock::now();
   backlog.follow.learn(time.seconds());
@@ -81,7 +83,7 @@ void Engine::State::followWithRows(const SecondsLeft& left, StepReport& step) {
   const auto fit = static_cast<std::size_t>(std::max(0.0, seconds) / backlog.row.seconds());
   const std::size_t before = backlog.rows.size(), elements = s.elements.size();
   const radiosity::ConcernedLeaves leaves = backlog.rows.take(std::max(kFewest, fit), s.elements);
-  renewRows(backlog.rows.work(), leaves, step);
+  step.leavesChanged += renewRows(backlog.rows.work(), leaves, step).size();
   if (backlog.rows.empty()) backlog.rows = {};
   backlog.addSeen(s.scene);
   if (s.elements.size() != elements) transfer->follow(s.particles, {}, s.elements, s.scene);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/check.hpp"
+#include "base/sort_unique.hpp"
 #include "engine/particle_count.hpp"
 #include "engine/state.hpp"
 #include "hierarchy/build.hpp"
@@ -12,12 +13,21 @@
 
 namespace deltalux {
 
+namespace {
+std::size_t countDistinct(std::vector<hierarchy::ElementId> ids) {
+  sortUnique(ids);
+  return ids.size();
+}
+}  // namespace
+
 StepReport Engine::State::update(Progress* progress) {
   const engine::Clock time;
   StepReport step;
+  const std::uint64_t traced = tracer().traced();
   takeIn(step);
   if (backlog.afresh) {
     solveAfresh(progress);
+    step.rays = tracer().traced();  // by a tracer of its own
     step.times.total = time.seconds();
     return step;
   }
@@ -38,12 +48,14 @@ StepReport Engine::State::update(Progress* progress) {
   const std::vector<hierarchy::ElementId> rescaled = std::exchange(backlog.rescaled, {});
   motion.light.rows.insert(motion.light.rows.end(), rescaled.begin(), rescaled.end());
   spreadParticlesAnew(motion.light);
+  step.leavesChanged = countDistinct(motion.light.rows);
   const engine::Clock gathering;
   settleAfter(motion.light, progress);
   step.times.gather += gathering.seconds();
   followWithTextures(step);
   if (gapsAreMany()) closeGaps();
   counted = false;
+  step.rays = tracer().traced() - traced;
   step.times.total = time.seconds();
   return step;
 }
@@ -209,7 +221,6 @@ std::vector<hierarchy::ElementId> Engine::State::renewRows(const engine::RowWork
                                                         work.marks, work.changed, work.space, leaves);
   DELTALUX_VALIDATED(s.transfers.validate(s.elements, s.links));
   s.report.counts.raysVisibility += rows.rays;
-  step.leavesRenewed += std::max(rows.direct, rows.indirect);
   step.times.gather += time.seconds();
   return std::move(rows.leaves);
 }

@@ -58,10 +58,11 @@ Json json(const StepReport& s) {
             {"links_visited", s.linksVisited},
             {"links_changed", s.linksChanged},
             {"leaves_examined", s.leavesExamined},
-            {"leaves_renewed", s.leavesRenewed},
+            {"leaves_changed", s.leavesChanged},
             {"particles_retraced", s.particlesRetraced},
             {"particles_total", s.particlesTotal},
             {"textures_rebuilt", s.texturesRebuilt},
+            {"rays", s.rays},
             {"deferred", s.deferred}};
   if (s.staleW) step["stale_w"] = *s.staleW;
   return step;

@@ -31,8 +31,7 @@ struct LeafTransferReport {
 
 struct LeafUpdateReport {
   std::uint64_t rays = 0, split = 0;
-  std::uint64_t direct = 0, indirect = 0;    // rows that are others, in part or whole
-  std::vector<hierarchy::ElementId> leaves;  // theirs, in the order of ids; direct light and all above is up to date
+  std::vector<hierarchy::ElementId> leaves;  // whose rows are others, by id; direct light and all above is up to date
 };
 
 /// Leaves whose rows may have to be made anew.

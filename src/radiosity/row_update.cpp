@@ -227,7 +227,6 @@ void LeafTransfers::updateDirect(hierarchy::Elements& elements, const Change& ch
     if (anew[i]) fresh.push_back(leaves[i]);
     report.rays += rays[i];
     if (!anew[i] && !renewed[i].any) continue;
-    ++report.direct;
     report.leaves.push_back(leaves[i]);
   }
   const std::size_t known = elements.size();
@@ -280,7 +279,6 @@ void LeafTransfers::updateIndirect(const hierarchy::Elements& elements, const Ch
     report.rays += rays[i];
     if (elsewhere[i]) reaching.push_back(leaves[i]);
     if (!other[i]) continue;
-    ++report.indirect;
     report.leaves.push_back(leaves[i]);
   }
 }

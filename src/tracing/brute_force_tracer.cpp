@@ -192,6 +192,7 @@ class BruteForceTracer final : public RayTracer {
   /// visit(snapshot, meeting) for everything on the segment, until one call returns false; false then.
   template <class Visit>
   bool forMeetings(const Ray& ray, const Visit& visit) const {
+    count(1);
     const Vec3 origin(ray.origin), direction(ray.direction);
     bool goOn = true;
     for (const Snapshot& s : snapshots_) {

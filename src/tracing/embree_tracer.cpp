@@ -49,6 +49,7 @@ class EmbreeTracer final : public RayTracer {
   }
 
   Hit closestHit(const Ray& ray) const override {
+    count(1);
     Pending pending(ray);
     rtcIntersect1(top_, &pending.query, &pending.found);
     return finish(pending);
@@ -56,6 +57,7 @@ class EmbreeTracer final : public RayTracer {
 
   void closestHits(std::span<const Ray> rays, std::span<Hit> hits) const override {
     DELTALUX_CHECK(rays.size() == hits.size(), "one hit per ray");
+    count(rays.size());
     const auto block = [&](std::size_t begin, std::size_t end) {
       for (std::size_t first = begin; first < end; first += kInFlight)
         traceFew(rays.subspan(first, std::min(kInFlight, end - first)), &hits[first]);
@@ -66,6 +68,7 @@ class EmbreeTracer final : public RayTracer {
   }
 
   bool occluded(const Ray& ray) const override {
+    count(1);
     RTCRay r = embreeRay(ray, kOpaqueMask);
     PassageQuery query(scene_, ray);
     rtcOccluded1(top_, &query, &r);
@@ -128,6 +131,7 @@ class EmbreeTracer final : public RayTracer {
   }
 
   Passing passing(const Ray& ray, RTCScene scene) const {
+    count(1);
     RTCRay r = embreeRay(ray, kAnyMask);
     PassageQuery query(scene_, ray);
     rtcOccluded1(scene, &query, &r);

@@ -9,6 +9,12 @@ namespace {
 constexpr std::size_t kBatchBlock = 1024;  // rays per task: enough to hide the scheduling, few enough to balance
 }
 
+std::uint64_t RayTracer::traced() const {
+  std::uint64_t sum = 0;
+  for (const std::uint64_t ofThread : traced_) sum += ofThread;
+  return sum;
+}
+
 void RayTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
   DELTALUX_CHECK(rays.size() == hits.size(), "one hit per ray");
   parallelFor(rays.size(), kBatchBlock, [&](std::size_t i) { hits[i] = closestHit(rays[i]); });

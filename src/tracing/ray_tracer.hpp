@@ -5,10 +5,12 @@
 // Static geometry and each group of movable primitives are separate acceleration structures under one top level, so
 // that moving a cup never rebuilds the house. A moved group is rebuilt from its new world coordinates rather than
 // instanced with a matrix: the same geometry then gives bitwise the same hits, however it got there.
+#include <cstdint>
 #include <deltalux/scene.hpp>
 #include <memory>
 #include <span>
 
+#include "base/per_thread.hpp"
 #include "tracing/ray.hpp"
 
 namespace deltalux::tracing {
@@ -57,6 +59,16 @@ class RayTracer {
   virtual void rejoin() = 0;
   /// transmittance() against the primitives of one group only.
   virtual Rgb transmittance(const Ray&, GroupId group) const = 0;
+
+  /// Queries of rays answered so far, of every kind. Exact while no other thread traces.
+  std::uint64_t traced() const;
+
+ protected:
+  /// For every query. Cost: some nanoseconds.
+  void count(std::size_t rays) const { traced_.local() += rays; }
+
+ private:
+  mutable PerThread<std::uint64_t> traced_{std::uint64_t{0}};
 };
 
 /// The scene must outlive the tracer. Primitives without an extent (removed objects) are left out.

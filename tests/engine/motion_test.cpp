@@ -171,7 +171,7 @@ TEST(Motion, FramesAloneGetThere) {
   double stale = *step.staleW;
   for (int i = 0; i < 2000 && step.deferred > 0; ++i) {
     step = dragged.frame(kNoTime);
-    slices += step.linksVisited == 0 && step.leavesRenewed > 0;
+    slices += step.linksVisited == 0 && step.leavesChanged > 0;
     EXPECT_LE(*step.staleW, 1.01 * stale);
     stale = *step.staleW;
   }

@@ -33,8 +33,8 @@ TEST(Report, HasTheKeysOfTheContract) {
   EXPECT_EQ(keysOf(json["energy"]), (Keys{"emitted_w", "absorbed_w", "escaped_w", "unsettled_w"}));
   const Json& step = json["steps"][0];
   EXPECT_EQ(keysOf(step),
-            (Keys{"op", "object", "time_s", "links_visited", "links_changed", "leaves_examined", "leaves_renewed",
-                  "particles_retraced", "particles_total", "textures_rebuilt", "deferred"}));
+            (Keys{"op", "object", "time_s", "links_visited", "links_changed", "leaves_examined", "leaves_changed",
+                  "particles_retraced", "particles_total", "textures_rebuilt", "rays", "deferred"}));
   EXPECT_EQ(keysOf(step["time_s"]), times);
   EXPECT_EQ(keysOf(json["check"]), (Keys{"solve_s", "irradiance_rel_diff", "particles_identical"}));
   EXPECT_EQ(keysOf(json["check"]["irradiance_rel_diff"]), (Keys{"median", "p95", "max"}));

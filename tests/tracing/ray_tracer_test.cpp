@@ -199,6 +199,28 @@ TEST(RayTracer, BatchesAreSinglesOnAnyNumberOfThreads) {
   }
 }
 
+TEST(RayTracer, CountsEveryQueryOnAnyNumberOfThreads) {
+  const Scene scene = test::randomScene(20, {0, 0, 0}, 2, 1, 3);
+  const std::vector<Ray> rays = randomRays(scene, 5000);
+  for (const std::size_t threads : {1, 5}) {
+    const ThreadLimit limit(threads);
+    for (const auto& tracer : {makeEmbreeTracer(scene), makeBruteForceTracer(scene)}) {
+      EXPECT_EQ(tracer->traced(), 0u);
+      std::vector<Hit> hits(rays.size());
+      std::vector<Rgb> passed(rays.size());
+      std::vector<Passing> passings(rays.size());
+      tracer->closestHits(rays, hits);
+      tracer->transmittances(rays, passed);
+      tracer->passings(rays, passings);
+      tracer->closestHits(std::span(rays).first(3), std::span(hits).first(3));
+      EXPECT_EQ(tracer->traced(), 3 * rays.size() + 3);
+      tracer->closestHit(rays[0]), tracer->occluded(rays[0]);
+      tracer->transmittance(rays[0]), tracer->passing(rays[0]), tracer->transmittance(rays[0], GroupId(0));
+      EXPECT_EQ(tracer->traced(), 3 * rays.size() + 8);
+    }
+  }
+}
+
 TEST(RayTracer, EmptySceneAndShapesWithoutExtent) {
   Scene scene = test::emptyScene();
   EXPECT_FALSE(makeEmbreeTracer(scene)->closestHit(Ray{}));
