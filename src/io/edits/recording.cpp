@@ -5,6 +5,7 @@
 #include "io/atomic_file.hpp"
 #include "io/edits/edit_json.hpp"
 #include "io/import_file.hpp"
+#include "io/json_text.hpp"
 
 namespace deltalux {
 
@@ -118,7 +119,7 @@ void saveRecording(const fs::path& path, const Recording& recording) {
 
 Recording loadRecording(const fs::path& path) {
   const std::string file = path.string();
-  const nlohmann::json tree = parseEditJson(readInputFile(path), file);
+  const nlohmann::json tree = parseJson(readInputFile(path), file, kEditHint);
   const JsonView document(tree, file, kEditHint);
   const JsonView version = document.member("recording");
   version.expectPresent("this is no recording");
