@@ -184,7 +184,6 @@ Indices asItIs(std::size_t count) {
 }  // namespace
 
 Indices windingOrder(const std::vector<Vec2>& outline) {
-  if (outline.size() < 6) return asItIs(outline.size());  // two loops with an area have six edges
   std::size_t points = 0;
   const Indices point = pointsOf(outline, points);
   if (points == outline.size()) return asItIs(outline.size());
@@ -193,6 +192,7 @@ Indices windingOrder(const std::vector<Vec2>& outline) {
 }
 
 Indices windingOrder(const std::vector<Vec3>& vertices) {
+  if (vertices.size() < 6) return asItIs(vertices.size());  // two loops with an area have six edges
   return windingOrder(flatOutline(vertices, newellVector(vertices)));
 }
 
