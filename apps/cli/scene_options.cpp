@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "dark_scene.hpp"
 #include "interrupt.hpp"
 
 namespace deltalux::cli {
@@ -88,8 +89,9 @@ ImportedScene importScene(Run& run, const std::vector<std::filesystem::path>& fi
   for (const std::filesystem::path& file : files) names.push_back(file.string());
   run.report.scene = fmt::format("{}", fmt::join(names, " "));
   ImportedScene imported = loadScene(files, import);
-  for (const Luminaire& luminaire : luminaires) addLuminaire(imported.scene, luminaire);
+  for (const Luminaire& luminaire : luminaires) addLuminaire(imported.scene, luminaire, &imported.report.warnings);
   for (const std::string& warning : imported.report.warnings) run.say("warning: " + warning);
+  warnIfDark(imported.scene, run);
   run.report.times.import = run.elapsed() - begin;
   run.report.sceneStats = sceneStats(imported.scene);
   run.report.sceneStats.ignored = imported.report.ignored;

@@ -5,6 +5,7 @@
 #include <deltalux/engine.hpp>
 #include <deltalux/solution_file.hpp>
 
+#include "dark_scene.hpp"
 #include "interrupt.hpp"
 
 namespace deltalux::cli {
@@ -67,6 +68,7 @@ SolutionView SolutionSource::loadFile(Run& run) const {
   const double begin = run.elapsed();
   run.report.scene = scene_.files.front();
   SolutionView solution = loadSolution(scene_.files.front());
+  warnIfDark(solution.scene(), run);
   run.report.sceneStats = sceneStats(solution.scene());
   noteSolve(solution.report(), run.report);
   run.report.caustics = solution.caustics();

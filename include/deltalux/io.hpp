@@ -41,8 +41,8 @@ struct Luminaire {
   Vec3 position{0};
 };
 
-/// Adds it, named after its file and different from every light. Throws InputError.
-void addLuminaire(Scene&, const Luminaire&);
+/// Adds it, named after its file and different from every light; `warnings` as in loadPhotometry. Throws InputError.
+void addLuminaire(Scene&, const Luminaire&, std::vector<std::string>* warnings = nullptr);
 
 /// Reads a Radiance view file: the last line that starts with rview, rvu, rpict or VIEW=. Throws InputError.
 View loadView(const std::filesystem::path& file);

@@ -8,6 +8,7 @@
 
 #include "io/edits/edit_json.hpp"
 #include "io/import_file.hpp"
+#include "io/json_text.hpp"
 
 namespace deltalux {
 
@@ -179,25 +180,13 @@ std::vector<EditStep> readEdits(const JsonView& document, const std::string& fil
   return steps;
 }
 
-nlohmann::json parseEditJson(std::string_view text, const std::string& file) {
-  try {
-    return nlohmann::json::parse(text);
-  } catch (const nlohmann::json::parse_error& error) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-    const auto line = 1 + std::count(text.begin(), end, '\n');
-    throw InputError(file, static_cast<int>(line), "is not JSON", "look for a missing comma or bracket there");
-  } catch (const nlohmann::json::exception&) {
-    throw InputError(file, 0, "holds a number that is too large", kEditHint);
-  }
-}
-
 }  // namespace deltalux::io
 
 namespace deltalux {
 
 std::vector<EditStep> parseEdits(std::string_view text, const std::string& file, const fs::path& folder,
                                  const ImportSettings& import) {
-  const nlohmann::json tree = io::parseEditJson(text, file);
+  const nlohmann::json tree = io::parseJson(text, file, io::kEditHint);
   return io::readEdits(io::JsonView(tree, file, io::kEditHint), file, folder, import);
 }
 

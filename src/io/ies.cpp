@@ -34,7 +34,8 @@ PhotometryFile readPhotometry(std::string_view text, const std::string& name, co
   IesRecord record = parseIes(text, name, folder);
   PhotometryFile file;
   file.photometry = completePhotometry(record, name);
-  if (!std::isfinite(luminousFlux(file.photometry))) {
+  constexpr double kLargest = 1e15;  // lm
+  if (!(luminousFlux(file.photometry) <= kLargest)) {
     throw InputError(name, 0, "its candela values are too large", "check the candela multiplier");
   }
   checkFlux(record, file.photometry, name, record.warnings);

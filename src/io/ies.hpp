@@ -2,8 +2,8 @@
 // Measured light distributions, IES LM-63 of 1986, 1991, 1995, 2002 and 2019, photometric types A, B and C.
 //
 // Type C is completed by its lateral symmetry; A and B are resampled to type C (io/ies/complete.hpp). What the standard
-// says is applied: candela multiplier, ballast factor, ballast-lamp factor (until 1995; the field has had other
-// meanings since, see there), and the lamp's TILT factor at 0 degrees, that is, for a luminaire mounted as it was
+// says is applied: candela multiplier, ballast factor, ballast-lamp factor (before 1995; the field has had other
+// meanings since), and the lamp's TILT factor at 0 degrees, that is, for a luminaire mounted as it was
 // measured. Numbers may break lines anywhere and are told apart by blanks, commas or line ends of any system.
 #include <deltalux/light.hpp>
 #include <filesystem>

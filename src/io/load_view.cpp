@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "io/import_file.hpp"
+#include "io/plain_text.hpp"
 #include "io/radiance/view_options.hpp"
 
 namespace deltalux {
@@ -23,14 +24,15 @@ std::optional<std::string_view> viewOptions(std::string_view line) {
 }  // namespace
 
 View loadView(const std::filesystem::path& file) {
-  const std::string text = io::readInputFile(file);
+  const std::string read = io::readInputFile(file);
+  const io::PlainText plain(read, file.string());
+  const std::string_view text = plain.view();
   std::optional<std::string_view> last;
   int lastLine = 0, line = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     ++line;
-    if (const auto options = viewOptions(std::string_view(text).substr(begin, end - begin)))
-      last = options, lastLine = line;
+    if (const auto options = viewOptions(text.substr(begin, end - begin))) last = options, lastLine = line;
     begin = end + 1;
   }
   if (!last) throw InputError(file.string(), 0, "holds no view", "a view is a line 'rvu -vtv -vp ... -vd ...'");

@@ -24,11 +24,11 @@ std::string freeLightName(const Scene& scene, const std::filesystem::path& file)
 
 }  // namespace
 
-void addLuminaire(Scene& scene, const Luminaire& luminaire) {
+void addLuminaire(Scene& scene, const Luminaire& luminaire, std::vector<std::string>* warnings) {
   PhotometricLight light;
   light.position = luminaire.position;
   light.frame = hangingFrame(scene.up);
-  light.photometry = std::make_shared<const Photometry>(loadPhotometry(luminaire.file));
+  light.photometry = std::make_shared<const Photometry>(loadPhotometry(luminaire.file, warnings));
   // I / d^2 is W/m2 for d in metres; transport measures d in scene units.
   light.scale = Rgb(static_cast<float>(1.0 / (scene.metresPerUnit * scene.metresPerUnit)));
   scene.lights.push_back({freeLightName(scene, luminaire.file), std::move(light), Rgb(1.0f)});

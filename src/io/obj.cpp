@@ -13,6 +13,7 @@
 #include "io/obj/lines.hpp"
 #include "io/obj/material.hpp"
 #include "io/obj/tinyobj.hpp"
+#include "io/plain_text.hpp"
 #include "io/planar_faces.hpp"
 
 namespace deltalux::io {
@@ -130,8 +131,10 @@ tinyobj::callback_t callbacks() {
 
 }  // namespace
 
-ImportedScene readObj(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+ImportedScene readObj(std::string_view file, const std::string& name, const std::filesystem::path& folder,
                       const ImportSettings& settings) {
+  const PlainText plain(file, name);
+  const std::string_view text = plain.view();
   const ObjSurvey survey = surveyObj(text, name);
   if (survey.faces == 0) throw InputError(name, 0, "has no faces", "give a Wavefront OBJ file with polygons");
   ImportedScene imported;
@@ -140,7 +143,7 @@ ImportedScene readObj(std::string_view text, const std::string& name, const std:
   imported.report.luminousEfficacy = settings.luminousEfficacy;
   imported.report.ignored = survey.ignored;
   imported.report.surfaces["face"] = survey.faces;
-  auto materials = addObjMaterials(survey, name, folder, imported.scene, imported.report.ignored);
+  auto materials = addObjMaterials(survey, name, folder, imported.scene, imported.report);
 
   LineStreambuf lines(text);
   ObjCollector collector(name, lines, std::move(materials), imported);

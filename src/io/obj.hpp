@@ -1,5 +1,5 @@
 #pragma once
-// Wavefront OBJ with MTL materials, parsed by tinyobjloader.
+// Wavefront OBJ, parsed by tinyobjloader, with MTL materials (io/obj/mtl.hpp).
 //
 // Objects are named by `o` and `g` lines ("house/walls"; several group names joined by '_', '/' inside a name as '_').
 // Faces of one object and one material make a mesh, or polygons where that is exact (io/planar_faces.hpp); concave

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <deltalux/error.hpp>
 #include <deltalux/points.hpp>
@@ -12,17 +11,20 @@
 
 #include "base/check.hpp"
 #include "io/atomic_file.hpp"
+#include "io/number.hpp"
+#include "io/plain_text.hpp"
 
 namespace deltalux {
 
 namespace {
 constexpr std::array<const char*, 6> kNeeded{"x", "y", "z", "nx", "ny", "nz"};
+constexpr double kLargest = 1e15;  // coordinate
 constexpr const char* kExpected = "a points file starts with a row x,y,z,nx,ny,nz";
 
 std::string_view trimmed(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t\r");
+  const auto begin = text.find_first_not_of(" \t");
   if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
 /// Fields of one line; a comma within double quotes belongs to its field. [RFC 4180, one line per record]
@@ -46,9 +48,7 @@ std::string_view unquoted(std::string_view field) {
 
 class Parser {
  public:
-  Parser(std::string_view text, const std::string& file) : rest_(text), file_(file) {
-    if (rest_.substr(0, 3) == "\xef\xbb\xbf") rest_.remove_prefix(3);  // byte order mark of spreadsheets
-  }
+  Parser(std::string_view text, const std::string& file) : rest_(text), file_(file) {}
 
   PointTable parse() {
     std::string_view line;
@@ -95,6 +95,9 @@ class Parser {
            "every row needs a value for every column");
     std::array<double, 6> v{};
     for (std::size_t i = 0; i < v.size(); ++i) v[i] = number(row[needed_[i]], kNeeded[i]);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (std::abs(v[i]) > kLargest)
+        fail(fmt::format("column {}: {} is too far away", kNeeded[i], row[needed_[i]]), "points lie within 1e15 units");
     const double largest = std::max({std::abs(v[3]), std::abs(v[4]), std::abs(v[5])});
     if (!(largest > 0)) fail("the normal nx,ny,nz has no direction", "give the surface's normal");
     const Vec3 normal = Vec3(v[3], v[4], v[5]) / largest;  // first, so that squares neither vanish nor overflow
@@ -103,14 +106,10 @@ class Parser {
   }
 
   double number(std::string_view field, const char* column) const {
-    std::string_view text = unquoted(field);
-    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-      fail(fmt::format("{} is no number in column {}", field.empty() ? "nothing" : fmt::format("'{}'", field), column),
-           "write numbers like -1.25 or 3e-4");
-    return value;
+    const std::string_view text = unquoted(field);
+    if (const auto value = io::parseDecimal(text)) return *value;
+    fail(fmt::format("column {}: {}", column, text.empty() ? "there is no number" : io::notANumber(text)),
+         "write numbers like -1.25 or 3e-4");
   }
 
   std::string_view rest_;
@@ -134,7 +133,10 @@ std::string resultFields(const ProbeResult& result, ProbeColumns columns) {
 }
 }  // namespace
 
-PointTable parsePoints(std::string_view text, const std::string& fileName) { return Parser(text, fileName).parse(); }
+PointTable parsePoints(std::string_view text, const std::string& fileName) {
+  const io::PlainText plain(text, fileName);
+  return Parser(plain.view(), fileName).parse();
+}
 
 PointTable readPoints(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);

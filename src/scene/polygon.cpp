@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "scene/flat_outline.hpp"
+#include "scene/hole_winding.hpp"
 #include "scene/shape_kinds.hpp"
 #include "scene/triangulation.hpp"
 
@@ -30,18 +32,10 @@ void dropRepeatedVertices(std::vector<Vec3>& vertices) {
   while (vertices.size() > 1 && same(vertices.front(), vertices.back())) vertices.pop_back();
 }
 
-/// Area times normal, from coordinates relative to the first vertex. [SSS74]
-Vec3 newellVector(const std::vector<Vec3>& vertices) {
-  Vec3 sum(0);
-  for (std::size_t i = 1; i + 1 < vertices.size(); ++i)
-    sum += glm::cross(vertices[i] - vertices[0], vertices[i + 1] - vertices[0]);
-  return 0.5 * sum;
-}
-
 /// The unit normal, with the vertices brought into the plane through their mean. nullopt without area or plane.
 std::optional<Vec3> flatten(std::vector<Vec3>& vertices) {
   const double size = sizeOf(vertices);
-  const Vec3 newell = newellVector(vertices);
+  const Vec3 newell = scene::newellVector(vertices);
   const double area = glm::length(newell);
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * largestCoordinate(vertices) * size;
   if (!std::isfinite(area) || !(area > 1e-12 * size * size + rounding)) return std::nullopt;
@@ -56,17 +50,6 @@ std::optional<Vec3> flatten(std::vector<Vec3>& vertices) {
   if (deviation > kFlatEnough * size)
     for (Vec3& v : vertices) v -= glm::dot(v - mean, normal) * normal;
   return normal;
-}
-
-/// Plane coordinates by leaving the axis nearest to the normal out: numbers that were equal stay equal.
-std::vector<Vec2> flatOutline(const std::vector<Vec3>& vertices, const Vec3& normal) {
-  const Vec3 size = glm::abs(normal);
-  const int dropped = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-  int first = (dropped + 1) % 3, second = (dropped + 2) % 3;
-  if (normal[dropped] < 0) std::swap(first, second);
-  std::vector<Vec2> outline;
-  for (const Vec3& v : vertices) outline.emplace_back(v[first], v[second]);
-  return outline;
 }
 
 /// Vertices where the outline turns.
@@ -133,9 +116,9 @@ std::optional<Polygon> makePolygon(std::vector<Vec3> vertices) {
   const auto normal = flatten(vertices);
   if (!normal) return std::nullopt;
   Polygon p;
-  p.vertices = std::move(vertices);
+  p.vertices = scene::inOrder(vertices, scene::windingOrder(vertices));
   p.normal = *normal;
-  p.triangles = scene::triangulate(flatOutline(p.vertices, p.normal));
+  p.triangles = scene::triangulate(scene::flatOutline(p.vertices, p.normal));
   if (p.triangles.empty()) return std::nullopt;
   p.fillsFrame = frameParallelogram(p);
   if (!p.fillsFrame) frameRectangle(p);

@@ -46,6 +46,36 @@ TEST(Info, ReportsTheSameNumbers) {
   EXPECT_EQ(folder.names(), Names{"r.json"});
 }
 
+TEST(Info, ASceneWithoutLightSaysSo) {
+  const test::TempFolder folder;
+  const std::string grey = "void plastic grey 0 0 5 .5 .5 .5 0 0\ngrey sphere ball 0 0 4 0 0 0 1\n";
+  const auto warned = [](const std::vector<std::string>& arguments) {
+    const CliResult result = runCli(arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return contains(result.err, "warning: the scene has no light");
+  };
+  const std::string dark = folder.write("dark.rad", grey);
+  EXPECT_TRUE(warned({"info", dark}));
+  const std::string off = "void light off 0 0 3 0 0 0\noff sphere lamp 0 0 4 0 0 9 1\n";
+  EXPECT_TRUE(warned({"info", folder.write("off.rad", grey + off)}));
+  const std::string lamp = "void light on 0 0 3 1 1 1\non sphere lamp 0 0 4 0 0 9 1\n";
+  EXPECT_FALSE(warned({"info", folder.write("lit.rad", grey + lamp)}));
+  const std::string ies = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 180\n0\n100 100\n";
+  EXPECT_FALSE(warned({"info", dark, "--ies", folder.write("lamp.ies", ies).string() + "@0,0,9"}));
+  EXPECT_TRUE(warned({"solve", dark, "-o", folder / "dark.dlx"}));
+  const std::string points = folder.write("p.csv", "x,y,z,nx,ny,nz\n0,0,1,0,0,1\n");
+  EXPECT_TRUE(warned({"probe", folder / "dark.dlx", "--points", points, "-o", folder / "o.csv"}));
+  EXPECT_TRUE(warned({"reference", dark, "--points", points, "-o", folder / "o.csv", "--samples", "4"}));
+}
+
+TEST(Info, NumbersTooLargeAreMistakes) {
+  const test::TempFolder folder;
+  const auto result =
+      runCli({"info", folder.write("a.rad", "void light l 0 0 3 1e400 10 10\nl sphere s 0 0 4 0 0 1 .1\n")});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_TRUE(contains(result.err, "a.rad:1")) << result.err;
+}
+
 TEST(Info, ReadsSeveralFilesAsOneScene) {
   const test::TempFolder folder;
   const auto materials = folder.write("mat.rad", "void plastic grey 0 0 5 .5 .5 .5 0 0\n");

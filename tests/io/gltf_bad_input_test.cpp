@@ -52,7 +52,7 @@ TEST(GltfBadInput, TheTriangleItselfIsFine) {
 
 TEST(GltfBadInput, JsonWithALine) {
   EXPECT_EQ(refusal("{\n\"asset\": {\n").line(), 3);
-  EXPECT_EQ(refusal("{\"asset\": {\"version\": \"2.0\"},\n \"x\": 1e999}").line(), 0);
+  EXPECT_EQ(refusal("{\"asset\": {\"version\": \"2.0\"},\n \"x\": 1e999}").line(), 2);
   refusal("");
   refusal("[]");
   refusal("{}");
@@ -158,7 +158,36 @@ TEST(GltfBadInput, ExtensionsThatAreNeededButNotRead) {
     EXPECT_NE(error.hint().find("without compression"), std::string::npos);
   }
   expectRefused(with("/extensionsRequired", {"ACME_unheard_of"}), "ACME_unheard_of");
-  expectRefused(with("/bufferViews/0/extensions", {{"EXT_meshopt_compression", json::object()}}), "meshopt");
+}
+
+// Files that name no extension as required, and hold nothing else to read.
+TEST(GltfBadInput, CompressionThatIsNotSaidToBeRequired) {
+  for (const char* const extension : {"KHR_draco_mesh_compression", "ACME_points"}) {
+    GltfBuilder g = triangle();
+    g.doc["meshes"][0]["primitives"][0]["extensions"] = {{extension, {{"bufferView", 0}}}};
+    EXPECT_EQ(readGltf(g.glb(), "scene.gltf", "/", {}).scene.primitives.size(), 1u) << "the plain form is there too";
+    for (json& accessor : g.doc["accessors"]) accessor.erase("bufferView");
+    const InputError error = refusal(g.glb());
+    EXPECT_NE(error.message().find(extension), std::string::npos) << error.message();
+    EXPECT_NE(error.message().find("/meshes/0/primitives/0"), std::string::npos) << error.message();
+    EXPECT_NE(error.hint().find("without compression"), std::string::npos);
+  }
+  for (const char* const extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    GltfBuilder g = triangle();
+    g.doc["bufferViews"][1]["extensions"] = {{extension, {{"buffer", 0}}}};
+    EXPECT_EQ(readGltf(g.glb(), "scene.gltf", "/", {}).scene.primitives.size(), 1u) << "the plain form is there too";
+    g.doc["buffers"] = {{{"byteLength", g.bytes.size()}},
+                        {{"byteLength", 100}, {"extensions", {{extension, {{"fallback", true}}}}}}};
+    g.doc["bufferViews"][1]["buffer"] = 1;
+    const InputError error = refusal(g.glb());
+    EXPECT_NE(error.message().find(extension), std::string::npos) << error.message();
+    EXPECT_NE(error.message().find("/bufferViews/1"), std::string::npos) << error.message();
+  }
+  GltfBuilder g = triangle();
+  g.doc["textures"] = {{{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}};
+  g.doc["images"] = {{{"bufferView", 0}, {"mimeType", "image/webp"}}};
+  g.material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+  expectRefused(g, "EXT_texture_webp");
 }
 
 TEST(GltfBadInput, LightsCamerasMaterials) {

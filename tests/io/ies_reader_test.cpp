@@ -7,7 +7,10 @@
 
 #include <cmath>
 #include <deltalux/error.hpp>
+#include <deltalux/io.hpp>
 #include <functional>
+
+#include "support/temp_folder.hpp"
 
 namespace deltalux {
 using namespace io;
@@ -93,12 +96,13 @@ TEST(IesReader, CandelaIsLinearInEveryFactor) {
   EXPECT_NEAR(luminousFlux(read(text).photometry), 2.0 * plain, 1e-9);
 }
 
-TEST(IesReader, BallastLampFactorCountsOnlyUntil1995) {
+TEST(IesReader, BallastLampFactorCountsOnlyBefore1995) {
   const double plain = luminousFlux(read(IesText{}).photometry);
   IesText text;
   text.electrical = "1 0.9 10";
   for (const auto& [head, factor] : {std::pair{"IESNA91", 0.9},
-                                     {"IESNA:LM-63-1995", 0.9},
+                                     {"IESNA:LM-63-1991", 0.9},
+                                     {"IESNA:LM-63-1995", 1.0},
                                      {"Some luminaire", 0.9},
                                      {"IESNA:LM-63-2002", 1.0},
                                      {"IES:LM-63-2019", 1.0}}) {
@@ -253,6 +257,48 @@ TEST(IesReader, MendsNoiseBelowZeroAndABallastFactorOfZero) {
   EXPECT_EQ(candela(file.photometry, 180, 0), 0);
 }
 
+TEST(IesReader, NegativeCandelasAreNoLight) {
+  IesText text;
+  text.candela = [](double v, double) { return v > 90 ? -50.0 : 100.0; };
+  const PhotometryFile file = read(text);
+  EXPECT_EQ(candela(file.photometry, 120, 0), 0);
+  EXPECT_EQ(candela(file.photometry, 90, 0), 100);
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_NE(file.warnings[0].find("18 of 37 candela values are negative"), std::string::npos) << file.warnings[0];
+  text.candela = [](double, double) { return -1.0; };
+  EXPECT_EQ(luminousFlux(read(text).photometry), 0);
+  EXPECT_EQ(read(text).warnings.size(), 2u) << "negative, and dark";
+}
+
+TEST(IesReader, LuminairesSayWhatWasMended) {
+  const test::TempFolder folder;
+  IesText text;
+  text.candela = [](double v, double) { return v > 90 ? -50.0 : 100.0; };
+  Scene scene;
+  std::vector<std::string> warnings;
+  addLuminaire(scene, {folder.write("lamp.ies", text.str()), {0, 0, 2}}, &warnings);
+  EXPECT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(warnings.size(), 1u);
+}
+
+TEST(IesReader, ATiltFileBesideTheLuminaire) {
+  const test::TempFolder folder;
+  folder.write("lamp.tlt", "1\n3\n-10 10 90\n0.9 0.7 0.5\n");
+  IesText text;
+  text.tilt = "TILT=lamp.tlt";
+  const PhotometryFile file = readPhotometry(text.str(), "lamp.ies", folder.path());
+  EXPECT_NEAR(luminousFlux(file.photometry), 0.8 * 400 * kPi, 1e-9);
+  ASSERT_EQ(file.warnings.size(), 1u);
+  folder.write("lamp.tlt", "1\n3\n-10 10 90\n0.9 many 0.5\n");
+  try {
+    readPhotometry(text.str(), "lamp.ies", folder.path());
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::filesystem::path(error.file()).filename(), "lamp.tlt");
+    EXPECT_EQ(error.line(), 4);
+  }
+}
+
 TEST(IesReader, FrameTurnsTheDistribution) {
   IesText text;
   text.verticals = range(0, 90, 5);
@@ -284,8 +330,7 @@ TEST(IesReader, RefusesGarbageWithTheLine) {
   EXPECT_EQ(errorLine(changed("0 5 10", "0 10 5")), 6);  // angles descend
   EXPECT_EQ(errorLine(changed("0 5 10", "nan 5 10")), 6);
   EXPECT_EQ(errorLine(changed("0 5 10", "0 abc 10")), 6);
-  EXPECT_EQ(errorLine(changed("100 100 100", "100 -50 100")), 8);  // negative light
-  EXPECT_EQ(errorLine(good + "7 8 9\n"), 9);                       // counts too small
+  EXPECT_EQ(errorLine(good + "7 8 9\n"), 9);  // counts too small
   IesText text;
   text.horizontals = {0, 30};
   EXPECT_EQ(errorLine(text.str()), 7);

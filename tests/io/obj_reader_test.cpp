@@ -89,6 +89,16 @@ TEST(ObjReader, ReadsLinesAsPeopleWriteThem) {
   EXPECT_NEAR(totalArea(read("\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").scene), 0.5, 1e-12);
 }
 
+TEST(ObjReader, HolesBySeamsWoundEitherWay) {
+  const std::string corners = "v 0 0 0\nv 4 0 0\nv 4 3 0\nv 0 3 0\nv 1 1 0\nv 2 1 0\nv 2 2 0\nv 1 2 0\n";
+  EXPECT_NEAR(totalArea(read(corners + "f 1 2 3 4 1 5 6 7 8 5\n").scene), 11, 1e-12);
+  EXPECT_NEAR(totalArea(read(corners + "f 1 2 3 4 1 5 8 7 6 5\n").scene), 11, 1e-12);
+  // Bent along the hole: triangles, not a polygon.
+  const std::string bent = "v 0 0 0\nv 4 0 0\nv 4 3 1\nv 0 3 1\nv 1 1 0\nv 2 1 0\nv 2 2 0\nv 1 2 0\n";
+  EXPECT_NEAR(totalArea(read(bent + "f 1 2 3 4 1 5 6 7 8 5\n").scene),
+              totalArea(read(bent + "f 1 2 3 4 1 5 8 7 6 5\n").scene), 0.2);
+}
+
 TEST(ObjReader, CoordinatesKeepTheirDigits) {
   const ImportedScene imported = read("v 4512345.125 0 0\nv 4512346.125 0 0\nv 4512345.125 1 0\nf 1 2 3\n");
   EXPECT_NEAR(totalArea(imported.scene), 0.5, 1e-8);
@@ -149,15 +159,22 @@ TEST_F(ObjFiles, MaterialFilesByAnyName) {
   ASSERT_EQ(imported.scene.primitives.size(), 3u);
   EXPECT_EQ(std::get<Opaque>(imported.scene.materialOf(PrimitiveId(1)).surface).diffuse, Rgb(0.2f));
   EXPECT_EQ(std::get<Opaque>(imported.scene.materialOf(PrimitiveId(2)).surface).diffuse, Rgb(0.5f));
-  EXPECT_EQ(imported.report.ignored.at("material files not found"), 1u);
+  EXPECT_EQ(imported.report.ignored.at("material files not found"), 2u);
+  ASSERT_FALSE(imported.report.warnings.empty());
+  EXPECT_NE(imported.report.warnings[0].find("'missing.mtl', 'gone.mtl'"), std::string::npos)
+      << imported.report.warnings[0];
+  EXPECT_NE(imported.report.warnings[0].find(folder_.path().string()), std::string::npos);
   EXPECT_EQ(imported.report.ignored.at("materials not defined (grey instead)"), 1u);
 }
 
 TEST_F(ObjFiles, ImpossibleMaterials) {
   EXPECT_THROW(materialOf("Ke -1 0 0\n"), InputError);
   EXPECT_THROW(materialOf("Ke 1e400 0 0\n"), InputError);
-  const auto s = std::get<Opaque>(materialOf("Kd 7 -3 abc\nNs -5\n").surface);
-  EXPECT_EQ(s.diffuse, Rgb(1, 0, 0));
+  EXPECT_THROW(materialOf("Kd 1 1 abc\n"), InputError);
+  const auto s = std::get<Opaque>(materialOf("Kd 7 -3 0.5\nNs -5\n").surface);
+  EXPECT_EQ(s.diffuse, Rgb(1, 0, 0.5f));
+  ASSERT_EQ(imported_.report.warnings.size(), 1u);
+  EXPECT_NE(imported_.report.warnings[0].find("1 colours above 1"), std::string::npos);
 }
 
 int errorLine(const std::string& text) {
@@ -189,6 +206,7 @@ TEST(ObjReader, RefusesWithTheLine) {
   EXPECT_EQ(errorLine("v 0 0 nan\nf 1 1 1\n"), 1);
   EXPECT_EQ(errorLine("v 0 0 1e300\nf 1 1 1\n"), 1);
   EXPECT_EQ(errorLine("v 0 0 zero\nf 1 1 1\n"), 1);
+  EXPECT_EQ(errorLine("v 0 0 1e400\nf 1 1 1\n"), 1);
   EXPECT_EQ(errorLine("# \\\n\\\nv 0 0\n"), 0);  // all of it a comment: no faces
   EXPECT_EQ(errorLine("mtllib ../../etc/passwd\n" + corners + "f 1 2 3\n"), 1);
 }

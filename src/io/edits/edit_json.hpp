@@ -8,9 +8,6 @@ namespace deltalux::io {
 
 inline constexpr const char* kEditHint = "docs/command_line.md shows the form of edits";
 
-/// The document, or an InputError with the line where it ends being JSON.
-nlohmann::json parseEditJson(std::string_view text, const std::string& file);
-
 /// The steps of the document's "edits".
 std::vector<EditStep> readEdits(const JsonView& document, const std::string& file, const std::filesystem::path& folder,
                                 const ImportSettings&);

@@ -5,6 +5,7 @@
 #include "io/atomic_file.hpp"
 #include "io/edits/edit_json.hpp"
 #include "io/import_file.hpp"
+#include "io/json_text.hpp"
 
 namespace deltalux {
 
@@ -135,7 +136,7 @@ void saveRecording(const fs::path& path, const Recording& recording) {
 
 Recording loadRecording(const fs::path& path) {
   const std::string file = path.string();
-  const nlohmann::json tree = io::parseEditJson(io::readInputFile(path), file);
+  const nlohmann::json tree = io::parseJson(io::readInputFile(path), file, io::kEditHint);
   const io::JsonView document(tree, file, io::kEditHint);
   const io::JsonView version = document.member("recording");
   version.expectPresent("this is no recording");

@@ -24,8 +24,9 @@ Support supportOf(std::string_view extension) {
                                                         "KHR_materials_volume",  "KHR_materials_specular",
                                                         "KHR_materials_unlit",   "KHR_texture_transform",
                                                         "KHR_mesh_quantization", "EXT_lights_ies"};
-  constexpr std::array<std::string_view, 4> compressed{"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                                       "KHR_texture_basisu", "EXT_texture_webp"};
+  constexpr std::array<std::string_view, 6> compressed{"KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                                                       "KHR_meshopt_compression",    "KHR_texture_basisu",
+                                                       "EXT_texture_webp",           "EXT_texture_avif"};
   for (const std::string_view known : understood) {
     if (extension == known) return Support::Understood;
   }
@@ -37,6 +38,11 @@ Support supportOf(std::string_view extension) {
       (extension.starts_with("KHR_materials_") && extension != "KHR_materials_pbrSpecularGlossiness") ||
       extension.starts_with("KHR_xmp") || extension == "KHR_animation_pointer";
   return harmless ? Support::Ignored : Support::Unknown;
+}
+
+InputError needsUnread(const std::string& file, const std::string& what, const std::string& extension) {
+  return InputError(file, 0, what + " needs " + extension + ", which is not read",
+                    "export the scene without compression, textures as PNG or JPEG");
 }
 
 void checkAsset(const JsonView& document, const std::string& file) {
@@ -54,9 +60,7 @@ void checkRequiredExtensions(const JsonView& document, const std::string& file) 
     required.expectString();
     const auto name = required.value().get<std::string>();
     const Support support = supportOf(name);
-    if (support == Support::Compressed) {
-      throw InputError(file, 0, "needs " + name, "export the scene without compression, textures as PNG or JPEG");
-    }
+    if (support == Support::Compressed) throw needsUnread(file, "the scene", name);
     if (support == Support::Unknown) {
       throw InputError(file, 0, "needs the extension '" + name.substr(0, 60) + "', which is not read",
                        "export the scene without it");
@@ -64,18 +68,31 @@ void checkRequiredExtensions(const JsonView& document, const std::string& file) 
   }
 }
 
-void checkBuffers(const JsonView& document) {
+// A view whose buffer is there can be read as it is: the compressed bytes are an alternative then.
+// [EXT_meshopt_compression, "Fallback buffers"]
+void checkCompression(const JsonView& view, const JsonView& buffer, const std::string& file, const std::string& where) {
+  for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    if (!view.member("extensions").member(extension).present()) continue;
+    const JsonView fallback = buffer.member("extensions").member(extension).member("fallback");
+    fallback.expectBool();
+    const bool empty = fallback.present() && fallback.value().get<bool>() && !buffer.member("uri").present();
+    if (empty) throw needsUnread(file, where, extension);
+  }
+}
+
+void checkBuffers(const JsonView& document, const std::string& file) {
   for (const JsonView& buffer : document.member("buffers").objects()) {
     buffer.member("byteLength").expectPresent("its size in bytes");
     buffer.member("byteLength").expectInteger(1, kMaxBytes);
     buffer.member("uri").expectString();
   }
+  const std::vector<JsonView> buffers = document.member("buffers").objects();
+  std::size_t index = 0;
   for (const JsonView& view : document.member("bufferViews").objects()) {
-    if (view.member("extensions").member("EXT_meshopt_compression").present()) {
-      view.fail("is compressed by meshopt; export the scene without compression");
-    }
     view.member("buffer").expectPresent("the index of its buffer");
-    view.member("buffer").expectIndex(document.member("buffers").size());
+    view.member("buffer").expectIndex(buffers.size());
+    checkCompression(view, buffers[view.member("buffer").value().get<std::size_t>()], file,
+                     "/bufferViews/" + std::to_string(index++));
     view.member("byteLength").expectPresent("its size in bytes");
     view.member("byteLength").expectInteger(1, kMaxBytes);
     view.member("byteOffset").expectInteger(0, kMaxBytes);
@@ -113,13 +130,36 @@ void checkAccessors(const JsonView& document) {
   }
 }
 
-void checkMeshes(const JsonView& document) {
-  const std::size_t accessors = document.member("accessors").size();
+// Where the accessors of a primitive have no data, an extension has it: the file has no uncompressed alternative.
+void checkData(const JsonView& primitive, const std::vector<JsonView>& accessors, const std::string& file,
+               const std::string& where) {
+  std::vector<JsonView> used = primitive.member("attributes").members();
+  if (primitive.member("indices").present()) used.push_back(primitive.member("indices"));
+  for (const JsonView& index : used) {
+    const JsonView& accessor = accessors[index.value().get<std::size_t>()];
+    if (accessor.member("bufferView").present() || accessor.member("sparse").present()) continue;
+    const JsonView extensions = primitive.member("extensions");
+    std::string needed;
+    if (!extensions.members().empty()) {
+      for (const auto& [name, value] : extensions.value().items())
+        if (needed.empty() || supportOf(name) == Support::Compressed) needed = name;
+    }
+    if (!needed.empty()) throw needsUnread(file, where, needed.substr(0, 60));
+  }
+}
+
+void checkMeshes(const JsonView& document, const std::string& file) {
+  const std::vector<JsonView> accessors = document.member("accessors").objects();
+  std::size_t meshIndex = 0;
   for (const JsonView& mesh : document.member("meshes").objects()) {
+    std::size_t index = 0;
+    const std::string where = "/meshes/" + std::to_string(meshIndex++) + "/primitives/";
     for (const JsonView& primitive : mesh.member("primitives").objects()) {
       primitive.member("attributes").expectPresent("the vertices");
-      for (const JsonView& attribute : primitive.member("attributes").members()) attribute.expectIndex(accessors);
-      primitive.member("indices").expectIndex(accessors);
+      for (const JsonView& attribute : primitive.member("attributes").members())
+        attribute.expectIndex(accessors.size());
+      primitive.member("indices").expectIndex(accessors.size());
+      checkData(primitive, accessors, file, where + std::to_string(index++));
       primitive.member("material").expectIndex(document.member("materials").size());
       primitive.member("mode").expectInteger(0, 6);
       primitive.member("targets").elements();
@@ -256,9 +296,9 @@ void checkGltf(const nlohmann::json& tree, const std::string& name) {
   document.expectObject();
   checkAsset(document, name);
   checkRequiredExtensions(document, name);
-  checkBuffers(document);
+  checkBuffers(document, name);
   checkAccessors(document);
-  checkMeshes(document);
+  checkMeshes(document, name);
   checkImages(document);
   checkMaterials(document);
   checkCameras(document);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstring>
 #include <deltalux/error.hpp>
-#include <nlohmann/json.hpp>
 
 #include "io/gltf/check.hpp"
 #include "io/import_file.hpp"
+#include "io/json_text.hpp"
 
 namespace deltalux::io {
 
@@ -54,40 +54,6 @@ Container openBinary(std::string_view bytes, const std::string& name) {
 Container openContainer(std::string_view bytes, const std::string& name) {
   if (bytes.substr(0, 4) == "glTF") return openBinary(bytes, name);
   return {bytes, {}, false};
-}
-
-// Recursion over the document, here and in tinygltf, is as deep as the document nests.
-void checkDepth(std::string_view text, const std::string& name) {
-  constexpr int kMaxDepth = 100;
-  int depth = 0;
-  bool inString = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (inString) {
-      if (c == '\\') ++i;
-      if (c == '"') inString = false;
-    } else if (c == '"') {
-      inString = true;
-    } else if (c == '{' || c == '[') {
-      if (++depth > kMaxDepth) throw InputError(name, 0, "is JSON nested more than 100 deep", kExportAgain);
-    } else if (c == '}' || c == ']') {
-      --depth;
-    }
-  }
-}
-
-json parseJson(std::string_view text, const std::string& name) {
-  checkDepth(text, name);
-  try {
-    return json::parse(text.begin(), text.end());
-  } catch (const json::parse_error& error) {
-    const auto line = 1 + std::count(text.begin(), text.begin() + std::min(error.byte, text.size()), '\n');
-    const std::string what = error.what();
-    throw InputError(name, static_cast<int>(line), "is not valid JSON: " + what.substr(what.find("] ") + 2, 200),
-                     kExportAgain);
-  } catch (const json::exception&) {
-    throw InputError(name, 0, "holds a number too large to represent", kExportAgain);
-  }
 }
 
 std::string bytesOfBuffer(const json& buffer, std::size_t index, const GltfDocument& document,
@@ -146,7 +112,7 @@ GltfDocument openGltf(std::string_view bytes, const std::string& name, const std
   document.name = name;
   document.folder = folder;
   const Container container = openContainer(bytes, name);
-  json tree = parseJson(container.json, name);
+  json tree = parseJson(container.json, name, kExportAgain);
   checkGltf(tree, name);
 
   const auto entries = [&](const char* key) -> json {

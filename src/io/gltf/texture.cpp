@@ -7,7 +7,11 @@ namespace deltalux::io {
 int GltfTextures::imageOf(int texture) const {
   const int image = document_.model.textures[static_cast<std::size_t>(texture)].source;
   if (image < 0) {
-    throw InputError(document_.name, 0, "/textures/" + std::to_string(texture) + " has no PNG or JPEG image",
+    const auto& extensions = document_.model.textures[static_cast<std::size_t>(texture)].extensions;
+    const std::string lack = extensions.empty()
+                                 ? " has no PNG or JPEG image"
+                                 : " needs " + extensions.begin()->first.substr(0, 60) + ", which is not read";
+    throw InputError(document_.name, 0, "/textures/" + std::to_string(texture) + lack,
                      "export the scene with PNG or JPEG textures");
   }
   return image;

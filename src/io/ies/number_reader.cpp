@@ -1,9 +1,10 @@
 #include "io/ies/number_reader.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <deltalux/error.hpp>
+
+#include "io/number.hpp"
 
 namespace deltalux::io {
 
@@ -31,13 +32,8 @@ std::string_view NumberReader::next(const char* what) {
 
 double NumberReader::number(const char* what) {
   const std::string_view token = next(what);
-  const std::string_view digits = token.substr(token.front() == '+' ? 1 : 0);
-  double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
-    throw InputError(name_, line_, "'" + std::string(token.substr(0, 40)) + "' is not a number for " + what, kHint);
-  }
-  return value;
+  if (const auto value = parseDecimal(token)) return *value;
+  throw InputError(name_, line_, notANumber(token) + " for " + what, kHint);
 }
 
 int NumberReader::integer(const char* what, int low, int high) {

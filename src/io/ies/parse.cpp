@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <deltalux/error.hpp>
 #include <optional>
 
 #include "io/ies/number_reader.hpp"
 #include "io/import_file.hpp"
+#include "io/plain_text.hpp"
 
 namespace deltalux::io {
 
@@ -28,16 +30,18 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin);
 }
 
+// Files of 1986 name no standard.
 int revisionOf(std::string_view firstLine) {
+  constexpr std::string_view kTag = "LM-63-";
   const std::string line = upperCase(firstLine.substr(0, 80));
-  for (const auto& [tag, year] : {std::pair{"LM-63-2019", 2019},
-                                  {"LM-63-2002", 2002},
-                                  {"LM-63-1995", 1995},
-                                  {"LM-63-1991", 1991},
-                                  {"IESNA91", 1991}}) {
-    if (line.find(tag) != std::string::npos) return year;
+  if (line.find("IESNA91") != std::string::npos) return 1991;
+  const std::size_t tag = line.find(kTag);
+  int year = 1986;
+  if (tag != std::string::npos) {
+    const char* const digits = line.data() + tag + kTag.size();
+    std::from_chars(digits, line.data() + line.size(), year);
   }
-  return 1986;
+  return year;
 }
 
 // The TILT= line divides labels from numbers.
@@ -86,8 +90,9 @@ double tiltFactorOfFile(const std::string& reference, const std::string& name, c
                        "' is not there; the lamp is taken as in its test position");
     return 1;
   }
-  const std::string text = readInputFile(file);
-  NumberReader reader(text, file.string(), 1);
+  const std::string read = readInputFile(file);
+  const PlainText plain(read, file.string());
+  NumberReader reader(plain.view(), file.string(), 1);
   return readTiltFactor(reader, file.string());
 }
 
@@ -122,12 +127,12 @@ void readDimensions(NumberReader& reader, IesRecord& record) {
   record.height = unit * reader.number("the luminous height");
 }
 
-// The middle field was the ballast-lamp photometric factor until 1995, "future use" in 2002, and says how the file
-// came about in 2019 (1.1 is an accredited test, no factor).
+// The middle field was the ballast-lamp photometric factor before 1995, "future use" from then on, and says how the
+// file came about in 2019 (1.1 is an accredited test, no factor). [LM-63-1995, 2002, 2019; ies2rad]
 void readElectrical(NumberReader& reader, const std::string& name, IesRecord& record) {
   double factor = reader.number("the ballast factor");
   const double second = reader.number("the ballast-lamp factor");
-  if (record.revision <= 1995) factor *= second;
+  if (record.revision < 1995) factor *= second;
   reader.number("the input watts");
   if (factor > 0) {
     record.multiplier *= factor;
@@ -136,20 +141,25 @@ void readElectrical(NumberReader& reader, const std::string& name, IesRecord& re
   }
 }
 
-void checkCandela(const NumberReader& reader, const std::string& name, IesRecord& record) {
-  const auto [low, high] = std::minmax_element(record.candela.begin(), record.candela.end());
-  if (*low >= 0) return;
-  // A little below zero is the noise of a measurement; more is not light.
-  if (*low < -0.01 * *high || *high <= 0) {
-    throw InputError(name, reader.line(), "candela values are negative", "get the file again from the maker");
-  }
+// Below zero is the noise of a measurement, or a mistake; it is no light.
+void mendCandela(const std::string& name, IesRecord& record) {
+  const auto negative = std::count_if(record.candela.begin(), record.candela.end(), [](double i) { return i < 0; });
+  const double lowest = *std::min_element(record.candela.begin(), record.candela.end());
   for (double& value : record.candela) value = std::max(value, 0.0);
-  record.warnings.push_back(name + ": slightly negative candela values were set to 0");
+  if (negative > 0) {
+    record.warnings.push_back(name + ": " + std::to_string(negative) + " of " + std::to_string(record.candela.size()) +
+                              " candela values are negative, down to " + std::to_string(lowest) + "; taken as 0");
+  }
+  const auto dark = [](double value) { return value == 0; };
+  if (std::all_of(record.candela.begin(), record.candela.end(), dark))
+    record.warnings.push_back(name + ": no candela value is above 0; the luminaire gives no light");
 }
 
 }  // namespace
 
-IesRecord parseIes(std::string_view text, const std::string& name, const std::filesystem::path& folder) {
+IesRecord parseIes(std::string_view file, const std::string& name, const std::filesystem::path& folder) {
+  const PlainText plain(file, name);
+  const std::string_view text = plain.view();
   const std::optional<Layout> layout = findTilt(text);
   if (!layout) {
     throw InputError(name, 0, "is not an IES LM-63 file: it has no line TILT=",
@@ -172,7 +182,7 @@ IesRecord parseIes(std::string_view text, const std::string& name, const std::fi
     throw InputError(name, reader.line(), "more than ten million candela values are announced", "thin out the angles");
   }
   record.candela = reader.numbers(verticalCount * horizontalCount, "the candela values");
-  checkCandela(reader, name, record);
+  mendCandela(name, record);
   const std::string_view rest = reader.rest();
   if (!rest.empty() && (std::isdigit(static_cast<unsigned char>(rest.front())) || rest.front() == '.')) {
     throw InputError(name, reader.line(), "more numbers follow than the counts announce",

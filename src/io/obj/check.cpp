@@ -1,28 +1,20 @@
 #include "io/obj/check.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <deltalux/error.hpp>
 
+#include "io/number.hpp"
 #include "io/obj/lines.hpp"
+#include "io/obj/words.hpp"
 
 namespace deltalux::io {
 
 namespace {
 
-constexpr std::string_view kBlank = " \t";
 constexpr double kLargest = 1e15;  // coordinate
 
-std::string_view takeWord(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(kBlank));
-  line.remove_prefix(word.size());
-  return word;
-}
-
-template <class T>
-bool parses(std::string_view word, T& value) {
+bool parses(std::string_view word, int& value) {
   if (word.starts_with('+')) word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error == std::errc() && end == word.data() + word.size();
@@ -35,9 +27,9 @@ void checkNumbers(std::string_view line, int required, const auto& fail) {
     if (word.empty() && count < required)
       fail("has " + std::to_string(count) + " numbers, not " + std::to_string(required));
     if (word.empty() || word.starts_with('#')) return;
-    double value = 0;
-    if (!parses(word, value)) fail("'" + std::string(word.substr(0, 40)) + "' is not a number");
-    if (!(std::abs(value) <= kLargest)) fail("'" + std::string(word.substr(0, 40)) + "' is too large");
+    const auto value = parseDecimal(word);
+    if (!value) fail(notANumber(word));
+    if (std::abs(*value) > kLargest) fail("'" + std::string(word.substr(0, 40)) + "' is too large");
   }
 }
 
@@ -57,12 +49,6 @@ void checkCorners(std::string_view line, const auto& fail) {
       word.remove_prefix(index.size() + 1);
     }
   }
-}
-
-std::string trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  return std::string(text.substr(begin, text.find_last_not_of(kBlank) + 1 - begin));
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/hole_winding.hpp"
+
 namespace deltalux::io {
 
 namespace {
@@ -20,6 +22,13 @@ Face withoutRepetitions(const Face& face, const ObjVertices& vertices) {
   }
   while (kept.size() > 1 && place(kept.front()) == place(kept.back())) kept.pop_back();
   return kept;
+}
+
+// Holes joined by seams turned as triangles need them.
+Face withHolesWound(const Face& face, const ObjVertices& vertices) {
+  std::vector<Vec3> outline;
+  for (const ObjCorner& corner : face) outline.push_back(vertices.positions[static_cast<std::size_t>(corner.position)]);
+  return scene::inOrder(face, scene::windingOrder(outline));
 }
 
 std::vector<Triangle> fan(std::size_t corners) {
@@ -88,7 +97,7 @@ Mesh meshOf(const ObjVertices& vertices, const std::vector<Face>& faces, bool te
   Mesh mesh;
   CornerTable table(vertices, textured, allShaded(faces, vertices), mesh);
   for (const Face& given : faces) {
-    const Face face = withoutRepetitions(given, vertices);
+    const Face face = withHolesWound(withoutRepetitions(given, vertices), vertices);
     bool any = false;
     for (const Triangle& triangle : triangulated(face, vertices)) {
       const auto at = [&](std::size_t i) {

@@ -11,14 +11,11 @@ bool LineStreambuf::loadLine() {
     const std::size_t end = std::min(text_.find('\n'), text_.size());
     std::string_view part = text_.substr(0, end);
     text_.remove_prefix(std::min(end + 1, text_.size()));
-    if (part.ends_with('\r')) part.remove_suffix(1);
     joined = part.ends_with('\\');
     if (joined) part.remove_suffix(1);
     current_ += part;
     ++line_;
   }
-  // A lone carriage return would end the line for some readers and not for others.
-  std::replace(current_.begin(), current_.end(), '\r', ' ');
   // tinyobjloader overlooks a group without a name, which ends the group before it.
   if (current_ == "g") current_ += ' ';
   current_ += '\n';

@@ -1,5 +1,5 @@
 #pragma once
-// Lines of a text with their numbers, as a stream that says which line it stands at.
+// Lines of a PlainText with their numbers, as a stream that says which line it stands at.
 #include <streambuf>
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@ namespace deltalux::io {
 /// line, line() is the number of the line (its last one, if joined) that was served last.
 class LineStreambuf : public std::streambuf {
  public:
-  explicit LineStreambuf(std::string_view text) : text_(text.starts_with(kByteOrderMark) ? text.substr(3) : text) {}
+  explicit LineStreambuf(std::string_view text) : text_(text) {}
 
   int line() const { return line_; }
   /// The next line without its end, skipping what is left of the present one; false at the end of the text.
@@ -20,7 +20,6 @@ class LineStreambuf : public std::streambuf {
   int_type underflow() override;
 
  private:
-  static constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   bool loadLine();
 
   std::string_view text_;

@@ -7,7 +7,7 @@
 
 #include "io/import_file.hpp"
 #include "io/import_texture.hpp"
-#include "io/obj/tinyobj.hpp"
+#include "io/obj/mtl.hpp"
 
 namespace deltalux::io {
 
@@ -82,8 +82,7 @@ Opaque opaqueOf(const tinyobj::material_t& m, ObjTextures& textures, Scene& scen
   return surface;
 }
 
-Material materialOf(const tinyobj::material_t& m, const std::string& file, ObjTextures& textures, Scene& scene,
-                    Ignored& ignored) {
+Material materialOf(const tinyobj::material_t& m, ObjTextures& textures, Scene& scene, Ignored& ignored) {
   Material material;
   material.name = m.name;
   if (isGlass(m)) {
@@ -92,66 +91,67 @@ Material materialOf(const tinyobj::material_t& m, const std::string& file, ObjTe
     material.surface = opaqueOf(m, textures, scene, ignored);
   }
   const glm::dvec3 emitted(m.emission[0], m.emission[1], m.emission[2]);
-  constexpr double kLargest = 1e15;
-  for (int c = 0; c < 3; ++c) {
-    if (emitted[c] >= 0 && emitted[c] <= kLargest) continue;
-    throw InputError(file, 0, "material '" + m.name + "' emits " + std::to_string(emitted[c]), "correct its Ke");
-  }
   if (emitted != glm::dvec3(0)) material.emission = Emission{Rgb(emitted), false, std::nullopt};
-  for (const std::string* map :
-       {&m.specular_texname, &m.specular_highlight_texname, &m.bump_texname, &m.normal_texname, &m.displacement_texname,
-        &m.alpha_texname, &m.reflection_texname, &m.emissive_texname}) {
-    if (!map->empty()) ++ignored["material maps other than map_Kd"];
-  }
   if (m.roughness != 0 || m.metallic != 0) ++ignored["Pr and Pm parameters"];
   return material;
 }
 
-std::vector<tinyobj::material_t> parseMaterials(const std::string& text) {
-  std::istringstream stream(text);
-  std::map<std::string, int> indices;
-  std::vector<tinyobj::material_t> materials;
-  std::string warning, error;
-  tinyobj::LoadMtl(&indices, &materials, &stream, &warning, &error);
-  return materials;
-}
-
-// A name may hold blanks, and one line may name several files: the whole line counts first.
+// A name may hold blanks, and one line may name several files: the whole line counts first. What is not there is
+// appended to `missing`.
 std::vector<std::string> filesOf(const std::string& line, const std::string& name, int lineNumber,
-                                 const fs::path& folder) {
+                                 const fs::path& folder, std::vector<std::string>& missing) {
   std::vector<std::string> candidates{line};
   std::istringstream words(line);
   for (std::string word; words >> word;) {
     if (word != line) candidates.push_back(word);
   }
-  std::vector<std::string> found;
+  std::vector<std::string> found, lost;
   for (const std::string& candidate : candidates) {
     const fs::path file = resolveReference(candidate, folder, name, lineNumber, false);
-    if (!fs::is_regular_file(file)) continue;
+    if (!fs::is_regular_file(file)) {
+      lost.push_back(candidate);
+      continue;
+    }
     found.push_back(file.string());
     if (candidate == line) break;
   }
+  // The line as a whole is a name only when none of its words is one.
+  if (found.empty()) missing.push_back(line);
+  if (!found.empty() && lost.size() > 1) missing.insert(missing.end(), lost.begin() + 1, lost.end());
   return found;
+}
+
+void warnOfMissing(const std::vector<std::string>& files, const fs::path& folder, ImportReport& report) {
+  if (files.empty()) return;
+  constexpr std::size_t kShown = 5;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(files.size(), kShown); ++i)
+    list += (i > 0 ? ", " : "") + ("'" + files[i].substr(0, 100) + "'");
+  if (files.size() > kShown) list += " and " + std::to_string(files.size() - kShown) + " more";
+  report.ignored["material files not found"] += files.size();
+  report.warnings.push_back("material files not found in " + (folder.empty() ? fs::path(".") : folder).string() + ": " +
+                            list + "; surfaces of their materials are grey");
 }
 
 }  // namespace
 
 std::map<std::string, MaterialId> addObjMaterials(const ObjSurvey& survey, const std::string& name,
-                                                  const fs::path& folder, Scene& scene, Ignored& ignored) {
+                                                  const fs::path& folder, Scene& scene, ImportReport& report) {
   std::map<std::string, MaterialId> ids;
+  std::vector<std::string> missing;
   ObjTextures textures(folder, name);
   for (std::size_t i = 0; i < survey.materialLines.size(); ++i) {
     const std::vector<std::string> files =
-        filesOf(survey.materialLines[i], name, survey.materialLineNumbers[i], folder);
-    if (files.empty()) ++ignored["material files not found"];
+        filesOf(survey.materialLines[i], name, survey.materialLineNumbers[i], folder, missing);
     for (const std::string& file : files) {
-      for (const tinyobj::material_t& material : parseMaterials(readInputFile(file))) {
+      for (const tinyobj::material_t& material : readMtl(readInputFile(file), file, report.ignored)) {
         if (material.name.empty() || !ids.try_emplace(material.name, MaterialId(scene.materials.size())).second)
           continue;
-        scene.materials.push_back(materialOf(material, file, textures, scene, ignored));
+        scene.materials.push_back(materialOf(material, textures, scene, report.ignored));
       }
     }
   }
+  warnOfMissing(missing, folder, report);
   return ids;
 }
 

@@ -7,8 +7,8 @@
 //   1),
 //            and of index Ni. Nothing says whether a body is closed, so it is never a refracting one.
 //   map_Kd   texture of the diffuse part, in place of Kd's share where Kd is 0
-// Ignored and counted: every other map, and the Pr/Pm parameters.
-#include <deltalux/scene.hpp>
+// Ignored and counted: every other map, the Pr/Pm parameters, options of map_Kd.
+#include <deltalux/io.hpp>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -19,9 +19,9 @@
 namespace deltalux::io {
 
 /// Appends the materials of every file that `survey` names, and the textures that they use. Files and textures that are
-/// not there are counted in `ignored`. Throws InputError when a file leads out of `folder` or holds impossible values.
+/// not there are counted and named in the report. Throws InputError when a file leads out of `folder`, or with the line
+/// of what io/obj/mtl.hpp refuses.
 std::map<std::string, MaterialId> addObjMaterials(const ObjSurvey& survey, const std::string& name,
-                                                  const std::filesystem::path& folder, Scene&,
-                                                  std::map<std::string, std::size_t>& ignored);
+                                                  const std::filesystem::path& folder, Scene&, ImportReport&);
 
 }  // namespace deltalux::io

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "io/plain_text.hpp"
 #include "io/radiance/command_line.hpp"
 #include "io/radiance/generators.hpp"
 #include "io/radiance/lexer.hpp"
@@ -80,7 +81,11 @@ Expander::Objects Expander::generate(const std::vector<std::string>& words, cons
   };
   for (const auto& [name, generator] : kGenerators) {
     if (words[0] != name) continue;
-    const auto openFile = [&](const std::string& file) { return open(file, where, folder); };
+    const auto openFile = [&](const std::string& file) {
+      SourceFile opened = open(file, where, folder);
+      opened.text = std::string(PlainText(opened.text, opened.name).view());
+      return opened;
+    };
     return generator({std::span(words).subspan(1), where, openFile, limits_.objects});
   }
   throw inputError(where, "the command '" + words[0].substr(0, 40) + "' is not evaluated here",
@@ -137,8 +142,9 @@ void Expander::appendPlaced(Objects& list, const Objects& source, const Placemen
 
 SourceFile Expander::open(const std::string& name, const SourceLine& where, const fs::path& folder) {
   if (auto file = files_.open(name, folder)) return std::move(*file);
-  throw inputError(where, "cannot find the file '" + name.substr(0, 200) + "'",
-                   "files are looked for beside the file that names them and beside the scene");
+  throw inputError(
+      where, "cannot find the file '" + name.substr(0, 200) + "'",
+      "files are looked for where the program runs, beside the file that names them, and beside the scene");
 }
 
 void Expander::checkSize(double objects, double numbers, const SourceLine& where) const {

@@ -9,7 +9,7 @@ namespace deltalux::io::radiance {
 namespace fs = std::filesystem;
 
 std::optional<SourceFile> DiskAccess::open(const std::string& name, const fs::path& folder) {
-  for (const fs::path& path : {folder / name, sceneFolder_ / name}) {
+  for (const fs::path& path : {fs::path(name), folder / name, sceneFolder_ / name}) {
     std::error_code error;
     if (!fs::is_regular_file(path, error)) continue;
     const fs::path canonical = fs::weakly_canonical(path, error);

@@ -8,7 +8,7 @@ namespace deltalux::io::radiance {
 
 struct SourceFile {
   std::string name;              // for messages
-  std::filesystem::path folder;  // where the files that it names are looked for first
+  std::filesystem::path folder;  // where the files that it names are looked for
   std::string identity;          // equal for the same file, however it was named
   std::string text;
 };
@@ -21,7 +21,8 @@ class FileAccess {
   virtual std::optional<SourceFile> open(const std::string& name, const std::filesystem::path& folder) = 0;
 };
 
-/// Files on disk: looked for in the including file's folder, then in the scene's.
+/// Files on disk: looked for where the program runs, as Radiance's commands do (they are written to be run from the
+/// folder of a project), then in the including file's folder, then in the scene's.
 class DiskAccess : public FileAccess {
  public:
   explicit DiskAccess(std::filesystem::path sceneFolder) : sceneFolder_(std::move(sceneFolder)) {}

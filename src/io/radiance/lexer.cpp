@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "io/number.hpp"
+
 namespace deltalux::io::radiance {
 
 namespace {
@@ -21,12 +23,8 @@ std::string_view withoutPlus(std::string_view word) {
 }  // namespace
 
 std::optional<double> parseNumber(std::string_view word) {
-  word = withoutPlus(word);
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  const bool tiny = error == std::errc::result_out_of_range && std::abs(value) < 1;
-  if (end != word.data() + word.size() || (error != std::errc() && !tiny)) return std::nullopt;
-  if (!std::isfinite(value) || std::abs(value) > kLargestNumber) return std::nullopt;
+  const auto value = parseDecimal(word);
+  if (!value || std::abs(*value) > kLargestNumber) return std::nullopt;
   return value;
 }
 
@@ -73,9 +71,7 @@ std::string Lexer::commandLine() {
     const std::string_view rest = text_.substr(position_);
     if (rest.starts_with("\\\n")) {
       advance();
-    } else if (rest.starts_with("\\\r\n")) {
-      advance(), advance();
-    } else if (text_[position_] != '\r') {
+    } else {
       command += text_[position_];
     }
   }

@@ -17,7 +17,7 @@ std::optional<long> parseInteger(std::string_view word);
 double requireNumber(std::string_view word, const SourceLine& where, std::string_view what);
 long requireInteger(std::string_view word, const SourceLine& where, std::string_view what);
 
-/// Words of a scene description: separated by white space, quoted with " or ' when they hold some.
+/// Words of a scene description (a PlainText): separated by white space, quoted with " or ' when they hold some.
 class Lexer {
  public:
   Lexer(std::string_view text, std::shared_ptr<const std::string> file) : text_(text), file_(std::move(file)) {}

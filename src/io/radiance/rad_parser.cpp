@@ -2,6 +2,7 @@
 
 #include <deltalux/scene.hpp>
 
+#include "io/plain_text.hpp"
 #include "io/radiance/lexer.hpp"
 #include "io/radiance/sky_pattern.hpp"
 
@@ -72,11 +73,12 @@ RadObject readObject(Lexer& lexer) {
 }  // namespace
 
 std::vector<RadItem> parseRadiance(std::string_view text, std::shared_ptr<const std::string> file) {
+  const PlainText plain(text, *file);
   if (text.find('\0') != std::string_view::npos) {
     throw InputError(*file, 0, "is binary, no scene description",
                      "give the .rad files that an octree or picture was made from");
   }
-  Lexer lexer(text, std::move(file));
+  Lexer lexer(plain.view(), std::move(file));
   std::vector<RadItem> items;
   while (lexer.skipToObject()) {
     if (lexer.atCommand()) {

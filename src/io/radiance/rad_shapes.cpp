@@ -3,6 +3,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "scene/flat_outline.hpp"
+#include "scene/hole_winding.hpp"
+
 namespace deltalux::io::radiance {
 
 namespace {
@@ -15,14 +18,6 @@ Vec3 pointOf(const RadObject& object, std::size_t at) {
 
 [[noreturn]] void fail(const RadObject& object, const std::string& message) {
   throw inputError(object.where, object.typeName + " '" + object.name + "': " + message);
-}
-
-Vec3 areaVector(const std::vector<Vec3>& vertices) {
-  Vec3 sum(0);
-  for (std::size_t i = 1; i + 1 < vertices.size(); ++i) {
-    sum += glm::cross(vertices[i] - vertices[0], vertices[i + 1] - vertices[0]);
-  }
-  return 0.5 * sum;
 }
 
 /// The triangles around vertex 0 when they all face one way, else those of the outline flattened along `normal`.
@@ -47,7 +42,8 @@ std::vector<Shape> polygon(const RadObject& object) {
   std::vector<Vec3> vertices;
   for (std::size_t i = 0; i + 2 < object.reals.size(); i += 3) vertices.push_back(pointOf(object, i));
   if (auto planar = makePolygon(vertices)) return {std::move(*planar)};
-  const Vec3 area = areaVector(vertices);
+  vertices = scene::inOrder(vertices, scene::windingOrder(vertices));
+  const Vec3 area = scene::newellVector(vertices);
   if (!(glm::length(area) > 0)) return {};
   std::vector<Shape> shapes;
   for (const auto& [a, b, c] : trianglesOfBent(vertices, glm::normalize(area))) {

@@ -50,6 +50,26 @@ TEST_F(RadFiles, IncludesAreFoundBesideTheirReferrerThenBesideTheScene) {
   EXPECT_EQ(scene.objects.back().name, "a1.table.top");
 }
 
+TEST_F(RadFiles, IncludesAreFoundFirstWhereTheProgramRuns) {
+  const fs::path before = fs::current_path();
+  fs::create_directories(folder_ / "project/scene");
+  fs::create_directories(folder_ / "project/objects");
+  write("project/objects/box.rad", "!genbox grey box 1 1 1\n!xform -t 5 0 0 objects/ball.rad\n");
+  write("project/objects/ball.rad", "grey sphere ball 0 0 4 0 0 0 1\n");
+  write("project/outline", "0 0\n1 0\n0 1\n");
+  write("project/scene/outline", "0 0\n1 0\n1 1\n0 1\n");
+  const std::string scene =
+      "void plastic grey 0 0 5 .5 .5 .5 0 0\n!xform objects/box.rad\n!genprism grey p outline -l 0 0 1\n";
+  const fs::path main = write("project/scene/main.rad", scene);
+  EXPECT_THROW(loadScene({main}), InputError);
+  fs::current_path(folder_ / "project");
+  const std::size_t primitives = loadScene({"scene/main.rad"}).scene.primitives.size();
+  const std::size_t absolute = loadScene({main}).scene.primitives.size();
+  fs::current_path(before);
+  EXPECT_EQ(primitives, 6u + 1 + 5);
+  EXPECT_EQ(absolute, primitives);
+}
+
 TEST_F(RadFiles, CyclesAreSeenThroughDifferentNames) {
   write("a.rad", "!xform parts/../b.rad\n");
   write("b.rad", "!xform ./a.rad\n");

@@ -1,0 +1,13 @@
+#pragma once
+// JSON documents, with the line of what keeps them from being read.
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace deltalux::io {
+
+/// The document that `text` of the file `name` holds. Throws InputError with `hint` and the line for text that is not
+/// JSON, numbers beyond the doubles, and nesting deeper than 100, on which recursion over the document would founder.
+nlohmann::json parseJson(std::string_view text, const std::string& name, const char* hint);
+
+}  // namespace deltalux::io
