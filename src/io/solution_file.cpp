@@ -88,7 +88,7 @@ SolutionView readSolution(std::string_view bytes, const std::string& file) {
   solution->elements.listInputs();
   solution->elements.contacts = ContactLines(solution->elements, solution->scene);
   solution->links.listArriving();
-  solution->transfers.listRows(solution->elements);
+  solution->transfers.listRows(solution->elements, solution->scene);
   solution->tracer = makeEmbreeTracer(solution->scene);
   return SolutionView(std::move(solution));
 }

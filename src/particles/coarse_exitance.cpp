@@ -64,15 +64,18 @@ class Direct {
   std::vector<Sample> samples_;
 };
 
-/// First surface that is not a pane.
-Hit look(const Scene& scene, const RayTracer& tracer, const SurfacePoint& p, const Vec3& w, std::uint64_t& rays) {
+/// First surface that is not a pane; what is covered in part stands in the way as often as that.
+Hit look(const Scene& scene, const RayTracer& tracer, const SurfacePoint& p, const Vec3& w, Rng& rng,
+         std::uint64_t& rays) {
   Ray ray;
   ray.direction = Vec3f(w);
   ray.origin = offsetOrigin(Vec3f(p.position), Vec3f(p.normal), ray.direction);
   for (int pane = 0; pane < kPanes; ++pane) {
     const Hit hit = tracer.closestHit(ray);
     ++rays;
-    if (!hit || !isThinGlass(scene.materialOf(hit.primitive))) return hit;
+    if (!hit) return hit;
+    const Material& material = scene.materialOf(hit.primitive);
+    if (!passesStraight(material) || (!isClear(material) && rng.uniform() < material.coverage)) return hit;
     ray.origin = offsetOrigin(hit.position, hit.normal, ray.direction);
   }
   return {};
@@ -157,7 +160,8 @@ CoarseExitance coarseExitance(const Scene& scene, const RayTracer& tracer, const
         const UnitPair place = places(k), way = directions(k);
         const SurfacePoint p = senders.point(cell, {place.x, place.y});
         found[i].direct += direct.irradiance(p, tracer, rng, rays[begin / kBlock]) / kPoints;
-        const Hit hit = look(scene, tracer, p, cosineDirection(Frame(p.normal), way.x, way.y), rays[begin / kBlock]);
+        const Hit hit =
+            look(scene, tracer, p, cosineDirection(Frame(p.normal), way.x, way.y), rng, rays[begin / kBlock]);
         found[i].seen[k] = RadixNode::kNone;
         if (!hit) continue;
         const Vec2 uv = parameterAt(scene[hit.primitive].shape, Vec3(hit.position), hit.triangle);

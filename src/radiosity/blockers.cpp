@@ -109,7 +109,7 @@ bool provablyBlocked(const Elements& elements, const Scene& scene, ElementId rec
                         reach(se.lower, se.upper, polygon.center, polygon.normal) < 0);
     if (!apart && !(flatEnd(elements, receiver) || flatEnd(elements, sender))) continue;
     const PatchDomain& d = elements.domain[c.index()];
-    if (isThinGlass(scene.materialOf(d.primitive))) continue;
+    if (passesStraight(scene.materialOf(d.primitive))) continue;
     if (rCount == 0) rCount = cornersOf(elements, receiver, r), sCount = cornersOf(elements, sender, s);
     if (separates(elements.frames[d.frame], elements.outline(c), std::span(r).first(rCount),
                   std::span(s).first(sCount)))

@@ -69,7 +69,7 @@ class LeafTransfers {
     return leaf.index() < rowOf_.size() && rowOf_[leaf.index()] != kNone ? &rows_[rowOf_[leaf.index()]] : nullptr;
   }
   /// Lists which row is whose, and what they reach, anew.
-  void listRows(const Elements&);
+  void listRows(const Elements&, const Scene&);
   std::size_t memoryBytes() const;
 
   /// Fills `direct` of the leaves from the present B of emitters.
@@ -97,7 +97,7 @@ class LeafTransfers {
   void updateIndirect(const Elements&, const Change&, std::span<const ElementId> leaves, LeafUpdateReport&,
                       std::vector<ElementId>& reaching);
   void dropNoLeaves(const Elements&, std::span<const ElementId> inputs);
-  void measure(const LeafRow&);
+  void measure(const LeafRow&, const Elements&, const Scene&);
   void setRow(ElementId leaf, std::size_t row);
   const TransferRow* inheritance(const Elements&, ElementId leaf, const SpaceChange&) const;
 

@@ -94,7 +94,7 @@ const TransferRow* LeafTransfers::inheritance(const Elements& elements, ElementI
   return nullptr;
 }
 
-void LeafTransfers::listRows(const Elements& elements) {
+void LeafTransfers::listRows(const Elements& elements, const Scene& scene) {
   std::fill(rowOf_.begin(), rowOf_.end(), kNone);
   known_ = 0;
   reaches_ = {};
@@ -104,7 +104,7 @@ void LeafTransfers::listRows(const Elements& elements) {
   }
   surplus_ = {};
   surplus_.resize(elements);
-  parallelFor(rows_.size(), kBlock, [&](std::size_t i) { measure(rows_[i]); });
+  parallelFor(rows_.size(), kBlock, [&](std::size_t i) { measure(rows_[i], elements, scene); });
   std::vector<ElementId> concerned;
   surplus_.follow(elements, leaves(), concerned);
 }
@@ -271,7 +271,7 @@ void LeafTransfers::updateIndirect(const Elements& elements, const Change& chang
       other[i] = sampler.update(leaf, change.marks.changes, changed, change.space, ofLeaf, row, rays[i]);
       elsewhere[i] = row.reach != before;
     }
-    measure(whole);
+    measure(whole, elements, change.scene);
   });
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     report.rays += rays[i];
