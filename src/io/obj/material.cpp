@@ -23,15 +23,25 @@ Rgb fractions(const double (&values)[3]) {
   return rgb;
 }
 
-bool isGlass(const tinyobj::material_t& m) {
-  return m.dissolve < 1 || m.illum == 4 || m.illum == 6 || m.illum == 7 || m.illum == 9;
+// Tf filters what passes. Black is also what it reads as where there is none.
+Rgb filterOf(const tinyobj::material_t& m) {
+  const Rgb filter = fractions(m.transmittance);
+  return isBlack(filter) ? Rgb(1.0f) : filter;
 }
 
+// How much of a surface is there: d and Tr, the same at every angle. Without them the illumination models of glass say
+// that light passes all of it.
+float coverageOf(const tinyobj::material_t& m) {
+  const bool glass = m.illum == 4 || m.illum == 6 || m.illum == 7 || m.illum == 9;
+  if (m.dissolve < 1) return static_cast<float>(std::max(m.dissolve, 0.0));
+  return glass ? 0.0f : 1.0f;
+}
+
+// Glass that refracts is a pane, whose reflection and transmission go by the angle.
+bool isPaneOfGlass(const tinyobj::material_t& m) { return coverageOf(m) == 0 && !(m.dissolve < 1) && m.ior > 1; }
+
 ThinGlass glassOf(const tinyobj::material_t& m) {
-  const Rgb filter = fractions(m.transmittance);
-  const double passes = m.dissolve < 1 ? std::clamp(1 - m.dissolve, 0.0, 1.0) : 1.0;
-  const double ior = std::isfinite(m.ior) ? std::clamp(m.ior, 1.0, 100.0) : 1.0;
-  return {isBlack(filter) ? Rgb(static_cast<float>(passes)) : filter, static_cast<float>(ior)};
+  return {filterOf(m), static_cast<float>(std::clamp(m.ior, 1.0, 100.0))};
 }
 
 // Textures by file, each read once.
@@ -86,10 +96,12 @@ Material materialOf(const tinyobj::material_t& m, const std::string& file, ObjTe
                     Ignored& ignored) {
   Material material;
   material.name = m.name;
-  if (isGlass(m)) {
+  if (isPaneOfGlass(m)) {
     material.surface = glassOf(m);
   } else {
     material.surface = opaqueOf(m, textures, scene, ignored);
+    material.coverage = coverageOf(m);
+    material.filter = filterOf(m);
   }
   const glm::dvec3 emitted(m.emission[0], m.emission[1], m.emission[2]);
   constexpr double kLargest = 1e15;
@@ -97,7 +109,8 @@ Material materialOf(const tinyobj::material_t& m, const std::string& file, ObjTe
     if (emitted[c] >= 0 && emitted[c] <= kLargest) continue;
     throw InputError(file, 0, "material '" + m.name + "' emits " + std::to_string(emitted[c]), "correct its Ke");
   }
-  if (emitted != glm::dvec3(0)) material.emission = Emission{Rgb(emitted), false, std::nullopt};
+  const Rgb radiance = material.coverage * Rgb(emitted);
+  if (!isBlack(radiance)) material.emission = Emission{radiance, false, std::nullopt};
   for (const std::string* map :
        {&m.specular_texname, &m.specular_highlight_texname, &m.bump_texname, &m.normal_texname, &m.displacement_texname,
         &m.alpha_texname, &m.reflection_texname, &m.emissive_texname}) {
@@ -107,8 +120,22 @@ Material materialOf(const tinyobj::material_t& m, const std::string& file, ObjTe
   return material;
 }
 
-std::vector<tinyobj::material_t> parseMaterials(const std::string& text) {
-  std::istringstream stream(text);
+// `d -halo f` is f for us at every angle; tinyobjloader would take the option for the number.
+std::string withoutHalo(std::string text, Ignored& ignored) {
+  const std::string option = "-halo", blanks = " \t";
+  for (std::size_t at = text.find(option, 2); at != std::string::npos; at = text.find(option, at + 1)) {
+    const std::size_t d = text.find_last_not_of(blanks, at - 1);
+    if (d == std::string::npos || d == at - 1 || text[d] != 'd') continue;
+    const std::size_t before = d > 0 ? text.find_last_not_of(blanks, d - 1) : std::string::npos;
+    if (before != std::string::npos && text[before] != '\n' && text[before] != '\r') continue;
+    text.replace(at, option.size(), option.size(), ' ');
+    ++ignored["-halo of d (the same at every angle)"];
+  }
+  return text;
+}
+
+std::vector<tinyobj::material_t> parseMaterials(const std::string& text, Ignored& ignored) {
+  std::istringstream stream(withoutHalo(text, ignored));
   std::map<std::string, int> indices;
   std::vector<tinyobj::material_t> materials;
   std::string warning, error;
@@ -145,7 +172,7 @@ std::map<std::string, MaterialId> addObjMaterials(const ObjSurvey& survey, const
         filesOf(survey.materialLines[i], name, survey.materialLineNumbers[i], folder);
     if (files.empty()) ++ignored["material files not found"];
     for (const std::string& file : files) {
-      for (const tinyobj::material_t& material : parseMaterials(readInputFile(file))) {
+      for (const tinyobj::material_t& material : parseMaterials(readInputFile(file), ignored)) {
         if (material.name.empty() || !ids.try_emplace(material.name, MaterialId(scene.materials.size())).second)
           continue;
         scene.materials.push_back(materialOf(material, file, textures, scene, ignored));
