@@ -60,6 +60,12 @@ std::string emissionText(const std::optional<Emission>& emission) {
       emission->spot ? fmt::format(" within {:.4g} degrees", emission->spot->fullAngle * 180 / kPi) : "");
 }
 
+std::string coverageText(const Material& m) {
+  if (m.coverage == 1) return "";
+  return fmt::format(", covering {:.4g}, the rest straight through{}", m.coverage,
+                     m.filter == Rgb(1.0f) ? "" : " by " + text(m.filter));
+}
+
 std::string lightText(const Scene& scene, const Light& light) {
   const std::string kind = std::visit(
       Overloaded{
@@ -139,7 +145,8 @@ std::vector<std::string> objectLines(const Scene& scene) {
 std::vector<std::string> materialLines(const Scene& scene) {
   std::vector<std::string> lines;
   for (const Material& m : scene.materials)
-    lines.push_back(fmt::format("{}: {}{}", m.name, surfaceText(m.surface), emissionText(m.emission)));
+    lines.push_back(
+        fmt::format("{}: {}{}{}", m.name, surfaceText(m.surface), coverageText(m), emissionText(m.emission)));
   return lines;
 }
 

@@ -83,10 +83,14 @@ struct Emission {
   bool operator==(const Emission&) const = default;
 };
 
+/// What covers a share of a surface, evenly and finer than anything that is told apart; light goes straight on through
+/// the rest, as much at every angle. `surface` is that of the covered part, `emission` that of the whole.
 struct Material {
   std::string name;
   Surface surface = Opaque{};
   std::optional<Emission> emission;
+  float coverage = 1;  // covered share, 0 to 1; alpha of glTF, dissolve of MTL. Below 1 no surface may be a Dielectric
+  Rgb filter{1.0f};    // of what passes beside it
 };
 
 /// What a material does, told apart as the solver needs it: fractions of incident flux at the front (back) side.
@@ -94,8 +98,15 @@ Rgb diffuseReflectance(const Material&, bool front);
 Rgb diffuseTransmittance(const Material&);
 /// True when light can leave other than diffusely (mirror, lobe, refraction): such receivers get particles. [GD01 2.1]
 bool isSpecular(const Material&);
-/// True for panes through which shadow rays pass straight, attenuated.
-bool isThinGlass(const Material&);
+/// True where shadow rays pass, attenuated: panes of thin glass, and surfaces that are not covered all over.
+bool passesStraight(const Material&);
+/// Fraction that a surface passes straight on at `cosIncidence` in (0,1], so that shadow rays find it; what a trans
+/// material's lobe passes on is not in it.
+Rgb straightTransmittance(const Material&, double cosIncidence);
+/// True where no diffuse side takes light: panes, refracting bodies, and where nothing is covered.
+bool isClear(const Material&);
+/// Those that pass light straight on: whoever looks at them sees what is behind.
+bool isPane(const Material&);
 
 /// Fractions that a pane passes straight on and reflects at `cosIncidence` in (0,1]; unpolarised Fresnel with all
 /// internal reflections. [Radiance, glass: m_glass]

@@ -26,6 +26,9 @@ struct Surfaces {
   Surfaces& operator+=(const Surfaces& o) { return direct += o.direct, absorbed += o.absorbed, *this; }
 };
 
+/// What passes a surface with diffuse sides straight, at any angle.
+Rgb beside(const Material& m) { return passesStraight(m) ? straightTransmittance(m, 1.0) : Rgb(0.0f); }
+
 Surfaces surfacesOf(const Solution& s) {
   const hierarchy::Elements& elements = s.elements;
   const particles::ParticleSurfaces particles(s.scene);
@@ -36,8 +39,10 @@ Surfaces surfacesOf(const Solution& s) {
       return Surfaces{};
     const hierarchy::ElementLight& l = elements.radiometry[e];
     const double A = elements.geometry[e].litArea();
-    return Surfaces{A * RgbSum(l.direct),
-                    A * RgbSum((Rgb(1.0f) - l.rho - l.tau) * (l.direct + l.indirect + l.particle))};
+    // What goes straight on through a cover counts where it ends; that of particles is theirs.
+    const Rgb met = Rgb(1.0f) - beside(s.scene.materialOf(elements.domain[e].primitive));
+    return Surfaces{A * RgbSum(met * l.direct), A * RgbSum((met - l.rho - l.tau) * (l.direct + l.indirect) +
+                                                           (Rgb(1.0f) - l.rho - l.tau) * l.particle)};
   });
 }
 
@@ -88,17 +93,22 @@ Outcome diffuseLight(const Solution& s) {
         break;
       }
       const Material& material = s.scene.materialOf(hit.primitive);
-      const auto* glass = std::get_if<ThinGlass>(&material.surface);
-      if (!glass) {
+      if (!passesStraight(material)) {
         if (scene::stopsLight(material) && !elements.side(hit.primitive, hit.triangle, hit.front).valid())
-          outcome.gaps = flux;
+          outcome.gaps += flux;
         break;
       }
       const double cosine = std::abs(glm::dot(Vec3(hit.normal), Vec3(ray.direction)));
-      const RgbSum passes(transmittance(*glass, cosine));
-      // What they reflect is particles' light, or nobody's.
-      const RgbSum reflects(s.settings.diffuseOnly ? Rgb(0.0f) : reflectance(*glass, cosine));
-      outcome.panes += flux * (1.0 - passes - reflects);
+      const RgbSum passes(straightTransmittance(material, cosine));
+      if (isPane(material)) {
+        // What they reflect is particles' light, or nobody's.
+        const RgbSum reflects(s.settings.diffuseOnly
+                                  ? Rgb(0.0f)
+                                  : scene::mirrorReflectance(scene::makeBsdf(material, hit.front), cosine));
+        outcome.panes += flux * (1.0 - passes - reflects);
+      } else if (!elements.side(hit.primitive, hit.triangle, hit.front).valid()) {
+        outcome.gaps += flux * (1.0 - passes);
+      }
       flux *= passes;
       ray.origin = tracing::offsetOrigin(hit.position, hit.normal, ray.direction);
     }

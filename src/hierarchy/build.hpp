@@ -29,12 +29,12 @@ template <class Visit>
 void forEachSide(const Scene& scene, PrimitiveId primitive, const Visit& visit) {
   const Shape& shape = scene[primitive].shape;
   if (!(area(shape) > 0)) return;
-  const bool glass = passesStraight(scene.materialOf(primitive));
+  const bool clear = isClear(scene.materialOf(primitive));
   const auto* mesh = std::get_if<Mesh>(&shape);
   const auto triangles = static_cast<std::uint32_t>(mesh ? mesh->triangles.size() : 1);
   for (std::uint32_t t = 0; t < triangles; ++t) {
     visit(Side{primitive, t, true});
-    if (!glass) visit(Side{primitive, t, false});
+    if (!clear) visit(Side{primitive, t, false});
   }
 }
 

@@ -51,10 +51,6 @@ void shapeAbove(Elements& elements, std::span<const ElementId> changed) {
 
 }  // namespace
 
-bool passesStraight(const Material& material) {
-  return isThinGlass(material) || std::holds_alternative<Dielectric>(material.surface);
-}
-
 std::optional<PlaneFrame> planeOf(const Shape& shape, std::uint32_t triangle) {
   if (const auto* polygon = std::get_if<Polygon>(&shape))
     return PlaneFrame{polygon->origin, polygon->edgeU, polygon->edgeV, polygon->normal};
@@ -88,7 +84,7 @@ void addPlane(Elements& elements, const Scene& scene, ElementId e) {
 void setReflectance(Elements& elements, const Scene& scene, ElementId input) {
   const Material& material = scene.materialOf(elements.domain[input.index()].primitive);
   const bool asleep = std::binary_search(elements.asleep.begin(), elements.asleep.end(), input);
-  const bool blocker = asleep || passesStraight(material) || isGone(scene, elements.domain[input.index()].primitive);
+  const bool blocker = asleep || isClear(material) || isGone(scene, elements.domain[input.index()].primitive);
   forSubtree(elements, input, [&](ElementId e) {
     elements.topology[e.index()].blocker = blocker;
     if (asleep) return darken(elements, e);

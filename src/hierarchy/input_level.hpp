@@ -5,9 +5,6 @@
 
 namespace deltalux::hierarchy {
 
-/// Glass has no diffuse side: it blocks or attenuates, and hands on specular light.
-bool passesStraight(const Material&);
-
 /// The plane of a polygon or of a mesh's triangle; nothing for other shapes and for what is no more.
 std::optional<PlaneFrame> planeOf(const Shape&, std::uint32_t triangle);
 /// Gives a patch of a polygon or of a mesh's triangle, its domain set, its plane and outline.

@@ -100,7 +100,7 @@ SolutionView readSolution(std::string_view bytes, const std::string& file) {
   solution->elements.listInputs();
   solution->elements.contacts = hierarchy::ContactLines(solution->elements, solution->scene);
   solution->links.listArriving();
-  solution->transfers.listRows(solution->elements);
+  solution->transfers.listRows(solution->elements, solution->scene);
   solution->tracer = tracing::makeEmbreeTracer(solution->scene);
   return SolutionView(std::move(solution));
 }

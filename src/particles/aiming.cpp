@@ -160,7 +160,7 @@ double Aiming::densityAround(const SendingPoint& y, const BoundingSphere& ball, 
 bool Aiming::hidesItself(std::uint32_t cell, const Vec3& position, const Vec3& towardsLight, const Vec3* from) const {
   const Primitive& p = scene_[receivers_.primitive(cell)];
   const auto* ball = std::get_if<Sphere>(&p.shape);
-  if (!ball || isThinGlass(scene_[p.material])) return false;
+  if (!ball || passesStraight(scene_[p.material])) return false;
   if (from && glm::distance(*from, ball->center) <= ball->radius) return false;
   return glm::dot(position - ball->center, towardsLight) < 0;
 }

@@ -9,8 +9,7 @@ namespace {
 constexpr int kStratified = 3;  // events whose numbers are; later ones gain nothing
 
 bool takesParticles(const Material& m, bool front) {
-  if (std::holds_alternative<ThinGlass>(m.surface) || std::holds_alternative<Dielectric>(m.surface)) return false;
-  return !(front && std::holds_alternative<Mirror>(m.surface));
+  return !isClear(m) && !(front && std::holds_alternative<Mirror>(m.surface));
 }
 
 }  // namespace
@@ -38,14 +37,15 @@ ParticleSurfaces::ParticleSurfaces(const Scene& scene) : scene_(scene) {
     for (const bool front : {false, true}) {
       Side s;
       s.bsdf = scene::specularPart(scene::makeBsdf(m, front));
+      s.first = scene::withoutPassage(s.bsdf);
       s.takes = takesParticles(m, front);
       s.rough = s.bsdf.hasFinitePart();
-      s.passesOn = s.rough || s.bsdf.pane || s.bsdf.refractingIor || !isBlack(s.bsdf.reflection.reflectance) ||
+      s.passesOn = s.rough || passesStraight(m) || s.bsdf.refractingIor || !isBlack(s.bsdf.reflection.reflectance) ||
                    !isBlack(s.bsdf.transmission.reflectance);
       sides_.push_back(s);
     }
     bodies_.push_back(std::get_if<Dielectric>(&m.surface));
-    panes_.push_back(isThinGlass(m));
+    panes_.push_back(isPane(m));
   }
 }
 
@@ -58,11 +58,11 @@ std::optional<SpecularEvent> ParticleSurfaces::scatter(const SurfaceSpot& at, co
   if (!(wo.z > 0)) return std::nullopt;
   SpecularEvent event;
   if (first && s.bsdf.pane) {
-    event.weight = scene::mirrorReflectance(s.bsdf, wo.z);
+    event.weight = scene::mirrorReflectance(s.first, wo.z);
     event.direction = Vec3f(glm::normalize(frame.toWorld({-wo.x, -wo.y, wo.z})));
     return event;
   }
-  const auto sampled = scene::sample(s.bsdf, wo, u.scatter);
+  const auto sampled = scene::sample(first ? s.first : s.bsdf, wo, u.scatter);
   if (!sampled) return std::nullopt;
   event.weight = sampled->weight;
   event.direction = Vec3f(glm::normalize(frame.toWorld(sampled->direction)));

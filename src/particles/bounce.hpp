@@ -49,12 +49,14 @@ class ParticleSurfaces {
   /// Whether particles land on a side: it takes light in other than passing it on or mirroring it.
   bool takes(PrimitiveId p, bool front) const { return side(p, front).takes; }
   bool passesOn(PrimitiveId p, bool front) const { return side(p, front).passesOn; }
-  bool isPane(PrimitiveId p) const { return panes_[scene_[p].material.index()]; }
+  /// What goes straight on beside what is covered.
+  const Rgb& passage(PrimitiveId p, bool front) const { return side(p, front).bsdf.passage; }
+  bool isPaneAt(PrimitiveId p) const { return panes_[scene_[p].material.index()]; }
   /// Medium behind the front of a dielectric; null for all else.
   const Dielectric* body(PrimitiveId p) const { return bodies_[scene_[p].material.index()]; }
 
-  /// The next non-diffuse event. At the first surface of a path thin glass only reflects: what it passes straight on
-  /// belongs to the segment that arrives behind it, and to diffuse links.
+  /// The next non-diffuse event. What the first surface of a path passes straight on belongs to the segment that
+  /// arrives behind it, and to diffuse links: it does not go on from there.
   std::optional<SpecularEvent> scatter(const SurfaceSpot&, const Vec3f& direction, bool first,
                                        const EventNumbers&) const;
   /// Parameters of a hit, as Impact has them.
@@ -62,7 +64,7 @@ class ParticleSurfaces {
 
  private:
   struct Side {
-    scene::Bsdf bsdf;
+    scene::Bsdf bsdf, first;  // at any surface of a path, and at its first
     bool takes = false, passesOn = false, rough = false;
   };
   const Side& side(PrimitiveId p, bool front) const { return sides_[2 * scene_[p].material.index() + (front ? 1 : 0)]; }

@@ -64,8 +64,8 @@ class Direct {
   std::vector<Sample> samples_;
 };
 
-/// First surface that is not a pane.
-tracing::Hit look(const Scene& scene, const tracing::RayTracer& tracer, const SurfacePoint& p, const Vec3& w,
+/// First surface that is not a pane; what is covered in part stands in the way as often as that.
+tracing::Hit look(const Scene& scene, const tracing::RayTracer& tracer, const SurfacePoint& p, const Vec3& w, Rng& rng,
                   std::uint64_t& rays) {
   tracing::Ray ray;
   ray.direction = Vec3f(w);
@@ -73,7 +73,9 @@ tracing::Hit look(const Scene& scene, const tracing::RayTracer& tracer, const Su
   for (int pane = 0; pane < kPanes; ++pane) {
     const tracing::Hit hit = tracer.closestHit(ray);
     ++rays;
-    if (!hit || !isThinGlass(scene.materialOf(hit.primitive))) return hit;
+    if (!hit) return hit;
+    const Material& material = scene.materialOf(hit.primitive);
+    if (!passesStraight(material) || (!isClear(material) && rng.uniform() < material.coverage)) return hit;
     ray.origin = tracing::offsetOrigin(hit.position, hit.normal, ray.direction);
   }
   return {};
@@ -159,7 +161,7 @@ CoarseExitance coarseExitance(const Scene& scene, const tracing::RayTracer& trac
         const SurfacePoint p = senders.point(cell, {place.x, place.y});
         found[i].direct += direct.irradiance(p, tracer, rng, rays[begin / kBlock]) / kPoints;
         const tracing::Hit hit =
-            look(scene, tracer, p, cosineDirection(Frame(p.normal), way.x, way.y), rays[begin / kBlock]);
+            look(scene, tracer, p, cosineDirection(Frame(p.normal), way.x, way.y), rng, rays[begin / kBlock]);
         found[i].seen[k] = RadixNode::kNone;
         if (!hit) continue;
         const Vec2 uv = parameterAt(scene[hit.primitive].shape, Vec3(hit.position), hit.triangle);

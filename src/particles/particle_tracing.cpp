@@ -23,6 +23,7 @@ bool emitAlike(const Material& a, const Material& b) {
     return isBlack(diffuseReflectance(a, front)) == isBlack(diffuseReflectance(b, front));
   };
   if (a.emission != b.emission || a.surface.index() != b.surface.index()) return false;
+  if (a.coverage != b.coverage || a.filter != b.filter) return false;
   if (isBlack(diffuseTransmittance(a)) != isBlack(diffuseTransmittance(b)) || !sendAlike(true) || !sendAlike(false))
     return false;
   if (const auto* x = std::get_if<Opaque>(&a.surface)) return x->specular == std::get<Opaque>(b.surface).specular;
@@ -51,7 +52,7 @@ class Motions {
       moved_[m.primitive.index()] = 1;
       if (m.before.empty()) continue;
       before.extend(m.before);
-      if (isThinGlass(scene.materialOf(m.primitive))) panes_.emplace_back(m.before, margin);
+      if (passesStraight(scene.materialOf(m.primitive))) panes_.emplace_back(m.before, margin);
     }
     if (!before.empty()) before_.emplace(before, margin);
   }

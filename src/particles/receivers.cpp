@@ -74,7 +74,7 @@ float specularAlbedo(const Material& material) {
     double operator()(const Dielectric&) const { return 1.0; }
     double operator()(const Trans& s) const { return lobe(s.reflection) + lobe(s.transmission); }
   };
-  return static_cast<float>(std::visit(Visitor{}, material.surface));
+  return material.coverage * static_cast<float>(std::visit(Visitor{}, material.surface));
 }
 
 Receivers::Receivers(const Scene& scene) : scene_(scene), surfaceOf_(scene.primitives.size(), RadixNode::kNone) {

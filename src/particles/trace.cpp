@@ -187,10 +187,13 @@ class Tracing {
   void book(const Walker& w, const Rgb& before, PathBlock::Account& account) const {
     if (surfaces_.takes(w.spot.primitive, w.spot.front)) {
       account.passed += w.throughput;
-    } else if (w.depth == 0 && surfaces_.isPane(w.spot.primitive)) {
+    } else if (w.depth == 0 && surfaces_.isPaneAt(w.spot.primitive)) {
       account.entered = w.throughput;  // of a pane's light this path is what it reflects
     } else {
-      account.absorbed += before - w.throughput;
+      // What passes the first surface straight is no path's.
+      const Rgb met = w.depth == 0 ? (Rgb(1.0f) - surfaces_.passage(w.spot.primitive, w.spot.front)) * before : before;
+      if (w.depth == 0) account.entered = met;
+      account.absorbed += met - w.throughput;
     }
   }
 

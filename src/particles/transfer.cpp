@@ -39,7 +39,8 @@ bool startsInTheDark(const Particles& p, std::size_t path, const hierarchy::Side
   if (!met.valid()) return false;
   const Shape& shape = scene[met].shape;
   if (std::holds_alternative<Mesh>(shape)) return false;  // its triangle is not known
-  if (!std::holds_alternative<Opaque>(scene.materialOf(met).surface)) return false;
+  if (const Material& m = scene.materialOf(met); !std::holds_alternative<Opaque>(m.surface) || passesStraight(m))
+    return false;
   const bool front = locator.side(met, 0, true).valid(), back = locator.side(met, 0, false).valid();
   if (front == back) return !front;
   const std::span<const Vec3f> v = p.verticesOf(path);

@@ -113,7 +113,7 @@ bool provablyBlocked(const hierarchy::Elements& elements, const Scene& scene, hi
                         reach(se.lower, se.upper, polygon.center, polygon.normal) < 0);
     if (!apart && !(flatEnd(elements, receiver) || flatEnd(elements, sender))) continue;
     const hierarchy::PatchDomain& d = elements.domain[c.index()];
-    if (isThinGlass(scene.materialOf(d.primitive))) continue;
+    if (passesStraight(scene.materialOf(d.primitive))) continue;
     if (rCount == 0) rCount = cornersOf(elements, receiver, r), sCount = cornersOf(elements, sender, s);
     if (separates(elements.frames[d.frame], elements.outline(c), std::span(r).first(rCount),
                   std::span(s).first(sCount)))

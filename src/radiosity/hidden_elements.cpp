@@ -70,7 +70,8 @@ class Umbras {
   void collectPatch(hierarchy::ElementId e) {
     const hierarchy::ElementTopology& t = elements_.at(e);
     const hierarchy::PatchDomain& d = elements_.domain[e.index()];
-    if (!t.flat || t.blocker || !(elements_.shape(e).area > 0) || isThinGlass(scene_.materialOf(d.primitive))) return;
+    if (!t.flat || t.blocker || !(elements_.shape(e).area > 0) || passesStraight(scene_.materialOf(d.primitive)))
+      return;
     if (d.primitive == last_ && d.triangle == lastTriangle_) return;  // its other side
     last_ = d.primitive, lastTriangle_ = d.triangle;
     const hierarchy::PlaneFrame& f = elements_.frames[d.frame];

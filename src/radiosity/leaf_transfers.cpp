@@ -75,7 +75,7 @@ LeafTransferReport LeafTransfers::build(hierarchy::Elements& elements, const hie
     rows_[i].indirect = sampler.atLeaf(leaf, gatherRays.of(leaf, elements), rays[i / kBlock]);
   });
   for (const std::uint64_t n : rays) report.rays += n;
-  listRows(elements);
+  listRows(elements, scene);
   known_ = elements.size();
   return report;
 }
@@ -121,10 +121,13 @@ void LeafTransfers::gatherIndirect(hierarchy::Elements& elements) const {
   });
 }
 
-/// The sum of a row's form factors.
-void LeafTransfers::measure(const LeafRow& row) {
+/// The sum of a row's form factors. Of what is seen through a sender it is the sender's no more.
+void LeafTransfers::measure(const LeafRow& row, const hierarchy::Elements& elements, const Scene& scene) {
   Rgb factors(0.0f);
-  for (const LeafTransfer& t : row.indirect.transfers) factors += t.T;
+  for (const LeafTransfer& t : row.indirect.transfers) {
+    const Material& material = scene.materialOf(elements.domain[t.leaf.index()].primitive);
+    factors += passesStraight(material) ? t.T * (Rgb(1.0f) - straightTransmittance(material, 1.0)) : t.T;
+  }
   surplus_.set(row.leaf, maxChannel(factors));
 }
 

@@ -73,7 +73,7 @@ class LeafTransfers {
     return leaf.index() < rowOf_.size() && rowOf_[leaf.index()] != kNone ? &rows_[rowOf_[leaf.index()]] : nullptr;
   }
   /// Lists which row is whose, and what they reach, anew.
-  void listRows(const hierarchy::Elements&);
+  void listRows(const hierarchy::Elements&, const Scene&);
   std::size_t memoryBytes() const;
 
   /// Fills `direct` of the leaves from the present B of emitters.
@@ -103,7 +103,7 @@ class LeafTransfers {
   void updateIndirect(const hierarchy::Elements&, const Change&, std::span<const hierarchy::ElementId> leaves,
                       LeafUpdateReport&, std::vector<hierarchy::ElementId>& reaching);
   void dropNoLeaves(const hierarchy::Elements&, std::span<const hierarchy::ElementId> inputs);
-  void measure(const LeafRow&);
+  void measure(const LeafRow&, const hierarchy::Elements&, const Scene&);
   void setRow(hierarchy::ElementId leaf, std::size_t row);
   const TransferRow* inheritance(const hierarchy::Elements&, hierarchy::ElementId leaf, const SpaceChange&) const;
 

@@ -96,7 +96,7 @@ const TransferRow* LeafTransfers::inheritance(const hierarchy::Elements& element
   return nullptr;
 }
 
-void LeafTransfers::listRows(const hierarchy::Elements& elements) {
+void LeafTransfers::listRows(const hierarchy::Elements& elements, const Scene& scene) {
   std::fill(rowOf_.begin(), rowOf_.end(), kNone);
   known_ = 0;
   reaches_ = {};
@@ -106,7 +106,7 @@ void LeafTransfers::listRows(const hierarchy::Elements& elements) {
   }
   surplus_ = {};
   surplus_.resize(elements);
-  parallelFor(rows_.size(), kBlock, [&](std::size_t i) { measure(rows_[i]); });
+  parallelFor(rows_.size(), kBlock, [&](std::size_t i) { measure(rows_[i], elements, scene); });
   std::vector<hierarchy::ElementId> concerned;
   surplus_.follow(elements, leaves(), concerned);
 }
@@ -273,7 +273,7 @@ void LeafTransfers::updateIndirect(const hierarchy::Elements& elements, const Ch
       other[i] = sampler.update(leaf, change.marks.changes, changed, change.space, ofLeaf, row, rays[i]);
       elsewhere[i] = row.reach != before;
     }
-    measure(whole);
+    measure(whole, elements, change.scene);
   });
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     report.rays += rays[i];

@@ -42,7 +42,7 @@ std::vector<tracing::Hit> SideEstimator::firstMet(const hierarchy::Side& side, s
     const Origin o = pointOnSide(side, {u, v});
     float t = 0;
     Rgb through(1.0f);
-    found.push_back(look(o, cosineDirection(o.normal, rng), through, t));
+    found.push_back(look(o, cosineDirection(o.normal, rng), rng, through, t));
   }
   return found;
 }
@@ -68,8 +68,8 @@ SideEstimator::Origin SideEstimator::pointOnSide(const hierarchy::Side& side, Ve
 Rgb SideEstimator::wholeReflectance(const hierarchy::Side& side) const {
   const Material& m = scene_.materialOf(side.primitive);
   Rgb r = diffuseReflectance(m, side.front);
-  if (const auto* opaque = std::get_if<Opaque>(&m.surface)) r += opaque->specular.reflectance;
-  if (const auto* mirror = std::get_if<Mirror>(&m.surface); mirror && side.front) r += mirror->reflectance;
+  if (const auto* opaque = std::get_if<Opaque>(&m.surface)) r += m.coverage * opaque->specular.reflectance;
+  if (const auto* mirror = std::get_if<Mirror>(&m.surface); mirror && side.front) r += m.coverage * mirror->reflectance;
   return r;
 }
 
@@ -119,7 +119,7 @@ SideEstimate SideEstimator::estimate(const hierarchy::Side& side) const {
       const Vec3f w = cosineDirection(o.normal, rng);
       float t = 0;
       Rgb through(1.0f);
-      const tracing::Hit hit = look(o, w, through, t);
+      const tracing::Hit hit = look(o, w, rng, through, t);
       e.rays += 1 + std::min(scene_.lights.size(), kPicked);
       if (!hit) {
         for (const Light& light : scene_.lights)
@@ -145,8 +145,8 @@ SideEstimate SideEstimator::estimate(const hierarchy::Side& side) const {
   return e;
 }
 
-/// First surface that is not a pane.
-tracing::Hit SideEstimator::look(const Origin& o, const Vec3f& w, Rgb& through, float& t) const {
+/// First surface that is not a pane; what is covered in part stands in the way as often as that.
+tracing::Hit SideEstimator::look(const Origin& o, const Vec3f& w, Rng& rng, Rgb& through, float& t) const {
   tracing::Ray ray;
   ray.origin = tracing::offsetOrigin(Vec3f(o.position), Vec3f(o.normal), w);
   ray.direction = w;
@@ -154,9 +154,14 @@ tracing::Hit SideEstimator::look(const Origin& o, const Vec3f& w, Rgb& through, 
     const tracing::Hit hit = tracer_.closestHit(ray);
     if (!hit) return hit;
     t += hit.t;
-    const auto* glass = std::get_if<ThinGlass>(&scene_.materialOf(hit.primitive).surface);
-    if (!glass) return hit;
-    through *= transmittance(*glass, std::abs(glm::dot(hit.normal, w)));
+    const Material& material = scene_.materialOf(hit.primitive);
+    if (!passesStraight(material)) return hit;
+    if (!isClear(material)) {
+      if (rng.uniform() < material.coverage) return hit;
+      through *= material.filter;
+    } else {
+      through *= straightTransmittance(material, std::abs(glm::dot(hit.normal, w)));
+    }
     ray.origin = tracing::offsetOrigin(hit.position, hit.normal, w);
   }
   return {};

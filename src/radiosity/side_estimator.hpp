@@ -45,7 +45,7 @@ class SideEstimator {
   bool hidden(const hierarchy::Side&, std::size_t points) const;
   Origin pointOnSide(const hierarchy::Side&, Vec2 u) const;
   Rgb wholeReflectance(const hierarchy::Side&) const;
-  tracing::Hit look(const Origin&, const Vec3f& w, Rgb& through, float& t) const;
+  tracing::Hit look(const Origin&, const Vec3f& w, Rng&, Rgb& through, float& t) const;
   Rgb directAt(const Origin&, Rng&) const;
   Rgb fromLight(const Origin&, const Light&, Rng&) const;
   Rgb fromArea(const Vec3f& x, const Vec3f& n, PrimitiveId, const Rgb& scale, Rng&) const;
@@ -59,7 +59,7 @@ class SideEstimator {
 
 /// The side that a ray has met: of glass, the one that there is.
 inline hierarchy::Side sideOf(const Scene& scene, const tracing::Hit& hit) {
-  return {hit.primitive, hit.triangle, hit.front || hierarchy::passesStraight(scene.materialOf(hit.primitive))};
+  return {hit.primitive, hit.triangle, hit.front || isClear(scene.materialOf(hit.primitive))};
 }
 
 /// Whether light reaches a side: glass always has its elements, and what shines through a surface lights both its
@@ -67,7 +67,7 @@ inline hierarchy::Side sideOf(const Scene& scene, const tracing::Hit& hit) {
 template <class IsLit>
 bool isReached(const Scene& scene, const hierarchy::Side& s, const IsLit& isLit) {
   const Material& material = scene.materialOf(s.primitive);
-  if (isLit(s) || hierarchy::passesStraight(material)) return true;
+  if (isLit(s) || isClear(material)) return true;
   return !isBlack(diffuseTransmittance(material)) && isLit(hierarchy::Side{s.primitive, s.triangle, !s.front});
 }
 

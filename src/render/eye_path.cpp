@@ -31,7 +31,7 @@ EyePaths::EyePaths(const Solution& s, const Reconstruction& reconstruction, EyeS
       settings_(settings),
       panesReflect_(!s.settings.diffuseOnly) {
   for (const Material& m : scene_.materials) {
-    specular_.push_back(isSpecular(m));
+    goesOn_.push_back(isSpecular(m) || passesStraight(m));
     for (const bool front : {false, true}) bsdfs_.push_back(scene::makeBsdf(m, front));
   }
 }
@@ -51,14 +51,14 @@ Rgb EyePaths::follow(Way w, const EyeRay& eye, Sights& sights) const {
     if (w.emitters) L += w.beta * emitted(v, lobe);
     const scene::Bsdf& scattering = bsdf(hit.primitive, hit.front);
     if (scattering.pane && !panesReflect_) {
-      w.beta *= transmittance(*scattering.pane, -glm::dot(v.direction, n));
+      w.beta *= scene::passageTransmittance(scattering, -glm::dot(v.direction, n));
       w.ray.origin = tracing::offsetOrigin(Vec3f(v.position), hit.normal, w.ray.direction);
       if (maxChannel(w.beta) < kFaint) return L;
       continue;
     }
     bool lightsMet = false;
     L += w.beta * scattered(v, eye, w.depth, sights, lightsMet);
-    if (!specular_[scene_[hit.primitive].material.index()]) return L;
+    if (!goesOn_[scene_[hit.primitive].material.index()]) return L;
 
     if (const auto* body = std::get_if<Dielectric>(&scene_.materialOf(hit.primitive).surface); body && !hit.front)
       w.beta *= glm::pow(body->transmission, Rgb(hit.t));
@@ -73,7 +73,7 @@ bool EyePaths::go(Way& w, const Vertex& v, const scene::Bsdf& scattering, const 
   const SpecularLobe& shape = s.direction.z > 0 ? scattering.reflection : scattering.transmission;
   const bool glossy = !scene::isDirac(s.event);
   w.lobe = glossy && lightsMet ? std::optional(Lobe{v.position, shape.roughness}) : std::nullopt;
-  w.emitters = w.emitters || s.event != scene::ScatterEvent::StraightTransmission;
+  w.emitters = w.emitters || s.event != scene::ScatterEvent::Passage;
   w.ray.direction = Vec3f(glm::normalize(Frame(v.normal).toWorld(s.direction)));
   w.ray.origin = tracing::offsetOrigin(Vec3f(v.position), v.hit.normal, w.ray.direction);
   ++w.depth;
@@ -109,7 +109,7 @@ void EyePaths::survey(Way w, const EyeRay& eye, Sights& sights) const {
       if (const hierarchy::ElementId side = reconstruction_.locator.side(hit.primitive, hit.triangle, hit.front);
           side.valid())
         sights.note(reconstruction_.locator.locate(side, v.position).leaf, {v.position, v.normal});
-    if (!specular_[scene_[hit.primitive].material.index()]) return;
+    if (!goesOn_[scene_[hit.primitive].material.index()]) return;
     if (scattering.pane && !panesReflect_) {
       w.ray.origin = tracing::offsetOrigin(Vec3f(v.position), hit.normal, w.ray.direction);
       ++w.depth;

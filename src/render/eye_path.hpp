@@ -77,7 +77,7 @@ class EyePaths {
   EyeSettings settings_;
   bool panesReflect_;
   std::vector<scene::Bsdf> bsdfs_;
-  std::vector<char> specular_;  // per material
+  std::vector<char> goesOn_;  // per material: whether light goes on from there other than diffusely
 };
 
 }  // namespace deltalux::rendering

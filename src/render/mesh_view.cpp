@@ -55,7 +55,7 @@ class MeshPainter {
         return {};
       }
       const Vec3f p = hit.position;
-      if (isThinGlass(s_.scene.materialOf(hit.primitive))) {
+      if (isPane(s_.scene.materialOf(hit.primitive))) {
         ray.origin = tracing::offsetOrigin(p, hit.normal, ray.direction);
         continue;
       }

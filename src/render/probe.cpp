@@ -71,7 +71,7 @@ class LightMeter {
       const Vec3 p(hit.position);
       const double away = glm::length(p - point.position);
       const Vec3f side = hit.front ? hit.normal : -hit.normal;
-      if (away < least && glm::dot(side, n) > kFacing && !isThinGlass(scene_.materialOf(hit.primitive))) {
+      if (away < least && glm::dot(side, n) > kFacing && !isPane(scene_.materialOf(hit.primitive))) {
         least = away;
         best = SurfaceSpot{hit.primitive, hit.triangle, hit.front, p, Vec3(side)};
       }

@@ -15,7 +15,7 @@ std::optional<ProbePoint> firstSurface(const Scene& scene, const tracing::RayTra
     const tracing::Hit hit = tracer.closestHit(ray);
     if (!hit) return std::nullopt;
     const Vec3f position = hit.position;
-    if (!isThinGlass(scene.materialOf(hit.primitive)))
+    if (!isPane(scene.materialOf(hit.primitive)))
       return ProbePoint{Vec3(position), Vec3(hit.front ? hit.normal : -hit.normal)};
     ray.origin = tracing::offsetOrigin(position, hit.normal, ray.direction);
   }

@@ -29,8 +29,8 @@ Vec3 throughSurface(const Vec3& w) { return {w.x, w.y, -w.z}; }
 
 /// Chances of choosing each part, in the order of ScatterEvent, proportional to the brightest channel.
 struct Choice {
-  std::array<double, 7> chance{};
-  Rgb mirror{0.0f}, straight{0.0f};  // colours of the Dirac parts
+  std::array<double, 8> chance{};
+  Rgb mirror{0.0f}, straight{0.0f}, passage{0.0f};  // colours of the Dirac parts
 };
 
 Choice choose(const Bsdf& bsdf, double cosIncidence) {
@@ -46,15 +46,14 @@ Choice choose(const Bsdf& bsdf, double cosIncidence) {
   }
   if (isRough(bsdf.transmission)) {
     at(ScatterEvent::GlossyTransmission) = maxChannel(bsdf.transmission.reflectance);
-  } else if (bsdf.pane) {
-    c.straight = transmittance(*bsdf.pane, cosIncidence);
-    at(ScatterEvent::StraightTransmission) = maxChannel(c.straight);
   } else if (bsdf.refractingIor) {
     at(ScatterEvent::Refraction) = 1.0 - c.mirror.r;
   } else {
     c.straight = bsdf.transmission.reflectance;
     at(ScatterEvent::StraightTransmission) = maxChannel(c.straight);
   }
+  c.passage = passageTransmittance(bsdf, cosIncidence);
+  at(ScatterEvent::Passage) = maxChannel(c.passage);
   double sum = 0;
   for (double& p : c.chance) sum += p = std::max(0.0, p);
   for (double& p : c.chance) p = sum > 0 ? p / sum : 0.0;
@@ -102,6 +101,7 @@ BsdfSample diracSample(const Bsdf& bsdf, const Choice& c, const Vec3& wo, Scatte
   const float chance = static_cast<float>(c.chance[static_cast<std::size_t>(event)]);
   if (event == ScatterEvent::MirrorReflection) return {{-wo.x, -wo.y, wo.z}, c.mirror / chance, 0.0, event, 1.0};
   if (event == ScatterEvent::StraightTransmission) return {-wo, c.straight / chance, 0.0, event, 1.0};
+  if (event == ScatterEvent::Passage) return {-wo, c.passage / chance, 0.0, event, 1.0};
   const double ior = *bsdf.refractingIor;
   const double cosInside = std::sqrt(std::max(0.0, 1.0 - (1.0 - wo.z * wo.z) / (ior * ior)));
   const Vec3 wi(-wo.x / ior, -wo.y / ior, -cosInside);
@@ -131,6 +131,11 @@ Bsdf makeBsdf(const Material& material, bool front, const Rgb& tint) {
     bsdf.reflection = trans->reflection;
     bsdf.transmission = trans->transmission;
   }
+  const float share = material.coverage;
+  bsdf.diffuseReflection *= share, bsdf.diffuseTransmission *= share;
+  bsdf.reflection.reflectance *= share, bsdf.transmission.reflectance *= share;
+  bsdf.paneCoverage = share;
+  bsdf.passage = (1 - share) * material.filter;
   return bsdf;
 }
 
@@ -139,8 +144,19 @@ Bsdf specularPart(Bsdf bsdf) {
   return bsdf;
 }
 
+Bsdf withoutPassage(Bsdf bsdf) {
+  bsdf.passage = Rgb(0.0f);
+  bsdf.panePasses = false;
+  return bsdf;
+}
+
+Rgb passageTransmittance(const Bsdf& bsdf, double cosIncidence) {
+  if (!bsdf.pane || !bsdf.panePasses) return bsdf.passage;
+  return bsdf.passage + bsdf.paneCoverage * transmittance(*bsdf.pane, cosIncidence);
+}
+
 Rgb mirrorReflectance(const Bsdf& bsdf, double cosIncidence) {
-  if (bsdf.pane) return bsdf.paneReflects ? reflectance(*bsdf.pane, cosIncidence) : Rgb(0.0f);
+  if (bsdf.pane) return bsdf.paneReflects ? bsdf.paneCoverage * reflectance(*bsdf.pane, cosIncidence) : Rgb(0.0f);
   if (bsdf.refractingIor) return Rgb(static_cast<float>(fresnelDielectric(cosIncidence, *bsdf.refractingIor)));
   return bsdf.reflection.roughness > 0.0f ? Rgb(0.0f) : bsdf.reflection.reflectance;
 }
@@ -166,7 +182,7 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const Vec3& wo, const Vec3& u
   const Choice c = choose(bsdf, wo.z);
   double rest = u.x;
   int chosen = -1;
-  for (int i = 0; i < 7; ++i) {
+  for (int i = 0; i < static_cast<int>(c.chance.size()); ++i) {
     if (c.chance[i] <= 0.0) continue;
     chosen = i;
     if (rest < c.chance[i]) break;
@@ -181,9 +197,11 @@ std::optional<std::array<BsdfSample, 2>> bothWays(const Bsdf& bsdf, const Vec3& 
   if (wo.z <= 0.0 || bsdf.hasFinitePart()) return std::nullopt;
   Choice c = choose(bsdf, wo.z);
   const auto chance = [&](ScatterEvent e) -> double& { return c.chance[static_cast<std::size_t>(e)]; };
-  const auto onward =
-      chance(ScatterEvent::Refraction) > 0 ? ScatterEvent::Refraction : ScatterEvent::StraightTransmission;
-  if (!(chance(ScatterEvent::MirrorReflection) > 0 && chance(onward) > 0)) return std::nullopt;
+  auto onward = ScatterEvent::MirrorReflection;
+  int ways = 0;
+  for (const auto e : {ScatterEvent::StraightTransmission, ScatterEvent::Refraction, ScatterEvent::Passage})
+    if (chance(e) > 0) onward = e, ++ways;
+  if (!(chance(ScatterEvent::MirrorReflection) > 0) || ways != 1) return std::nullopt;
   chance(ScatterEvent::MirrorReflection) = chance(onward) = 1;
   return std::array{diracSample(bsdf, c, wo, ScatterEvent::MirrorReflection), diracSample(bsdf, c, wo, onward)};
 }

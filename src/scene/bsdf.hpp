@@ -21,7 +21,10 @@ struct Bsdf {
   SpecularLobe reflection;
   SpecularLobe transmission;
   std::optional<ThinGlass> pane;
+  float paneCoverage = 1;    // share of the surface that is pane
+  Rgb passage{0.0f};         // straight on beside what is covered
   bool paneReflects = true;  // false: light only passes straight on
+  bool panePasses = true;    // false: it only reflects
   std::optional<double> refractingIor;
 
   /// Whether anything but Dirac parts is there: a surface light can be connected to.
@@ -33,9 +36,10 @@ enum class ScatterEvent : unsigned char {
   DiffuseTransmission,
   GlossyReflection,
   GlossyTransmission,
-  MirrorReflection,  // Dirac from here on
-  StraightTransmission,
+  MirrorReflection,      // Dirac from here on
+  StraightTransmission,  // a smooth transmission lobe
   Refraction,
+  Passage,  // straight on, as shadow rays pass: panes, and what is not covered
 };
 constexpr bool isDirac(ScatterEvent e) { return e >= ScatterEvent::MirrorReflection; }
 
@@ -51,6 +55,9 @@ struct BsdfSample {
 Bsdf makeBsdf(const Material& material, bool front, const Rgb& tint = Rgb(1.0f));
 /// The same without diffuse parts: what passes particles on.
 Bsdf specularPart(Bsdf bsdf);
+/// The same where light that goes straight on, as shadow rays do, has been accounted for: that part absorbs. Panes then
+/// only reflect.
+Bsdf withoutPassage(Bsdf bsdf);
 
 /// f(wo, wi) |cos wi| of the finite parts [1/sr].
 Rgb evaluate(const Bsdf&, const Vec3& wo, const Vec3& wi);
@@ -58,10 +65,12 @@ Rgb evaluate(const Bsdf&, const Vec3& wo, const Vec3& wi);
 double pdf(const Bsdf&, const Vec3& wo, const Vec3& wi);
 /// A direction from three numbers in [0,1): u.x chooses the part, (u.y, u.z) the direction. nullopt: absorbed.
 std::optional<BsdfSample> sample(const Bsdf&, const Vec3& wo, const Vec3& u);
-/// Where light goes two ways and no other (a pane, a smooth body): reflection and passage, each weighted by its
-/// reflectance instead of chosen by it. Elsewhere nullopt.
+/// Where light goes two ways and no other (a pane, a smooth body, a mirror with gaps): reflection and passage, each
+/// weighted by its reflectance instead of chosen by it. Elsewhere nullopt.
 std::optional<std::array<BsdfSample, 2>> bothWays(const Bsdf&, const Vec3& wo);
 
+/// What goes straight on as shadow rays do, at `cosIncidence` > 0. Equals straightTransmittance() of the material.
+Rgb passageTransmittance(const Bsdf&, double cosIncidence);
 /// Reflectance of the perfect-mirror part at `cosIncidence` > 0: mirrors, panes, polished lobes, dielectrics.
 Rgb mirrorReflectance(const Bsdf&, double cosIncidence);
 

@@ -43,17 +43,19 @@ Rgb overPolarisations(const ThinGlass& glass, double cosIncidence, const Slab& s
 }  // namespace
 
 Rgb diffuseReflectance(const Material& material, bool /*front*/) {
-  if (const auto* opaque = std::get_if<Opaque>(&material.surface)) return opaque->diffuse;
-  if (const auto* trans = std::get_if<Trans>(&material.surface)) return trans->diffuseReflectance;
+  const float share = material.coverage;
+  if (const auto* opaque = std::get_if<Opaque>(&material.surface)) return share * opaque->diffuse;
+  if (const auto* trans = std::get_if<Trans>(&material.surface)) return share * trans->diffuseReflectance;
   return Rgb(0.0f);
 }
 
 Rgb diffuseTransmittance(const Material& material) {
   const auto* trans = std::get_if<Trans>(&material.surface);
-  return trans ? trans->diffuseTransmittance : Rgb(0.0f);
+  return trans ? material.coverage * trans->diffuseTransmittance : Rgb(0.0f);
 }
 
 bool isSpecular(const Material& material) {
+  if (!(material.coverage > 0)) return false;
   if (const auto* opaque = std::get_if<Opaque>(&material.surface)) return reflects(opaque->specular);
   if (const auto* trans = std::get_if<Trans>(&material.surface)) {
     return reflects(trans->reflection) || reflects(trans->transmission);
@@ -62,7 +64,25 @@ bool isSpecular(const Material& material) {
   return true;  // panes and refracting bodies
 }
 
+namespace {
+
+Rgb besideCover(const Material& material) { return (1 - material.coverage) * material.filter; }
 bool isThinGlass(const Material& material) { return std::holds_alternative<ThinGlass>(material.surface); }
+
+}  // namespace
+
+bool passesStraight(const Material& material) { return isThinGlass(material) || !isBlack(besideCover(material)); }
+
+Rgb straightTransmittance(const Material& material, double cosIncidence) {
+  const auto* glass = std::get_if<ThinGlass>(&material.surface);
+  return besideCover(material) + (glass ? material.coverage * transmittance(*glass, cosIncidence) : Rgb(0.0f));
+}
+
+bool isClear(const Material& material) {
+  return isThinGlass(material) || std::holds_alternative<Dielectric>(material.surface) || !(material.coverage > 0);
+}
+
+bool isPane(const Material& material) { return isClear(material) && passesStraight(material); }
 
 Rgb transmittance(const ThinGlass& glass, double cosIncidence) {
   return overPolarisations(glass, cosIncidence, slabTransmittance);

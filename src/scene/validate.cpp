@@ -102,6 +102,11 @@ void checkMaterial(const Scene& scene, const Material& material, const std::stri
                  },
              },
              material.surface);
+  // What covers reflects and transmits no more than it receives, so with what passes beside it neither does the whole.
+  require(finite(material.coverage) && material.coverage >= 0 && material.coverage <= 1, where + ": coverage");
+  require(fraction(material.filter), where + ": filter beside the cover");
+  require(material.coverage == 1 || !std::holds_alternative<Dielectric>(material.surface),
+          where + ": a refracting body is covered all over");
   if (!material.emission) return;
   require(nonNegative(material.emission->radiance), where + ": emitted radiance");
   if (!material.emission->spot) return;

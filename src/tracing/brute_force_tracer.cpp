@@ -187,7 +187,7 @@ class BruteForceTracer final : public RayTracer {
       snapshots_.push_back({PrimitiveId(i), GroupId(0), {}});
   }
 
-  bool isPane(const Snapshot& s) const { return isThinGlass(scene_.materialOf(s.primitive)); }
+  bool isPane(const Snapshot& s) const { return passesStraight(scene_.materialOf(s.primitive)); }
 
   /// visit(snapshot, meeting) for everything on the segment, until one call returns false; false then.
   template <class Visit>
@@ -217,8 +217,7 @@ class BruteForceTracer final : public RayTracer {
       blocker = from.primitive, t = static_cast<float>(m.t);
       if (!isPane(from)) return false;
       const double cosine = std::abs(glm::dot(m.normal, Vec3(ray.direction)));
-      product *= deltalux::transmittance(std::get<ThinGlass>(scene_.materialOf(from.primitive).surface),
-                                         std::clamp(cosine, 1e-6, 1.0));
+      product *= straightTransmittance(scene_.materialOf(from.primitive), std::clamp(cosine, 1e-6, 1.0));
       return true;
     });
     return through ? Passing{product, isBlack(product) ? blocker : PrimitiveId(), t} : Passing{Rgb(0.0f), blocker, t};

@@ -74,7 +74,7 @@ EmbreeGroup::EmbreeGroup(RTCDevice device, const Scene& scene, std::vector<Primi
     Layer& layer = layers_[passage == Passage::Pane ? 1 : 0];
     Collection collection{layer};
     for (const PrimitiveId id : primitives_) {
-      if (isThinGlass(scene.materialOf(id)) != (passage == Passage::Pane) || !(area(scene[id].shape) > 0)) continue;
+      if (passesStraight(scene.materialOf(id)) != (passage == Passage::Pane) || !(area(scene[id].shape) > 0)) continue;
       collection.id = id;
       std::visit(collection, scene[id].shape);
     }

@@ -1,7 +1,7 @@
 #pragma once
 // The primitives of one group as an Embree scene: polygons and mesh triangles batched into triangle geometries, curved
-// primitives and thin polygons as user geometries in double precision; opaque ones and panes of thin glass apart (they
-// differ in their ray mask). Tables lead from Embree's numbers back to primitives.
+// primitives and thin polygons as user geometries in double precision; opaque ones and those that light passes straight
+// (panes) apart (they differ in their ray mask). Tables lead from Embree's numbers back to primitives.
 //
 // Embree finds the triangle; where it is hit follows from the primitive's plane in double precision. So a ray that
 // starts on a large polygon does not meet it again, however far from its vertices, and surfaces close together keep

@@ -44,7 +44,7 @@ bool PassageQuery::cross(PrimitiveId pane, float t, double cosIncidence) {
   else
     more_.push_back(crossed);
   ++count_;
-  passed *= transmittance(std::get<ThinGlass>(scene.materialOf(pane).surface), std::clamp(cosIncidence, 1e-6, 1.0));
+  passed *= straightTransmittance(scene.materialOf(pane), std::clamp(cosIncidence, 1e-6, 1.0));
   return !isBlack(passed);
 }
 

@@ -26,20 +26,20 @@ struct Passing {
 
 /// Whether one surface alone lets nothing pass: not panes together.
 inline bool endsAtOne(const Scene& scene, const Passing& p) {
-  return p.blocker.valid() && !isThinGlass(scene.materialOf(p.blocker));
+  return p.blocker.valid() && !passesStraight(scene.materialOf(p.blocker));
 }
 
 class RayTracer {
  public:
   virtual ~RayTracer() = default;
 
-  /// First surface with tNear <= t <= tFar; an invalid primitive when there is none. Thin glass counts as a surface. Of
-  /// surfaces that coincide, the one of the lowest id.
+  /// First surface with tNear <= t <= tFar; an invalid primitive when there is none. What light passes straight through
+  /// counts as a surface. Of surfaces that coincide, the one of the lowest id.
   virtual Hit closestHit(const Ray&) const = 0;
-  /// Whether an opaque surface (anything but thin glass) lies on the segment.
+  /// Whether an opaque surface (one that nothing passes straight) lies on the segment.
   virtual bool occluded(const Ray&) const = 0;
-  /// Fraction of light that passes the segment straight on: product over thin-glass panes crossed, 0 behind opaque
-  /// ones.
+  /// Fraction of light that passes the segment straight on: product over panes and uncovered parts crossed, 0
+  /// behind opaque ones.
   virtual Rgb transmittance(const Ray&) const = 0;
   /// The same, with a blocker.
   virtual Passing passing(const Ray&) const = 0;

@@ -85,9 +85,33 @@ TEST(GltfMaterial, TransmissionIsGlass) {
   EXPECT_FLOAT_EQ(body.ior, 1.52f);
   m["extensions"]["KHR_materials_volume"]["thicknessFactor"] = 0;
   EXPECT_TRUE(std::holds_alternative<ThinGlass>(materialOf(m).surface));
-  json blend = pbr({{"baseColorFactor", {1, 1, 1, 0.2}}});
-  blend["alphaMode"] = "BLEND";
-  expectNear(std::get<ThinGlass>(materialOf(blend).surface).transmissivity, Rgb(0.8f));
+}
+
+TEST(GltfMaterial, AlphaIsCoverage) {
+  json m = pbr({{"baseColorFactor", {0.5, 0.5, 0.5, 0.2}}, {"metallicFactor", 0}});
+  m["emissiveFactor"] = {1, 1, 1};
+  m["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 1790;
+  const auto read = [&](const char* mode) {
+    m["alphaMode"] = mode;
+    return materialOf(m);
+  };
+  const Material blend = read("BLEND");
+  EXPECT_FLOAT_EQ(blend.coverage, 0.2f);
+  EXPECT_EQ(blend.filter, Rgb(1));
+  expectNear(std::get<Opaque>(blend.surface).diffuse, Rgb(0.48f));  // of what covers
+  expectNear(diffuseReflectance(blend, true), Rgb(0.096f));
+  expectNear(straightTransmittance(blend, 0.1), Rgb(0.8f));
+  expectNear(blend.emission->radiance, Rgb(2), 1e-5f);
+  EXPECT_EQ(read("OPAQUE").coverage, 1);
+  const Material gone = read("MASK");
+  EXPECT_EQ(gone.coverage, 0) << "below the cutoff of one half";
+  EXPECT_FALSE(gone.emission);
+  m["alphaCutoff"] = 0.2;
+  EXPECT_EQ(read("MASK").coverage, 1);
+  m["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 1;
+  const Material pane = read("BLEND");
+  EXPECT_TRUE(std::holds_alternative<ThinGlass>(pane.surface));
+  EXPECT_FLOAT_EQ(pane.coverage, 0.2f);
 }
 
 TEST(GltfMaterial, EmissionIsLuminanceByTheEfficacy) {
@@ -136,6 +160,34 @@ TEST(GltfMaterial, BaseColourTextureIsLinear) {
   EXPECT_TRUE(s.diffuseTexture.valid());
   const auto& mesh = std::get<Mesh>(imported.scene.primitives[0].shape);
   EXPECT_EQ(mesh.texcoords[2], Vec2(1, 0));
+}
+
+/// An uncompressed TGA of 4 x 1 white texels of these alphas.
+std::string alphaImage(const std::array<int, 4>& alphas) {
+  std::string tga(18, '\0');
+  tga[2] = 2, tga[12] = 4, tga[14] = 1, tga[16] = 32, tga[17] = 0x28;
+  for (const int a : alphas) tga += "\xff\xff\xff" + std::string(1, static_cast<char>(a));
+  return tga;
+}
+
+TEST(GltfMaterial, AlphaTexturesCoverByTheirMean) {
+  GltfBuilder g = textured({{"index", 0}});
+  const std::string image = alphaImage({255, 0, 51, 102});
+  g.doc["images"][0]["bufferView"] = g.view(std::vector<char>(image.begin(), image.end()));
+  json& m = g.doc["materials"][0];
+  m["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.5;
+  const auto coverage = [&](const char* mode) {
+    m["alphaMode"] = mode;
+    const ImportedScene imported = read(g);
+    EXPECT_EQ(imported.report.ignored.count("alpha textures (average used)"), mode == std::string("OPAQUE") ? 0u : 1u);
+    return imported.scene.materials[0].coverage;
+  };
+  EXPECT_EQ(coverage("OPAQUE"), 1);
+  EXPECT_FLOAT_EQ(coverage("BLEND"), 0.5f * 408 / (4 * 255));
+  m["alphaCutoff"] = 0.2;  // 102 of 255, half of it
+  EXPECT_FLOAT_EQ(coverage("MASK"), 0.5f);
+  m["alphaCutoff"] = 0.3;
+  EXPECT_FLOAT_EQ(coverage("MASK"), 0.25f);
 }
 
 TEST(GltfMaterial, TextureTransform) {

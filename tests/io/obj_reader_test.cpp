@@ -122,10 +122,32 @@ TEST_F(ObjFiles, DiffuseAndLobe) {
   EXPECT_EQ(imported_.report.warnings.size(), 1u);
 }
 
+TEST_F(ObjFiles, DissolveIsCoverage) {
+  const auto passes = [&](const std::string& mtl) {
+    return straightTransmittance(materialOf("Kd 1 1 1\n" + mtl), 0.3);
+  };
+  EXPECT_EQ(passes("d 0.25\nNi 1.45\n"), Rgb(0.75f));
+  EXPECT_EQ(passes("Tr 0.25\n"), Rgb(0.25f));
+  EXPECT_EQ(passes("d 0.5\nTf 1 0.5 0.25\nillum 4\n"), Rgb(0.5f, 0.25f, 0.125f));
+  EXPECT_EQ(passes("Tf 1 0.5 0.25\nillum 6\n"), Rgb(1, 0.5f, 0.25f));
+  EXPECT_EQ(passes("Tf 1 1 1\nillum 2\nNi 1.5\n"), Rgb(0)) << "as exporters write of every wall";
+  EXPECT_EQ(passes("d 0\n"), Rgb(1));
+  const Material curtain = materialOf("Kd 0.8 0.8 0.8\nKe 4 4 4\nd 0.25\n");
+  EXPECT_EQ(diffuseReflectance(curtain, false), Rgb(0.2f));
+  EXPECT_EQ(curtain.emission->radiance, Rgb(1));
+  EXPECT_TRUE(imported_.report.ignored.empty());
+}
+
+TEST_F(ObjFiles, HaloDissolvesAlikeAtEveryAngle) {
+  for (const char* line : {"d -halo 0.25\n", "\td  -halo\t0.25\n", "Ni 1\nd -halo 0.25"}) {
+    EXPECT_EQ(materialOf(line).coverage, 0.25f) << line;
+    EXPECT_EQ(imported_.report.ignored.at("-halo of d (the same at every angle)"), 1u);
+  }
+  materialOf("# not d -halo 0.25\nd 0.5\n");
+  EXPECT_TRUE(imported_.report.ignored.empty());
+}
+
 TEST_F(ObjFiles, GlassAndEmission) {
-  const auto faded = std::get<ThinGlass>(materialOf("d 0.25\nNi 1.45\n").surface);
-  EXPECT_EQ(faded.transmissivity, Rgb(0.75f));
-  EXPECT_FLOAT_EQ(faded.ior, 1.45f);
   const auto tinted = std::get<ThinGlass>(materialOf("Tf 0.9 0.8 0.7\nillum 7\nNi 1.5\n").surface);
   EXPECT_EQ(tinted.transmissivity, Rgb(0.9f, 0.8f, 0.7f));
   const Material lamp = materialOf("Kd 0 0 0\nKe 10 20 30\n");

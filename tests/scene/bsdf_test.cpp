@@ -158,12 +158,48 @@ TEST(Bsdf, PanePassesStraightAndReflects) {
   for (int i = 0; i < 100000; ++i) {
     const auto s = sample(bsdf, wo, {rng.uniform(), 0, 0});
     ASSERT_TRUE(s);
-    const bool straight = s->event == ScatterEvent::StraightTransmission;
+    const bool straight = s->event == ScatterEvent::Passage;
     EXPECT_EQ(s->direction, straight ? -wo : Vec3(-wo.x, -wo.y, wo.z));
     passed.add(straight ? s->weight.g : 0), reflected.add(straight ? 0 : s->weight.g);
   }
   EXPECT_GT(test::tTest(passed, transmittance(glass, wo.z).g), kSignificance);
   EXPECT_GT(test::tTest(reflected, reflectance(glass, wo.z).g), kSignificance);
+}
+
+/// Every part by its share: samples of a sheet with gaps carry in the mean what covers it reflects, and what passes.
+TEST(Bsdf, CoveredSurfacesPassTheRestStraight) {
+  const float share = 0.4f;
+  for (const Surface& surface :
+       {Surface(Opaque{Rgb(0.5f), {}, {Rgb(0.3f), 0.0f}}), Surface(Trans{Rgb(0.2f), Rgb(0.1f), {}, {Rgb(0.4f), 0.0f}}),
+        Surface(ThinGlass{Rgb(0.9f), 1.52f}), Surface(Mirror{Rgb(0.9f)})}) {
+    const Material sheet{"s", surface, {}, share, Rgb(1.0f, 0.5f, 0.25f)};
+    const Bsdf bsdf = makeBsdf(sheet, true), whole = makeBsdf({"w", surface, {}}, true);
+    const Vec3 wo = directionAt(60);
+    const Rgb straight = straightTransmittance(sheet, wo.z);
+    EXPECT_EQ(passageTransmittance(bsdf, wo.z), straight);
+    EXPECT_LT(maxChannel(glm::abs(mirrorReflectance(bsdf, wo.z) - share * mirrorReflectance(whole, wo.z))), 1e-6f);
+    for (const double z : {0.5, -0.5}) {
+      const Vec3 wi(0, std::sqrt(0.75), z);
+      EXPECT_LT(maxChannel(glm::abs(evaluate(bsdf, wo, wi) - share * evaluate(whole, wo, wi))), 1e-6f);
+    }
+    Rng rng(7);
+    test::Moments passed, scattered, ofWhole;
+    for (int i = 0; i < 100000; ++i) {
+      const auto s = sample(bsdf, wo, {rng.uniform(), rng.uniform(), rng.uniform()});
+      ASSERT_TRUE(s);
+      const bool passes = s->event == ScatterEvent::Passage;
+      if (passes) {
+        EXPECT_EQ(s->direction, -wo);
+      }
+      passed.add(passes ? s->weight.g : 0), scattered.add(passes ? 0 : s->weight.g);
+      const auto w = sample(whole, wo, {rng.uniform(), rng.uniform(), rng.uniform()});
+      ofWhole.add(w && w->event != ScatterEvent::Passage ? share * w->weight.g : 0);
+      const auto first = sample(withoutPassage(bsdf), wo, {rng.uniform(), rng.uniform(), rng.uniform()});
+      EXPECT_TRUE(first && first->event != ScatterEvent::Passage);
+    }
+    EXPECT_GT(test::tTest(passed, straight.g), kSignificance);
+    EXPECT_NEAR(scattered.mean(), ofWhole.mean(), 5 * (scattered.standardError() + ofWhole.standardError()) + 1e-6);
+  }
 }
 
 TEST(Bsdf, BothWaysAreWhatSamplesAreInTheMean) {
@@ -183,6 +219,10 @@ TEST(Bsdf, BothWaysAreWhatSamplesAreInTheMean) {
     EXPECT_EQ((*both)[0].event, ScatterEvent::MirrorReflection);
     EXPECT_NEAR((*both)[0].weight.g, mirrorReflectance(bsdf, wo.z).g, 1e-6);
   }
+  const auto grid = bothWays(makeBsdf({"m", Mirror{Rgb(0.9f)}, {}, 0.5f}, true), wo);
+  ASSERT_TRUE(grid);
+  EXPECT_EQ((*grid)[0].weight, Rgb(0.45f));
+  EXPECT_EQ((*grid)[1].weight, Rgb(0.5f));
   const Bsdf glass = makeBsdf({"g", Dielectric{Rgb(1.0f), 1.5f}, {}}, false);
   EXPECT_FALSE(bothWays(glass, directionAt(60)));  // reflected in total
   EXPECT_FALSE(bothWays(makeBsdf({"m", Mirror{Rgb(0.9f)}, {}}, true), wo));

@@ -285,6 +285,15 @@ TEST(Edit, MaterialsReflectOtherwise) {
   EXPECT_EQ(diffuseReflectance(scene.materialOf(partOf(scene, "ball")), true), Rgb(0.4f));
 }
 
+TEST(Edit, CoverageStaysWithWhatIsPainted) {
+  Scene scene = room();
+  Material& wood = scene.materials[scene[partOf(scene, "ball")].material.index()];
+  wood.coverage = 0.25f;
+  applyEdit(scene, SetMaterial{wood.name, Rgb(0.8f), {}});
+  EXPECT_EQ(diffuseReflectance(scene.materialOf(partOf(scene, "ball")), true), Rgb(0.2f));
+  EXPECT_EQ(straightTransmittance(scene.materialOf(partOf(scene, "ball")), 1.0), Rgb(0.75f));
+}
+
 TEST(Edit, UnknownNamesAreRefusedWithNearMisses) {
   Scene scene = room();
   const Scene before = scene;

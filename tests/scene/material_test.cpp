@@ -57,8 +57,30 @@ TEST(Material, ToldApart) {
       {}};
   EXPECT_EQ(diffuseReflectance(trans, false), Rgb(0.2f));
   EXPECT_EQ(diffuseTransmittance(trans), Rgb(0.3f));
-  EXPECT_TRUE(isThinGlass({"pane", ThinGlass{}, {}}));
+  EXPECT_TRUE(isPane({"pane", ThinGlass{}, {}}));
   EXPECT_EQ(diffuseReflectance({"mirror", Mirror{Rgb(0.9f)}, {}}, true), Rgb(0.0f));
+}
+
+TEST(Material, CoverageScalesTheSurfaceAndPassesTheRest) {
+  Material curtain{"curtain", Opaque{Rgb(0.8f), {}, {Rgb(0.1f), 0.2f}}, {}, 0.25f, Rgb(1.0f, 0.5f, 0.0f)};
+  EXPECT_EQ(diffuseReflectance(curtain, true), Rgb(0.2f));
+  EXPECT_EQ(diffuseReflectance(curtain, false), Rgb(0.2f));
+  for (const double cosine : {1.0, 0.5, 0.01})
+    EXPECT_EQ(straightTransmittance(curtain, cosine), Rgb(0.75f, 0.375f, 0.0f)) << "the same at every angle";
+  EXPECT_TRUE(passesStraight(curtain));
+  EXPECT_FALSE(isClear(curtain));
+  EXPECT_TRUE(isSpecular(curtain));
+  curtain.coverage = 1;
+  EXPECT_FALSE(passesStraight(curtain));
+  EXPECT_EQ(straightTransmittance(curtain, 1.0), Rgb(0.0f));
+  curtain.coverage = 0;
+  EXPECT_TRUE(isPane(curtain)) << "nothing is there";
+  EXPECT_FALSE(isSpecular(curtain));
+  const Material trans{"trans", Trans{Rgb(0.2f), Rgb(0.4f), {}, {Rgb(0.3f), 0.0f}}, {}, 0.5f};
+  EXPECT_EQ(diffuseTransmittance(trans), Rgb(0.2f));
+  EXPECT_EQ(straightTransmittance(trans, 1.0), Rgb(0.5f));
+  const Material glass{"glass", ThinGlass{}, {}, 0.5f};
+  EXPECT_NEAR(straightTransmittance(glass, 0.3).g, 0.5 + 0.5 * transmittance(ThinGlass{}, 0.3).g, 1e-6);
 }
 
 TEST(SpotLight, FalloffOfKhrLightsPunctual) {

@@ -100,6 +100,10 @@ TEST(Validate, FindsWhatDoesNotHold) {
   broken([](Scene& s) { std::get<Sphere>(s.primitives[0].shape).radius = -1; });
   broken([](Scene& s) { std::get<Sphere>(s.primitives[0].shape).center.x = kInfinity; });
   broken([](Scene& s) { std::get<Opaque>(s.materials[0].surface).diffuse = Rgb(1.5f); });
+  broken([](Scene& s) { s.materials[0].coverage = 1.01f; });
+  broken([](Scene& s) { s.materials[0].coverage = -0.01f; });
+  broken([](Scene& s) { s.materials[0].filter = Rgb(0.5f, 1.5f, 0.5f); });
+  broken([](Scene& s) { s.materials[0].surface = Dielectric{}, s.materials[0].coverage = 0.5f; });
   broken([](Scene& s) { std::get<Opaque>(s.materials[0].surface).specular.reflectance = Rgb(0.6f); });
   broken([](Scene& s) { s.objects[0].parent = ObjectId(1); });
   broken([](Scene& s) { s.lights.push_back({"l", AreaLight{PrimitiveId(0)}, Rgb(1.0f)}); });

@@ -25,6 +25,7 @@ inline void addEveryShape(Scene& scene) {
       addMaterial(scene, "brass", Opaque{Rgb(0.2f, 0.15f, 0.05f), {}, {Rgb(0.6f, 0.5f, 0.2f), 0.1f, {}}});
   const MaterialId glass = addMaterial(scene, "pane", ThinGlass{Rgb(0.9f), 1.52f});
   const MaterialId paper = addMaterial(scene, "paper", Trans{Rgb(0.3f), Rgb(0.4f), {}, {}});
+  scene.materials[paper.index()].coverage = 0.9f, scene.materials[paper.index()].filter = Rgb(1.0f, 0.9f, 0.8f);
   const MaterialId water = addMaterial(scene, "water", Dielectric{Rgb(0.9f, 0.95f, 1.0f), 1.33f});
   const MaterialId mirror = addMaterial(scene, "mirror", Mirror{Rgb(0.8f)});
   scene.textures.push_back(checker());

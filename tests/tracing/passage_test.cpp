@@ -1,4 +1,4 @@
-// What passes a segment: panes of thin glass multiply, everything else blocks.
+// What passes a segment: panes of thin glass and uncovered parts multiply, everything else blocks.
 #include <gtest/gtest.h>
 
 #include "tracing/ray_tracer.hpp"
@@ -131,6 +131,20 @@ TEST(Passage, BlackPaneBlocks) {
   scene.materials[kPane].surface = ThinGlass{Rgb(0.0f), 1.52f};
   const auto tracer = makeEmbreeTracer(scene);
   EXPECT_EQ(tracer->transmittance(rayTo({0, 0, -1}, {0, 0, 1})), Rgb(0.0f));
+}
+
+TEST(Passage, WhatIsNotCoveredPassesAtEveryAngle) {
+  Scene scene = stackOfPanes(3);
+  scene.materials[kPane] = {"curtain", Opaque{Rgb(1.0f), {}, {}}, {}, 0.75f, Rgb(1.0f, 0.5f, 1.0f)};
+  const std::unique_ptr<RayTracer> tracers[] = {makeEmbreeTracer(scene), makeBruteForceTracer(scene)};
+  for (const auto& tracer : tracers)
+    for (const Vec3& to : {Vec3(0, 0, 3), Vec3(0.9, 0.9, 3), Vec3(40, 0, 0.2)}) {
+      const Ray ray = rayTo({0, 0, -1e-3}, to);
+      const Rgb one(0.25f, 0.125f, 0.25f);
+      expectNear(tracer->transmittance(ray), to.z > 2 ? one * one * one : one);
+      EXPECT_FALSE(tracer->occluded(ray));
+      EXPECT_FALSE(tracer->passing(ray).blocker.valid());
+    }
 }
 
 TEST(Passage, RandomPanesAgreeWithBruteForce) {

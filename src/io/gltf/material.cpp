@@ -16,7 +16,6 @@ using Ignored = std::map<std::string, std::size_t>;
 struct Inputs {
   Rgb factor{1.0f};  // base colour without its texture
   Rgb base{1.0f};    // with its average
-  float alpha = 1;
   float metallic = 1, roughness = 1;
   float ior = 1.5f;
   Rgb f0{0.04f};
@@ -29,7 +28,6 @@ Inputs inputsOf(const tinygltf::Material& material, GltfTextures& textures) {
   const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
   Inputs in;
   in.factor = in.base = rgbOf(pbr.baseColorFactor);
-  in.alpha = number(pbr.baseColorFactor[3]);
   if (pbr.baseColorTexture.index >= 0) in.base *= textures.average(pbr.baseColorTexture.index, TexelEncoding::Srgb);
   in.metallic = number(pbr.metallicFactor), in.roughness = number(pbr.roughnessFactor);
   if (pbr.metallicRoughnessTexture.index >= 0) {
@@ -84,9 +82,25 @@ Surface surfaceOf(const tinygltf::Material& material, GltfTextures& textures, Sc
     return ThinGlass{in.base * in.transmission, paneIor};
   }
   if (in.transmission > 0) ++ignored["transmission below one half"];
-  if (material.alphaMode == "MASK") ++ignored["alpha masks"];
-  if (material.alphaMode == "BLEND" && in.alpha < 1) return ThinGlass{Rgb(1 - in.alpha), paneIor};
   return opaqueOf(in, material, textures, scene);
+}
+
+/// Share of a surface that is there: blended, the mean of its alpha; masked, the texels that are as opaque as the
+/// cutoff. [glTF 2.0, 3.9.4]
+float coverageOf(const tinygltf::Material& material, GltfTextures& textures, Ignored& ignored) {
+  const bool masked = material.alphaMode == "MASK";
+  if (!masked && material.alphaMode != "BLEND") return 1;
+  const auto share = [&](double alpha) {
+    const double a = std::clamp(material.pbrMetallicRoughness.baseColorFactor[3] * alpha, 0.0, 1.0);
+    return masked ? (a >= material.alphaCutoff ? 1.0 : 0.0) : a;
+  };
+  const int texture = material.pbrMetallicRoughness.baseColorTexture.index;
+  if (texture < 0) return number(share(1));
+  const std::array<double, 256>& alphas = textures.alphas(texture);
+  double sum = 0;
+  for (std::size_t i = 0; i < alphas.size(); ++i) sum += alphas[i] * share(static_cast<double>(i) / 255);
+  if (*std::max_element(alphas.begin(), alphas.end()) < 1) ++ignored["alpha textures (average used)"];
+  return number(std::min(sum, 1.0));
 }
 
 std::optional<Emission> emissionOf(const tinygltf::Material& material, double luminousEfficacy,
@@ -148,7 +162,12 @@ GltfMaterials addMaterials(const GltfDocument& document, double luminousEfficacy
     Material material;
     material.name = source.name.empty() ? "material" + std::to_string(i) : source.name;
     material.surface = surfaceOf(source, textures, scene, ignored);
+    material.coverage = coverageOf(source, textures, ignored);
+    if (material.coverage < 1 && std::holds_alternative<Dielectric>(material.surface))
+      material.coverage = 1, ++ignored["alpha of refracting bodies"];
     material.emission = emissionOf(source, luminousEfficacy, textures);
+    if (material.emission) material.emission->radiance *= material.coverage;
+    if (!(material.coverage > 0)) material.emission.reset();
     countIgnored(source, ignored);
     const auto* opaque = std::get_if<Opaque>(&material.surface);
     const bool textured = opaque && opaque->diffuseTexture.valid();

@@ -17,22 +17,34 @@ int GltfTextures::imageOf(int texture) const {
   return image;
 }
 
-GltfTextures::Decoded& GltfTextures::decoded(int image, TexelEncoding encoding) {
-  const auto known = decoded_.find({image, encoding});
-  if (known != decoded_.end()) return known->second;
+template <class Visit>
+auto GltfTextures::read(int image, const Visit& visit) const {
   const std::string where = "/images/" + std::to_string(image);
   const GltfImage& source = document_.images[static_cast<std::size_t>(image)];
   std::string read;
   if (source.bufferView < 0) read = bytesOfUri(document_.name, document_.folder, source.uri, where);
-  const std::string_view bytes =
-      source.bufferView < 0 ? std::string_view(read) : bytesOfView(document_, source.bufferView);
-  std::optional<Texture> texture = decodeTexture(bytes, where, encoding);
-  if (!texture) {
+  auto result = visit(source.bufferView < 0 ? std::string_view(read) : bytesOfView(document_, source.bufferView));
+  if (!result) {
     throw InputError(document_.name, 0, where + " is no PNG or JPEG image, or larger than 64 million texels",
                      "export the scene with smaller PNG or JPEG textures");
   }
-  const Rgb mean = deltalux::io::average(*texture);
-  return decoded_.emplace(std::pair(image, encoding), Decoded{std::move(*texture), mean}).first->second;
+  return std::move(*result);
+}
+
+GltfTextures::Decoded& GltfTextures::decoded(int image, TexelEncoding encoding) {
+  const auto known = decoded_.find({image, encoding});
+  if (known != decoded_.end()) return known->second;
+  Texture texture = read(image, [&](std::string_view bytes) {
+    return decodeTexture(bytes, "/images/" + std::to_string(image), encoding);
+  });
+  const Rgb mean = deltalux::io::average(texture);
+  return decoded_.emplace(std::pair(image, encoding), Decoded{std::move(texture), mean}).first->second;
+}
+
+const std::array<double, 256>& GltfTextures::alphas(int index) {
+  const int image = imageOf(index);
+  const auto known = alphas_.find(image);
+  return known != alphas_.end() ? known->second : alphas_.emplace(image, read(image, alphaShares)).first->second;
 }
 
 Rgb GltfTextures::average(int index, TexelEncoding encoding) { return decoded(imageOf(index), encoding).average; }

@@ -1,5 +1,6 @@
 #pragma once
 // Images of a glTF file, decoded when a material asks for them.
+#include <array>
 #include <deltalux/scene.hpp>
 #include <map>
 #include <utility>
@@ -16,6 +17,8 @@ class GltfTextures {
 
   /// The mean texel of texture `index`. Throws InputError when it cannot be read.
   Rgb average(int index, TexelEncoding);
+  /// How many texels, as a share, have each of 256 alphas. Throws InputError when it cannot be read.
+  const std::array<double, 256>& alphas(int index);
   /// Texture `index` in `scene`, sRGB decoded. Throws InputError when it cannot be read.
   TextureId put(int index, Scene&);
 
@@ -25,10 +28,14 @@ class GltfTextures {
     Rgb average{0.0f};
   };
   int imageOf(int texture) const;
+  /// visit(its bytes) of an image, which gives what it is as an optional.
+  template <class Visit>
+  auto read(int image, const Visit& visit) const;
   Decoded& decoded(int image, TexelEncoding);
 
   const GltfDocument& document_;
   std::map<std::pair<int, TexelEncoding>, Decoded> decoded_;
+  std::map<int, std::array<double, 256>> alphas_;  // by image
   std::map<int, TextureId> placed_;
 };
 

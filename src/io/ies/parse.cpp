@@ -128,7 +128,7 @@ void readDimensions(NumberReader& reader, IesRecord& record) {
 }
 
 // The middle field was the ballast-lamp photometric factor before 1995, "future use" from then on, and says how the
-// file came about in 2019 (1.1 is an accredited test, no factor). [LM-63-1995, 2002, 2019; ies2rad]
+// file came about in 2019 (1.1 is an accredited test, no factor). [LM-63]
 void readElectrical(NumberReader& reader, const std::string& name, IesRecord& record) {
   double factor = reader.number("the ballast factor");
   const double second = reader.number("the ballast-lamp factor");

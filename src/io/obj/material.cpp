@@ -23,15 +23,25 @@ Rgb fractions(const double (&values)[3]) {
   return rgb;
 }
 
-bool isGlass(const tinyobj::material_t& m) {
-  return m.dissolve < 1 || m.illum == 4 || m.illum == 6 || m.illum == 7 || m.illum == 9;
+// Tf filters what passes. Black is also what it reads as where there is none.
+Rgb filterOf(const tinyobj::material_t& m) {
+  const Rgb filter = fractions(m.transmittance);
+  return isBlack(filter) ? Rgb(1.0f) : filter;
 }
 
+// How much of a surface is there: d and Tr, the same at every angle. Without them the illumination models of glass say
+// that light passes all of it.
+float coverageOf(const tinyobj::material_t& m) {
+  const bool glass = m.illum == 4 || m.illum == 6 || m.illum == 7 || m.illum == 9;
+  if (m.dissolve < 1) return static_cast<float>(std::max(m.dissolve, 0.0));
+  return glass ? 0.0f : 1.0f;
+}
+
+// Glass that refracts is a pane, whose reflection and transmission go by the angle.
+bool isPaneOfGlass(const tinyobj::material_t& m) { return coverageOf(m) == 0 && !(m.dissolve < 1) && m.ior > 1; }
+
 ThinGlass glassOf(const tinyobj::material_t& m) {
-  const Rgb filter = fractions(m.transmittance);
-  const double passes = m.dissolve < 1 ? std::clamp(1 - m.dissolve, 0.0, 1.0) : 1.0;
-  const double ior = std::isfinite(m.ior) ? std::clamp(m.ior, 1.0, 100.0) : 1.0;
-  return {isBlack(filter) ? Rgb(static_cast<float>(passes)) : filter, static_cast<float>(ior)};
+  return {filterOf(m), static_cast<float>(std::clamp(m.ior, 1.0, 100.0))};
 }
 
 // Textures by file, each read once.
@@ -85,13 +95,16 @@ Opaque opaqueOf(const tinyobj::material_t& m, ObjTextures& textures, Scene& scen
 Material materialOf(const tinyobj::material_t& m, ObjTextures& textures, Scene& scene, Ignored& ignored) {
   Material material;
   material.name = m.name;
-  if (isGlass(m)) {
+  if (isPaneOfGlass(m)) {
     material.surface = glassOf(m);
   } else {
     material.surface = opaqueOf(m, textures, scene, ignored);
+    material.coverage = coverageOf(m);
+    material.filter = filterOf(m);
   }
   const glm::dvec3 emitted(m.emission[0], m.emission[1], m.emission[2]);
-  if (emitted != glm::dvec3(0)) material.emission = Emission{Rgb(emitted), false, std::nullopt};
+  if (const Rgb radiance = material.coverage * Rgb(emitted); !isBlack(radiance))
+    material.emission = Emission{radiance, false, std::nullopt};
   if (m.roughness != 0 || m.metallic != 0) ++ignored["Pr and Pm parameters"];
   return material;
 }

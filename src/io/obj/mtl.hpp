@@ -1,7 +1,7 @@
 #pragma once
 // MTL files. tinyobjloader reads any word as a number (0 if need be), `Ke 10` as red alone and `d -halo 0.3` as clear;
 // here a colour of one number is grey, words, nan and numbers too large are errors with their line, and what is not
-// read or out of range is counted. Keywords count in any case. [Wavefront, MTL material format, 1995]
+// read or out of range is counted. Keywords count in any case. [MTL]
 #include <map>
 #include <string>
 #include <string_view>

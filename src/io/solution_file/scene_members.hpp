@@ -87,8 +87,8 @@ void members(auto& archive, Is<Emission> auto& e) {
   transferAll(archive, radiance, bothSides, spot);
 }
 void members(auto& archive, Is<Material> auto& m) {
-  auto& [name, surface, emission] = m;
-  transferAll(archive, name, surface, emission);
+  auto& [name, surface, emission, coverage, filter] = m;
+  transferAll(archive, name, surface, emission, coverage, filter);
 }
 
 // Lights

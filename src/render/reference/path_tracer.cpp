@@ -142,8 +142,7 @@ bool PathTracer::scatter(Walk& walk, const PathVertex& v, PrimitiveId primitive,
 /// Keeps the anchor's account of how the path went on from it.
 void PathTracer::follow(Anchor& anchor, const PathVertex& v, const scene::BsdfSample& s, PrimitiveId primitive,
                         bool front) const {
-  const bool throughPane = s.event == scene::ScatterEvent::StraightTransmission && v.bsdf->pane.has_value();
-  if (throughPane) return;
+  if (s.event == scene::ScatterEvent::Passage) return;
   anchor.fromSurface = 0;
   if (!scene::isDirac(s.event)) {
     anchor = {v.position, v.normal, 1, s.pdf, Anchor::Since::Connectable, {}, Vec3(0), 0.0, 0.0};

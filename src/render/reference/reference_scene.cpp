@@ -35,7 +35,7 @@ Scene diffuseOnlyScene(Scene scene) {
       opaque->specular = {};
     } else if (auto* trans = std::get_if<Trans>(&material.surface)) {
       trans->reflection = trans->transmission = {};
-    } else if (!isThinGlass(material)) {
+    } else if (!std::holds_alternative<ThinGlass>(material.surface)) {
       material.surface = Opaque{};
     }
   }
