@@ -1,6 +1,6 @@
 #pragma once
-// One fuzzer input as a Radiance scene: texts separated by the byte 1e, the scene first, then the files "a", "b", "c" ...
-// that it may include. The disk is out of reach.
+// One fuzzer input as a Radiance scene: texts separated by the byte 1e, the scene first, then the files "a", "b", "c"
+// ... that it may include. The disk is out of reach.
 #include <deltalux/error.hpp>
 #include <string>
 #include <string_view>
@@ -36,7 +36,7 @@ class TextFiles : public FileAccess {
 inline bool readsCleanly(std::string_view input) {
   TextFiles files(input);
   ExpansionLimits limits;
-  limits.objects = 3000, limits.numbers = 100000;
+  limits.objects = 3000, limits.numbers = 100000, limits.patternCalls = 300000;
   try {
     const ImportedScene imported = readRadiance(files.scene(), files, {}, limits);
     validate(imported.scene);

@@ -80,7 +80,10 @@ std::string CalcTranslator::primary() {
   }
   if (isDigit(c) || c == '.') return number();
   if (beginsName(c)) return name();
-  fail(c == '\0' ? "it ends too early" : std::string("'") + c + "' is not expected here");
+  if (c == '\0') fail("it ends too early");
+  std::string message = "'";
+  message += c;
+  fail(message += "' is not expected here");
 }
 
 std::string CalcTranslator::number() {
@@ -113,12 +116,16 @@ std::string CalcTranslator::variable(const std::string& name) {
   if (calc_.bound_.empty() || calc_.variables_.count(name) != 0) return parenthesised(calc_.variable(name));
   Calc::Compiled& compiled = calc_.compiledVariable(name);
   if (!compiled.varies) {
-    const double value = compiled(nullptr, 0);
-    if (std::isfinite(value)) return parenthesised(value);
+    try {
+      if (const double value = compiled(nullptr, 0); std::isfinite(value)) return parenthesised(value);
+    } catch (const mu::ParserError& error) {
+      fail(error.GetMsg());
+    }
   }
   std::string callee = "f" + std::to_string(calls_.size());
   calls_[callee] = &compiled;
-  return callee + "(0)";  // muParser's functions take an argument
+  callee += "(0)";  // muParser's functions take an argument
+  return callee;
 }
 
 std::string CalcTranslator::call(const std::string& function) {

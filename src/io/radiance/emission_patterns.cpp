@@ -155,7 +155,7 @@ EmissionPatterns::Sampled EmissionPatterns::sample(const Product& product, std::
         if (y > 0) sums += weight * value, squares += weight / y * value * value, luminance += weight * y;
         return y;
       },
-      failNotFinite);
+      failNotFinite, places.size() <= 1);
   if (tabulated.error > kNoticed) note("details of lights' patterns finer than half a degree");
   if (product.usesPosition && deviation > kNoticed * weights) note("position in patterns of lights");
   Sampled result{std::make_shared<const DirectionTable>(tabulated.table), glm::dvec3(0.0), tabulated.constant};

@@ -58,8 +58,9 @@ void recogniseGendaylit(RadObject& object) {
 
 void recogniseSky(RadObject& object) {
   if (object.strings.size() < 2) return;
-  if (object.strings[0] == "skybr" && object.strings[1].ends_with("skybright.cal")) recogniseGensky(object);
-  if (object.strings[0] == "skybright" && object.strings[1].ends_with("perezlum.cal")) recogniseGendaylit(object);
+  const std::string &function = object.strings[0], &file = object.strings[1];
+  if (function == "skybr" && file.ends_with("skybright.cal")) return recogniseGensky(object);
+  if (function == "skybright" && file.ends_with("perezlum.cal")) return recogniseGendaylit(object);
 }
 
 std::vector<double> skyArguments(const RadianceSky& sky, const Vec3& up) {

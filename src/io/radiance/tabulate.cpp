@@ -68,7 +68,7 @@ double errorBetween(const Function& f, const DirectionTable& table, double peak)
 
 }  // namespace
 
-Tabulated tabulate(const Function& raw, const std::function<void()>& notFinite) {
+Tabulated tabulate(const Function& raw, const std::function<void()>& notFinite, bool fine) {
   const Function f = [&](const Vec3& w) {
     const double value = raw(w);
     if (!std::isfinite(value)) notFinite();
@@ -85,7 +85,7 @@ Tabulated tabulate(const Function& raw, const std::function<void()>& notFinite) 
       result.table.values.push_back(all.high > 0 ? static_cast<float>(value / all.high) : 0.0f);
     if (result.constant) return result;
     result.error = errorBetween(f, result.table, all.high);
-    if (result.error <= kAgreed || steps >= (alone ? kMostStepsAlone : kMostSteps)) return result;
+    if (!fine || result.error <= kAgreed || steps >= (alone ? kMostStepsAlone : kMostSteps)) return result;
   }
 }
 

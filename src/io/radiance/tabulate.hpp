@@ -14,8 +14,8 @@ struct Tabulated {
 
 /// Samples `f` over unit directions in the table's frame, what is negative as 0. The angles are halved until the values
 /// between them are interpolated to a thousandth of the mean, at most to half a degree, or an eighth where nothing
-/// depends on azimuth. Throws whatever `f` throws; values that are not finite are an exception of `notFinite`.
-/// Cost: 10^4 to 4 10^5 evaluations.
-Tabulated tabulate(const std::function<double(const Vec3&)>& f, const std::function<void()>& notFinite);
+/// depends on azimuth; never when it is not to be `fine`: 2 degrees. Throws whatever `f` throws; values that are not
+/// finite are an exception of `notFinite`. Cost: 10^4 to 4 10^5 evaluations.
+Tabulated tabulate(const std::function<double(const Vec3&)>& f, const std::function<void()>& notFinite, bool fine);
 
 }  // namespace deltalux::radiance
