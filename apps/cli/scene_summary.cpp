@@ -55,9 +55,10 @@ std::string surfaceText(const Surface& surface) {
 
 std::string emissionText(const std::optional<Emission>& emission) {
   if (!emission) return "";
-  return fmt::format(
-      ", emits {} W/(sr m2){}{}", text(emission->radiance), emission->bothSides ? " on both sides" : "",
-      emission->spot ? fmt::format(" within {:.4g} degrees", emission->spot->fullAngle * 180 / kPi) : "");
+  return fmt::format(", emits {} W/(sr m2){}{}{}", text(emission->radiance),
+                     emission->bothSides ? " on both sides" : "",
+                     emission->spot ? fmt::format(" within {:.4g} degrees", emission->spot->fullAngle * 180 / kPi) : "",
+                     emission->pattern ? " in the mean of its pattern" : "");
 }
 
 std::string lightText(const Scene& scene, const Light& light) {

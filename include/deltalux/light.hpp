@@ -2,6 +2,7 @@
 // Senders of light. Every emitting thing of a scene has an entry here, area emitters included, so that an edit can
 // name it and scale it.
 #include <array>
+#include <deltalux/direction_table.hpp>
 #include <deltalux/ids.hpp>
 #include <deltalux/math.hpp>
 #include <deltalux/units.hpp>
@@ -96,6 +97,25 @@ struct CieSky {
   bool operator==(const CieSky&) const = default;
 };
 
+/// The all-weather sky, as gendaylit parametrises it: above the horizon
+///   L = diffuse (1 + a exp(b / cos zenith)) (1 + c exp(d gamma) + e cos^2 gamma),   gamma: the angle to the sun,
+/// and `ground` below. [Perez, Seals & Michalsky 1993, (1); Radiance, perezlum.cal]
+struct PerezSky {
+  double diffuse = 1, ground = 0;                     // [W/(sr m2)]
+  std::array<double, 5> coefficients{0, 0, 0, 0, 0};  // a b c d e
+  Vec3 sunDirection{0, 0, 1};
+
+  bool operator==(const PerezSky&) const = default;
+};
+
+/// Any other sky: radiance [W/(sr m2)] by the direction it comes from.
+struct TabulatedSky {
+  std::shared_ptr<const DirectionTable> table;
+  glm::dmat3 frame{1.0};  // orthogonal; the table's axes in the world
+
+  bool operator==(const TabulatedSky&) const = default;
+};
+
 struct UniformSky {
   double radiance = 1;
 
@@ -107,7 +127,7 @@ struct DomeLight {
   Vec3 axis{0, 0, 1};  // unit
   double halfAngle = kPi / 2;
   Rgb scale{1.0f};
-  std::variant<UniformSky, RadianceSky, CieSky> distribution;
+  std::variant<UniformSky, RadianceSky, CieSky, PerezSky, TabulatedSky> distribution;
   Vec3 up{0, 0, 1};  // zenith of the distribution
 
   bool operator==(const DomeLight&) const = default;

@@ -2,9 +2,11 @@
 // What a surface does with light. Decisions shared with the reference values: plastic's diffuse part is
 // colour (1 - specular) and its specular part uncoloured; no Fresnel boost of opaque speculars; roughness 0 is a
 // perfect mirror; emitters of .rad scenes do not reflect.
+#include <deltalux/direction_table.hpp>
 #include <deltalux/ids.hpp>
 #include <deltalux/math.hpp>
 #include <deltalux/units.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -74,11 +76,25 @@ struct SpotCone {
   bool operator==(const SpotCone&) const = default;
 };
 
-/// Diffuse emission of a surface's front side.
+/// Emission that depends on direction: towards unit w, Emission::radiance times scale * table(w), or, where `normal` is
+/// given, scale * table(w) / |w . normal|: the table is then that of a flat source's intensity, which stays finite
+/// where the surface is seen edge-on. `scale` makes the mean over the emitter, weighted by cosine, 1, so that M = pi L
+/// holds.
+struct EmissionPattern {
+  std::shared_ptr<const DirectionTable> table;
+  glm::dmat3 frame{1.0};  // orthogonal; the table's axes in the world
+  double scale = 1;
+  std::optional<Vec3> normal;  // unit
+
+  bool operator==(const EmissionPattern&) const = default;
+};
+
+/// Emission of a surface's front side, diffuse unless a cone or a pattern says otherwise.
 struct Emission {
   Rgb radiance{0.0f};  // L [W/(sr m2)]; exitance M = pi L
   bool bothSides = false;
   std::optional<SpotCone> spot;
+  std::optional<EmissionPattern> pattern = std::nullopt;
 
   bool operator==(const Emission&) const = default;
 };
@@ -88,6 +104,16 @@ struct Material {
   Surface surface = Opaque{};
   std::optional<Emission> emission;
 };
+
+/// Radiance towards unit `direction`, relative to Emission::radiance.
+double relativeRadiance(const EmissionPattern&, const Vec3& direction);
+/// The same with all that depends on direction and on the distance to what is lit [scene units]; 1 for diffuse
+/// emission.
+double relativeRadiance(const Emission&, const Vec3& direction, double distance);
+/// Whether emission depends on direction.
+inline bool isDirectional(const Emission& emission) { return emission.spot || emission.pattern; }
+/// Turns what depends on direction with the surface; the matrix may scale uniformly.
+void turn(Emission&, const glm::dmat3&);
 
 /// What a material does, told apart as the solver needs it: fractions of incident flux at the front (back) side.
 Rgb diffuseReflectance(const Material&, bool front);

@@ -45,19 +45,12 @@ double relativeIntensity(const Light& light, const Vec3& w) {
       light.emitter);
 }
 
-const SpotCone* spotOf(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId sender) {
+/// Of an emitter whose radiance depends on direction; null for others.
+const Emission* directionalEmission(const hierarchy::Elements& elements, const Scene& scene,
+                                    hierarchy::ElementId sender) {
   if (!elements.at(sender).emitter || !elements.isPatch(sender)) return nullptr;
   const auto& emission = scene.materialOf(elements.domain[sender.index()].primitive).emission;
-  return emission && emission->spot ? &*emission->spot : nullptr;
-}
-
-/// Radiance's rule inside the cone: the inverse square counts from a focus behind the source. [conventions.md]
-double spotFactor(const SpotCone& spot, const Vec3f& toReceiver, float distance) {
-  const double focal = glm::length(spot.direction);
-  const double cosine = focal > 0 ? glm::dot(Vec3(toReceiver), spot.direction) / focal : 1.0;
-  if (cosine < std::cos(0.5 * spot.fullAngle)) return 0.0;
-  const double ratio = distance / (distance + focal);
-  return ratio * ratio;
+  return emission && isDirectional(*emission) ? &*emission : nullptr;
 }
 
 /// World vertices of a flat patch's outline, up to 64.
@@ -123,11 +116,31 @@ double pointKernel(const hierarchy::Elements& elements, const Scene& scene, cons
   const float cosSender = -glm::dot(m, w);
   if (cosSender <= 0) return 0;
   double k = cosReceiver * cosSender / (kPi * squared);
-  if (const SpotCone* spot = spotOf(elements, scene, sender)) k *= spotFactor(*spot, -w, distance);
+  if (const Emission* emission = directionalEmission(elements, scene, sender))
+    k *= relativeRadiance(*emission, -Vec3(w), distance);
   return k;
 }
 
 namespace {
+/// Of a flat source whose radiance, not its intensity, is given by direction: it varies little over what is near.
+bool isWindow(const Emission& emission) { return !emission.spot && emission.pattern && !emission.pattern->normal; }
+
+/// Mean of the relative radiance over the nodes, as much as each sends to `x`.
+double meanRadiance(const Emission& emission, const hierarchy::ElementNodes& nodes, const Vec3f& x, const Vec3f& n) {
+  double sum = 0, weights = 0;
+  for (int j = 0; j < 4; ++j) {
+    const Vec3f d = nodes.position[j] - x;
+    const double squared = glm::dot(d, d), distance = std::sqrt(squared);
+    const double cosines = -double(glm::dot(n, d)) * glm::dot(nodes.normal[j], d);
+    if (!(nodes.weight[j] > 0 && cosines > 0 && squared > 0)) continue;
+    const double weight = nodes.weight[j] * cosines / (squared * squared);
+    sum += weight * relativeRadiance(emission, -Vec3(d) / distance, distance);
+    weights += weight;
+  }
+  if (weights > 0) return sum / weights;
+  return relativeRadiance(emission, Vec3(-n), 1.0);  // the nodes lie below the horizon: what shows is high above it
+}
+
 /// Transfer from a flat patch some of its radii away. The nodes sample half of its extent: together with the centre
 /// they give the mean to second order.
 double toDistantFlat(const hierarchy::Elements& elements, const Scene& scene, const Vec3f& x, const Vec3f& n,
@@ -152,14 +165,16 @@ double kernelAtPoint(const hierarchy::Elements& elements, const Scene& scene, co
   const hierarchy::ElementGeometry& g = elements.shape(sender);
   const hierarchy::ElementNodes& nodes = elements.nodes[sender.index()];
   if (elements.isPoint(sender)) return pointKernel(elements, scene, x, n, sender, g.center, Vec3f(0.0f));
-  if (elements.isPatch(sender) && elements.at(sender).flat && !isZero(n) && !spotOf(elements, scene, sender)) {
+  const Emission* directional = directionalEmission(elements, scene, sender);
+  if (elements.isPatch(sender) && elements.at(sender).flat && !isZero(n) && (!directional || isWindow(*directional))) {
     const Vec3f d = g.center - x;
     if (glm::dot(d, d) < kNear * kNear * g.radius * g.radius) {
       // A point in its plane may come to lie above it by rounding, and would see half of it: the other side of a leaf.
       if (glm::dot(x - g.center, g.normal) <= roundingAlong(g.normal, x, g)) return 0;
       std::array<Vec3f, 64> outline;
       const std::size_t count = worldOutline(elements, sender, outline);
-      return formFactorToPolygon(x, n, {outline.data(), count});
+      const double F = formFactorToPolygon(x, n, {outline.data(), count});
+      return directional ? F * meanRadiance(*directional, nodes, x, n) : F;
     }
     return toDistantFlat(elements, scene, x, n, sender);
   }

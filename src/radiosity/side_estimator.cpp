@@ -216,12 +216,7 @@ Rgb SideEstimator::fromArea(const Vec3f& x, const Vec3f& n, PrimitiveId primitiv
   float cosEmitter = -glm::dot(Vec3f(y.normal), w);
   if (material.emission->bothSides) cosEmitter = std::abs(cosEmitter);
   if (!(cosine > 0 && cosEmitter > 0)) return Rgb(0.0f);
-  if (const auto& spot = material.emission->spot) {
-    const double focal = glm::length(spot->direction);
-    if (glm::dot(-Vec3(w), spot->direction) < focal * std::cos(0.5 * spot->fullAngle)) return Rgb(0.0f);
-    const float ratio = std::sqrt(squared) / (std::sqrt(squared) + static_cast<float>(focal));
-    cosEmitter *= ratio * ratio;
-  }
+  cosEmitter *= static_cast<float>(relativeRadiance(*material.emission, -Vec3(w), std::sqrt(squared)));
   const float A = static_cast<float>(area(shape));
   const float kernel = std::min(cosine * cosEmitter * A / squared, float(kPi));
   return kernel * material.emission->radiance * scale *

@@ -43,12 +43,7 @@ const Emission* emissionOf(const Scene& scene, PrimitiveId p) {
 
 Rgb emittedRadiance(const Emission& emission, const Vec3& direction, double distance, bool front) {
   if (!front && !emission.bothSides) return Rgb(0.0f);
-  if (!emission.spot) return emission.radiance;
-  const double focal = glm::length(emission.spot->direction);
-  const double cosine = glm::dot(direction, emission.spot->direction);
-  if (cosine < std::cos(0.5 * emission.spot->fullAngle) * focal) return Rgb(0.0f);
-  const double factor = distance / (distance + focal);
-  return emission.radiance * static_cast<float>(factor * factor);
+  return emission.radiance * static_cast<float>(relativeRadiance(emission, direction, distance));
 }
 
 /// Made when first asked for: many who sample area lights never ask.

@@ -91,6 +91,18 @@ double radiance(const CieSky& sky, const Vec3& towards, const Vec3& up) {
   return sky.zenith * relative;
 }
 
+double radiance(const PerezSky& sky, const Vec3& towards, const Vec3& up) {
+  constexpr double kLowest = 0.01;  // the gradation is held constant below, where it would divide by 0
+  const double cosZenith = glm::dot(towards, up);
+  if (cosZenith <= 0) return std::max(0.0, sky.ground);
+  const auto& [a, b, c, d, e] = sky.coefficients;
+  const double cosSun = glm::dot(towards, sky.sunDirection);
+  const double gradation = 1 + a * std::exp(b / std::max(cosZenith, kLowest));
+  const double indicatrix = 1 + c * std::exp(d * angleOf(cosSun)) + e * cosSun * cosSun;
+  const double value = sky.diffuse * gradation * indicatrix;
+  return std::isfinite(value) ? std::max(0.0, value) : 0.0;
+}
+
 }  // namespace deltalux::scene
 
 namespace deltalux {
@@ -103,6 +115,10 @@ Rgb skyRadiance(const DomeLight& dome, const Vec3& towards) {
     double operator()(const UniformSky& sky) const { return sky.radiance; }
     double operator()(const RadianceSky& sky) const { return scene::radiance(sky, towards, up); }
     double operator()(const CieSky& sky) const { return scene::radiance(sky, towards, up); }
+    double operator()(const PerezSky& sky) const { return scene::radiance(sky, towards, up); }
+    double operator()(const TabulatedSky& sky) const {
+      return valueAt(*sky.table, glm::transpose(sky.frame) * towards);
+    }
   };
   return static_cast<float>(std::visit(Visitor{towards, dome.up}, dome.distribution)) * dome.scale;
 }

@@ -75,6 +75,14 @@ void checkLobe(const SpecularLobe& lobe, const std::string& where) {
   require(finite(lobe.roughness) && lobe.roughness >= 0, where + ": roughness");
 }
 
+void checkTable(const std::shared_ptr<const DirectionTable>& table, const glm::dmat3& frame, const std::string& where) {
+  require(table != nullptr && table->rows >= 2 && table->columns >= 1 && !table->values.empty() &&
+              table->values.size() / table->rows == table->columns && table->values.size() % table->rows == 0,
+          where + ": its table");
+  for (const float value : table->values) require(std::isfinite(value) && value >= 0, where + ": a value");
+  for (int i = 0; i < 3; ++i) require(unit(frame[i]), where + ": its frame");
+}
+
 void checkMaterial(const Scene& scene, const Material& material, const std::string& where) {
   std::visit(Overloaded{
                  [&](const Opaque& s) {
@@ -104,10 +112,15 @@ void checkMaterial(const Scene& scene, const Material& material, const std::stri
              material.surface);
   if (!material.emission) return;
   require(nonNegative(material.emission->radiance), where + ": emitted radiance");
-  if (!material.emission->spot) return;
-  const SpotCone& cone = *material.emission->spot;
-  require(finite(cone.fullAngle) && cone.fullAngle > 0 && finite(cone.direction) && cone.direction != Vec3(0),
-          where + ": spot cone");
+  if (const auto& cone = material.emission->spot) {
+    require(finite(cone->fullAngle) && cone->fullAngle > 0 && finite(cone->direction) && cone->direction != Vec3(0),
+            where + ": spot cone");
+  }
+  if (const auto& pattern = material.emission->pattern) {
+    checkTable(pattern->table, pattern->frame, where + ": emission pattern");
+    require(finite(pattern->scale) && pattern->scale >= 0 && (!pattern->normal || unit(*pattern->normal)),
+            where + ": emission pattern");
+  }
 }
 
 void checkLight(const Scene& scene, const Light& light, const std::string& where) {
@@ -144,6 +157,10 @@ void checkLight(const Scene& scene, const Light& light, const std::string& where
                    if (const auto* sky = std::get_if<CieSky>(&l.distribution)) {
                      require(sky->type >= 1 && sky->type <= 15 && unit(sky->sunDirection), where + ": CIE sky");
                    }
+                   if (const auto* sky = std::get_if<PerezSky>(&l.distribution))
+                     require(unit(sky->sunDirection), where + ": Perez sky");
+                   if (const auto* sky = std::get_if<TabulatedSky>(&l.distribution))
+                     checkTable(sky->table, sky->frame, where + ": sky");
                  },
              },
              light.emitter);

@@ -236,6 +236,21 @@ TEST(ParticleEmission, Spotlight) {
                    {Rgb(2.0f), false, SpotCone{1.0, 0.5 * glm::normalize(Vec3(1, 0.1, -0.2))}});
 }
 
+/// Twice as bright at +x as at -x.
+std::shared_ptr<const DirectionTable> lopsided() {
+  DirectionTable table{19, 36, {}};
+  for (int row = 0; row < 19; ++row)
+    for (int column = 0; column < 36; ++column)
+      table.values.push_back(static_cast<float>(3 + std::sin(row * kPi / 18) * std::cos(column * kPi / 18)));
+  return std::make_shared<const DirectionTable>(std::move(table));
+}
+TEST(ParticleEmission, LampWithAPattern) {
+  const Vec3 normal = glm::normalize(Vec3(1, 0.1, -0.2));
+  for (const std::optional<Vec3>& ofIntensity : {std::optional<Vec3>(), std::optional(normal)})
+    expectLampFluxes(Ring{{0, 0, 1}, normal, 0, 0.2},
+                     {Rgb(2.0f), false, {}, EmissionPattern{lopsided(), glm::dmat3(1.0), 0.3, ofIntensity}});
+}
+
 void expectPointFluxes(decltype(Light::emitter) emitter) {
   Scene scene = receivers();
   test::addLight(scene, std::move(emitter));

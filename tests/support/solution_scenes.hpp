@@ -19,6 +19,12 @@ inline std::shared_ptr<const Photometry> lopsided() {
   return std::make_shared<const Photometry>(std::move(p));
 }
 
+/// Brighter towards +z than towards -z.
+inline std::shared_ptr<const DirectionTable> upwards() {
+  static const auto table = std::make_shared<const DirectionTable>(DirectionTable{3, 2, {2, 2, 1, 1.5f, 0.5f, 0.5f}});
+  return table;
+}
+
 inline void addEveryShape(Scene& scene) {
   const MaterialId white = addMaterial(scene, "white", lambert(0.7f));
   const MaterialId brass =
@@ -29,8 +35,9 @@ inline void addEveryShape(Scene& scene) {
   const MaterialId mirror = addMaterial(scene, "mirror", Mirror{Rgb(0.8f)});
   scene.textures.push_back(checker());
   const MaterialId tiles = addMaterial(scene, "tiles", Opaque{Rgb(0.9f), TextureId(0), {}});
-  const MaterialId lamp =
-      addMaterial(scene, "lamp", lambert(0), Emission{Rgb(20.0f, 18.0f, 12.0f), false, SpotCone{1.5, {0, 0, -1}}});
+  const MaterialId lamp = addMaterial(scene, "lamp", lambert(0),
+                                      Emission{Rgb(20.0f, 18.0f, 12.0f), false, SpotCone{1.5, {0, 0, -1}},
+                                               EmissionPattern{upwards(), glm::dmat3(1.0), 0.8, Vec3(0, 0, -1)}});
 
   addBox(scene, white, Vec3(0), Vec3(3, 2, 2), true);
   scene.primitives.pop_back();  // one wall is open to the sky
@@ -65,6 +72,10 @@ inline void addEveryLight(Scene& scene) {
       {0, 0, 1}, kPi / 2, Rgb(0.6f, 0.7f, 0.9f), RadianceSky{RadianceSky::Kind::Clear, 3, 1, 0.5, sun}, {0, 0, 1}};
   addLight(scene, sky);
   sky.distribution = CieSky{12, 0.5, 0.1, sun}, sky.scale = Rgb(0.5f);
+  addLight(scene, sky);
+  sky.distribution = PerezSky{0.5, 0.1, {-1, -0.3, 5, -2, 0.3}, sun};
+  addLight(scene, sky);
+  sky.distribution = TabulatedSky{upwards(), glm::dmat3(1.0)};
   addLight(scene, sky);
   addLight(scene, DomeLight{{0, 0, -1}, kPi / 2, Rgb(0.1f), UniformSky{1.5}, {0, 0, 1}});
   scene.lights.back().scale = Rgb(1.0f, 0.5f, 0.25f);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr long kMostCalls = 20000000;
 constexpr std::size_t kDeepestDefinitions = 100;
+constexpr std::size_t kCharactersOfACall = 100;  // of a program that takes about as long as a call
 
 /// calc's comments stand in braces, which nest.
 std::string withoutComments(std::string_view text) {
@@ -39,13 +40,21 @@ bool isName(const std::string& text) {
 }  // namespace
 
 double Calc::Compiled::operator()(const double* arguments, std::size_t count) {
-  if (--*callsLeft < 0) throw mu::ParserError("the expressions call each other too often");
-  std::copy(arguments, arguments + count, slots.begin());
+  if ((*callsLeft -= cost) < 0) throw mu::ParserError("the expressions call each other too often");
+  std::copy(arguments, arguments + std::min(count, slots.size()), slots.begin());
   return parser.Eval();
 }
 
-Calc::Calc(SourceLine where) : where_(std::move(where)), callsLeft_(kMostCalls) { variables_["PI"] = std::acos(-1.0); }
+Calc::Calc(SourceLine where) : Calc(std::move(where), ownCalls_) {}
+Calc::Calc(SourceLine where, long& calls) : where_(std::move(where)), ownCalls_(kMostCalls), callsLeft_(&calls) {
+  variables_["PI"] = std::acos(-1.0);
+}
 Calc::~Calc() = default;
+
+bool Calc::reads(const std::string& name) const {
+  const auto found = bound_.find(name);
+  return found != bound_.end() && found->second.read;
+}
 
 void Calc::fail(const std::string& message) const { throw inputError(where_, message); }
 
@@ -84,13 +93,17 @@ std::unique_ptr<Calc::Compiled> Calc::compile(const Definition& definition) {
   CalcTranslator translator(*this, definition.expression, definition.parameters);
   const std::string program = translator.translate();
   auto compiled = std::make_unique<Compiled>();
-  compiled->callsLeft = &callsLeft_;
+  compiled->callsLeft = callsLeft_;
+  compiled->cost = 1 + static_cast<long>(program.size() / kCharactersOfACall);
+  compiled->varies = !translator.reads().empty();
   compiled->slots.resize(definition.parameters.size());
   compiled->parser = calcParser();
   for (std::size_t i = 0; i < compiled->slots.size(); ++i) {
     compiled->parser.DefineVar("p" + std::to_string(i), &compiled->slots[i]);
   }
+  for (const auto& [name, variable] : translator.reads()) compiled->parser.DefineVar(name, variable);
   for (const auto& [name, callee] : translator.calls()) {
+    compiled->varies = compiled->varies || callee->varies;
     compiled->parser.DefineFunUserData(
         name,
         +[](void* function, const double* arguments, int count) {
@@ -107,14 +120,24 @@ std::unique_ptr<Calc::Compiled> Calc::compile(const Definition& definition) {
 }
 
 Calc::Compiled& Calc::compiledFunction(const std::string& name) {
+  if (definitions_.at(name).parameters.empty()) fail("'" + name + "' is a variable, not a function");
+  return compiledOnce(name);
+}
+
+Calc::Compiled& Calc::compiledVariable(const std::string& name) {
+  const auto found = definitions_.find(name);
+  if (found == definitions_.end()) fail("no variable '" + name + "' is defined");
+  if (!found->second.parameters.empty()) fail("'" + name + "' is a function, not a variable");
+  return compiledOnce(name);
+}
+
+Calc::Compiled& Calc::compiledOnce(const std::string& name) {
   if (const auto known = compiled_.find(name); known != compiled_.end()) return *known->second;
   if (std::find(inProgress_.begin(), inProgress_.end(), name) != inProgress_.end()) {
     fail("'" + name + "' is defined by itself, which is not supported");
   }
-  const Definition& definition = definitions_.at(name);
-  if (definition.parameters.empty()) fail("'" + name + "' is a variable, not a function");
   inProgress_.push_back(name);
-  auto compiled = compile(definition);
+  auto compiled = compile(definitions_.at(name));
   inProgress_.pop_back();
   return *(compiled_[name] = std::move(compiled));
 }

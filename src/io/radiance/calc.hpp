@@ -5,6 +5,9 @@
 // grammar (where -a^b is (-a)^b), and written out for muParser fully parenthesised; user functions become callbacks
 // with a parser each, user variables become numbers. if(c,a,b) evaluates the one branch it takes. Departures: no
 // recursion, no noise, rand or external data: InputErrors, as are values that are not finite.
+//
+// Pattern functions read variables that change from one evaluation to the next: bind() makes them. With any bound, user
+// variables become functions too, unless nothing bound is behind them.
 #include <functional>
 #include <map>
 #include <memory>
@@ -19,12 +22,19 @@ namespace deltalux::io::radiance {
 class Calc {
  public:
   explicit Calc(SourceLine where);
+  /// `calls` bounds the work of all evaluations and is counted down; an InputError says when it is used up.
+  Calc(SourceLine where, long& calls);
   ~Calc();
   Calc(const Calc&) = delete;
   Calc& operator=(const Calc&) = delete;
 
   /// Adds the definitions of `text` (an -e expression or the contents of a .cal file); later ones win.
   void define(std::string_view text);
+
+  /// A variable of that name, to be set before functions run. To be called before any is made.
+  double& bind(const std::string& name) { return bound_[name].value; }
+  /// Whether anything made so far reads the bound variable.
+  bool reads(const std::string& name) const;
 
   using Function = std::function<double(std::vector<double>)>;
   /// The function (parameters) -> expression. The Calc must outlive it.
@@ -40,9 +50,15 @@ class Calc {
     std::string expression;
   };
   struct Compiled;
+  struct Bound {
+    double value = 0;
+    bool read = false;
+  };
   friend class CalcTranslator;
 
   Compiled& compiledFunction(const std::string& name);
+  Compiled& compiledVariable(const std::string& name);
+  Compiled& compiledOnce(const std::string& name);
   double variable(const std::string& name);
   std::unique_ptr<Compiled> compile(const Definition&);
   [[noreturn]] void fail(const std::string& message) const;
@@ -52,8 +68,10 @@ class Calc {
   std::map<std::string, std::unique_ptr<Compiled>> compiled_;
   std::vector<std::unique_ptr<Compiled>> own_;  // of function()
   std::map<std::string, double> variables_;
+  std::map<std::string, Bound> bound_;
   std::vector<std::string> inProgress_;  // names being compiled: a repeat is a recursion
-  long callsLeft_;                       // bounds the work that hostile definitions can ask for
+  long ownCalls_;                        // bounds the work that hostile definitions can ask for
+  long* callsLeft_;
 };
 
 }  // namespace deltalux::io::radiance

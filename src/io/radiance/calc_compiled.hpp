@@ -1,6 +1,7 @@
 #pragma once
 #include <muParser.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ struct Calc::Compiled {
   std::vector<double> slots;
   mu::Parser parser;
   long* callsLeft = nullptr;
+  long cost = 1;        // in calls: long programs take their time
+  bool varies = false;  // with bound variables
 
   double operator()(const double* arguments, std::size_t count);
 };

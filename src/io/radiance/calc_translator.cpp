@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <iterator>
 
 #include "io/radiance/calc_compiled.hpp"
 
@@ -78,7 +80,10 @@ std::string CalcTranslator::primary() {
   }
   if (isDigit(c) || c == '.') return number();
   if (beginsName(c)) return name();
-  fail(c == '\0' ? "it ends too early" : std::string("'") + c + "' is not expected here");
+  if (c == '\0') fail("it ends too early");
+  std::string message = "'";
+  message += c;
+  fail(message += "' is not expected here");
 }
 
 std::string CalcTranslator::number() {
@@ -97,7 +102,30 @@ std::string CalcTranslator::name() {
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     if (parameters_[i] == found) return "p" + std::to_string(i);
   }
-  return parenthesised(calc_.variable(found));
+  return variable(found);
+}
+
+std::string CalcTranslator::variable(const std::string& name) {
+  const auto bound = calc_.bound_.find(name);
+  if (calc_.definitions_.count(name) == 0 && bound != calc_.bound_.end()) {
+    bound->second.read = true;
+    std::string alias = "b" + std::to_string(std::distance(calc_.bound_.begin(), bound));
+    reads_[alias] = &bound->second.value;
+    return alias;
+  }
+  if (calc_.bound_.empty() || calc_.variables_.count(name) != 0) return parenthesised(calc_.variable(name));
+  Calc::Compiled& compiled = calc_.compiledVariable(name);
+  if (!compiled.varies) {
+    try {
+      if (const double value = compiled(nullptr, 0); std::isfinite(value)) return parenthesised(value);
+    } catch (const mu::ParserError& error) {
+      fail(error.GetMsg());
+    }
+  }
+  std::string callee = "f" + std::to_string(calls_.size());
+  calls_[callee] = &compiled;
+  callee += "(0)";  // muParser's functions take an argument
+  return callee;
 }
 
 std::string CalcTranslator::call(const std::string& function) {

@@ -18,6 +18,8 @@ class CalcTranslator {
   std::string translate();
   /// User functions that the expression calls: the name given to muParser, and the function.
   const std::map<std::string, Calc::Compiled*>& calls() const { return calls_; }
+  /// Bound variables that it reads: the name given to muParser, and the variable.
+  const std::map<std::string, double*>& reads() const { return reads_; }
 
  private:
   std::string sum();
@@ -27,6 +29,7 @@ class CalcTranslator {
   std::string primary();
   std::string number();
   std::string name();
+  std::string variable(const std::string& name);
   std::string call(const std::string& function);
 
   char peek();
@@ -40,6 +43,7 @@ class CalcTranslator {
   std::size_t position_ = 0;
   int depth_ = 0;
   std::map<std::string, Calc::Compiled*> calls_;
+  std::map<std::string, double*> reads_;
 };
 
 /// Whether `c` may begin, or stand in, a name of calc's language.

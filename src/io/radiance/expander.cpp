@@ -75,17 +75,18 @@ Expander::Objects Expander::generate(const std::vector<std::string>& words, cons
                                      const fs::path& folder) {
   using Generator = std::vector<RadObject> (*)(const GeneratorInput&);
   static constexpr std::pair<std::string_view, Generator> kGenerators[] = {
-      {"genbox", genbox},   {"genprism", genprism}, {"genrev", genrev},
-      {"gensurf", gensurf}, {"genworm", genworm},   {"gensky", gensky},
+      {"genbox", genbox},   {"genprism", genprism}, {"genrev", genrev},       {"gensurf", gensurf},
+      {"genworm", genworm}, {"gensky", gensky},     {"gendaylit", gendaylit},
   };
   for (const auto& [name, generator] : kGenerators) {
     if (words[0] != name) continue;
     const auto openFile = [&](const std::string& file) { return open(file, where, folder); };
     return generator({std::span(words).subspan(1), where, openFile, limits_.objects});
   }
-  throw inputError(where, "the command '" + words[0].substr(0, 40) + "' is not evaluated here",
-                   "known are xform, genbox, genprism, genrev, gensurf, genworm and gensky; expand others beforehand: "
-                   "xform -e FILE > EXPANDED");
+  throw inputError(
+      where, "the command '" + words[0].substr(0, 40) + "' is not evaluated here",
+      "known are xform, genbox, genprism, genrev, gensurf, genworm, gensky and gendaylit; expand others beforehand: "
+      "xform -e FILE > EXPANDED");
 }
 
 Expander::Objects Expander::transformed(const std::vector<std::string>& words, const Objects* piped,

@@ -17,6 +17,7 @@ struct ExpansionLimits {
   std::size_t objects = 5'000'000;    // of one list; beyond it the input is taken for a mistake
   std::size_t numbers = 200'000'000;  // in their argument lists
   std::size_t depth = 32;             // of files that include files
+  long patternCalls = 100'000'000;    // of functions that patterns of lights call: some 20 s
 };
 
 class Expander {

@@ -1,7 +1,8 @@
 #pragma once
 // Radiance's scene generators, evaluated natively. Each takes the words after its name, as its manual page has them,
 // and returns the objects that its output would hold, in its order and under its names. Wrong arguments are
-// InputErrors. [Radiance manual pages genbox(1), genprism(1), genrev(1), gensurf(1), genworm(1), gensky(1)]
+// InputErrors. [Radiance manual pages genbox(1), genprism(1), genrev(1), gensurf(1), genworm(1), gensky(1),
+// gendaylit(1)]
 #include <functional>
 #include <span>
 #include <string>
@@ -29,5 +30,8 @@ std::vector<RadObject> genrev(const GeneratorInput&);
 std::vector<RadObject> gensurf(const GeneratorInput&);
 std::vector<RadObject> genworm(const GeneratorInput&);
 std::vector<RadObject> gensky(const GeneratorInput&);
+/// Departures: the sky is normalised by quadrature where gendaylit adds 145 patches (1 to 2 % apart), and the ground
+/// gets what sun and sky send to it; with -ang the sun is at its mean distance. -i and -C are refused.
+std::vector<RadObject> gendaylit(const GeneratorInput&);
 
 }  // namespace deltalux::io::radiance

@@ -36,8 +36,14 @@ Modifier ModifierTable::resolve(const RadObject& object) {
   const Modifier base = object.modifier == "inherit" ? Modifier{} : lookUp(object.modifier, object);
   switch (object.type) {
     case Type::Pattern:
-      ++report_.ignored[object.typeName];
-      return base;
+      patterns_.push_back(&object);
+      [[fallthrough]];
+    case Type::SkyBrightness:
+    case Type::PerezBrightness: {
+      Modifier modifier = base;
+      modifier.patterns.push_back(&object);
+      return modifier;
+    }
     case Type::Mixture: {
       ++report_.ignored[object.typeName];
       if (object.strings.size() < 2) {
@@ -46,21 +52,27 @@ Modifier ModifierTable::resolve(const RadObject& object) {
       const Modifier first = lookUp(object.strings[0], object);
       return first.material.valid() || !first.unsupported.empty() ? first : lookUp(object.strings[1], object);
     }
-    case Type::SkyBrightness: {
-      Modifier modifier = base;
-      modifier.sky = &object;
-      return modifier;
-    }
     case Type::Alias: {
-      Modifier modifier = lookUp(object.strings[0], object);
-      if (base.sky != nullptr) modifier.sky = base.sky;
-      return modifier;
+      const Modifier modifier = lookUp(object.strings[0], object);
+      return base.patterns.empty() ? modifier : patterned(modifier, base);
     }
     case Type::Unsupported:
-      return {{}, object.type, object.typeName, nullptr};
+      return {{}, object.type, object.typeName, {}};
     default:
-      return {materialFor(object), object.type, {}, base.sky};
+      return patterned({materialFor(object), object.type, {}, {}}, base);
   }
+}
+
+Modifier ModifierTable::patterned(Modifier modifier, const Modifier& base) {
+  modifier.patterns = base.patterns;
+  const bool emits = modifier.material.valid() && scene_[modifier.material].emission;
+  if (!emits) onSurfaces_.insert(base.patterns.begin(), base.patterns.end());
+  return modifier;
+}
+
+void ModifierTable::noteUnread(const std::function<bool(const RadObject&)>& read) {
+  for (const RadObject* pattern : patterns_)
+    if (!read(*pattern) || onSurfaces_.count(pattern) != 0) ++report_.ignored[pattern->typeName];
 }
 
 MaterialId ModifierTable::alternateOf(const RadObject& object) const {

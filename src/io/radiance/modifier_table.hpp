@@ -1,8 +1,10 @@
 #pragma once
 // The modifiers of a scene by name, resolved as they are defined: a name means its last definition before the use.
 #include <deltalux/io.hpp>
+#include <functional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "io/radiance/rad_object.hpp"
@@ -11,10 +13,10 @@ namespace deltalux::io::radiance {
 
 /// What a modifier amounts to at the end of its chain of patterns, textures, mixtures and aliases.
 struct Modifier {
-  MaterialId material;                // invalid: none, or an unsupported one
-  Type materialType = Type::Plastic;  // as defined
-  std::string unsupported;            // type word of the unsupported material that ends the chain
-  const RadObject* sky = nullptr;     // the sky pattern on the way, if any
+  MaterialId material;                     // invalid: none, or an unsupported one
+  Type materialType = Type::Plastic;       // as defined
+  std::string unsupported;                 // type word of the unsupported material that ends the chain
+  std::vector<const RadObject*> patterns;  // on the way
 };
 
 class ModifierTable {
@@ -23,6 +25,8 @@ class ModifierTable {
 
   /// Takes a definition; the object must outlive the table. Throws InputError for undefined references.
   void define(const RadObject&);
+  /// Counts the patterns that had no effect: `read` tells which a light took.
+  void noteUnread(const std::function<bool(const RadObject&)>& read);
   /// The modifier of `object` ("void" is an empty one). Throws InputError when it is not defined.
   Modifier modifierOf(const RadObject& object) const { return lookUp(object.modifier, object); }
 
@@ -34,6 +38,7 @@ class ModifierTable {
 
   Modifier lookUp(const std::string& name, const RadObject& user) const;
   Modifier resolve(const RadObject&);
+  Modifier patterned(Modifier, const Modifier& base);
   void noteSimplifications(const RadObject&);
   MaterialId alternateOf(const RadObject&) const;
   MaterialId materialFor(const RadObject&);
@@ -41,6 +46,8 @@ class ModifierTable {
   Scene& scene_;
   ImportReport& report_;
   std::unordered_map<std::string, Modifier> byName_;
+  std::vector<const RadObject*> patterns_;                   // as defined, those of skies aside
+  std::unordered_set<const RadObject*> onSurfaces_;          // patterns of what does not emit
   std::unordered_map<std::string, std::vector<Made>> made_;  // equal definitions of a name share one material
 };
 

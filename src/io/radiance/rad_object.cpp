@@ -150,7 +150,7 @@ std::optional<Type> typeNamed(std::string_view word) {
 
 std::string nameOf(Type type) {
   if (type == Type::GeneratedMesh) return "mesh";
-  if (type == Type::SkyBrightness) return "brightfunc";
+  if (type == Type::SkyBrightness || type == Type::PerezBrightness) return "brightfunc";
   const auto* const found =
       std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& entry) { return entry.second == type; });
   return std::string(found->first);

@@ -2,6 +2,7 @@
 // One object of a Radiance scene description as the file has it: `modifier type name` and its arguments.
 // [Radiance reference manual, "Scene description"]
 #include <deltalux/error.hpp>
+#include <deltalux/math.hpp>
 #include <deltalux/shape.hpp>
 #include <memory>
 #include <optional>
@@ -50,8 +51,9 @@ enum class Type {
   Spotlight,
   Unsupported,  // a material of Radiance that has no counterpart here
   Alias,
-  // patterns, textures and mixtures: their effect is skipped, their modifier counts
-  SkyBrightness,  // brightfunc skybr skybright.cal
+  SkyBrightness,    // brightfunc skybr skybright.cal
+  PerezBrightness,  // brightfunc skybright perezlum.cal
+  // patterns, textures and mixtures: lights get the patterns that can be evaluated; else the modifier alone counts
   Pattern,
   Mixture
 };
@@ -63,7 +65,8 @@ struct RadObject {
   std::string name;
   std::vector<std::string> strings;
   std::vector<double> reals;
-  std::shared_ptr<const Mesh> mesh;  // GeneratedMesh only
+  std::shared_ptr<const Mesh> mesh;     // GeneratedMesh only
+  std::shared_ptr<const Mat4> toWorld;  // Pattern only: of the xforms around it; null: none
   SourceLine where;
 };
 

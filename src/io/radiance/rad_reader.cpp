@@ -15,12 +15,12 @@ ImportedScene loadRadiance(const std::vector<fs::path>& files, const ImportSetti
         expander.expand({file.string(), file.parent_path(), fs::weakly_canonical(file).string(), readInputFile(file)});
     objects.insert(objects.end(), expanded->begin(), expanded->end());
   }
-  return radiance::buildScene(objects, settings);
+  return radiance::buildScene(objects, disk, settings, {});
 }
 
 ImportedScene readRadiance(const radiance::SourceFile& file, radiance::FileAccess& files,
                            const ImportSettings& settings, const radiance::ExpansionLimits& limits) {
-  return radiance::buildScene(*radiance::Expander(files, limits).expand(file), settings);
+  return radiance::buildScene(*radiance::Expander(files, limits).expand(file), files, settings, limits);
 }
 
 }  // namespace deltalux::io

@@ -1,24 +1,17 @@
 #include "io/radiance/rad_sources.hpp"
 
-#include "io/radiance/sky_pattern.hpp"
-
 namespace deltalux::io::radiance {
 
 namespace {
 
 constexpr double kLargestSun = 20;  // degrees across
 
-DomeLight dome(const Vec3& axis, double degrees, const Rgb& colour, const RadObject* sky) {
+DomeLight dome(const Vec3& axis, double degrees, const Rgb& colour) {
   DomeLight light;
   light.axis = axis;
   light.halfAngle = glm::radians(degrees / 2);
   light.scale = colour;
-  if (sky != nullptr) {
-    light.distribution = skyOf(*sky);
-    light.up = zenithOf(*sky);
-  } else {
-    light.distribution = UniformSky{1.0};
-  }
+  light.distribution = UniformSky{1.0};
   return light;
 }
 
@@ -41,7 +34,7 @@ std::optional<Light> makeSource(const RadObject& object, const Modifier& modifie
   if (!isGlow && degrees <= kLargestSun) {
     light.emitter = SunLight{axis, glm::radians(degrees / 2), material.emission->radiance};
   } else {
-    light.emitter = dome(axis, degrees, material.emission->radiance, modifier.sky);
+    light.emitter = dome(axis, degrees, material.emission->radiance);
   }
   return light;
 }

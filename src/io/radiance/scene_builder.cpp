@@ -1,5 +1,6 @@
 #include "io/radiance/scene_builder.hpp"
 
+#include "io/radiance/emission_patterns.hpp"
 #include "io/radiance/modifier_table.hpp"
 #include "io/radiance/rad_shapes.hpp"
 #include "io/radiance/rad_sources.hpp"
@@ -11,8 +12,10 @@ namespace {
 
 class SceneBuilder {
  public:
-  explicit SceneBuilder(const ImportSettings& settings)
-      : modifiers_(result_.scene, result_.report), names_(result_.scene) {
+  SceneBuilder(FileAccess& files, const ImportSettings& settings, const ExpansionLimits& limits)
+      : modifiers_(result_.scene, result_.report),
+        patterns_(result_.scene, result_.report, files, limits.patternCalls),
+        names_(result_.scene) {
     result_.scene.metresPerUnit = settings.metresPerUnit;
     result_.report.luminousEfficacy = kLuminousEfficacy;
   }
@@ -29,6 +32,7 @@ class SceneBuilder {
 
   ImportedScene take() {
     addAreaLights(result_.scene);
+    modifiers_.noteUnread([&](const RadObject& pattern) { return patterns_.asked(pattern); });
     warn();
     return std::move(result_);
   }
@@ -49,12 +53,13 @@ class SceneBuilder {
     } else if (!modifier.material.valid()) {
       ignore("surface without material");
     } else {
-      addShapes(object, modifier.material);
+      addShapes(object, modifier);
     }
   }
 
   void addSource(const RadObject& object, const Modifier& modifier) {
     if (auto light = makeSource(object, modifier, result_.scene)) {
+      patterns_.apply(modifier, *light);
       result_.scene.lights.push_back(std::move(*light));
       ++result_.report.surfaces["source"];
     } else {
@@ -62,12 +67,15 @@ class SceneBuilder {
     }
   }
 
-  void addShapes(const RadObject& object, MaterialId material) {
+  void addShapes(const RadObject& object, const Modifier& modifier) {
     std::vector<Shape> shapes = makeShapes(object);
     if (shapes.empty()) return ignore("zero-area " + object.typeName);
     if (shapes.size() > 1 && bent_++ == 0) firstBent_ = object.where;
     const ObjectId owner = names_.intern(object.name, '.');
-    for (Shape& shape : shapes) result_.scene.primitives.push_back({std::move(shape), material, owner});
+    for (Shape& shape : shapes) {
+      const MaterialId material = patterns_.materialFor(modifier, shape);
+      result_.scene.primitives.push_back({std::move(shape), material, owner});
+    }
     ++result_.report.surfaces[object.typeName];
   }
 
@@ -86,6 +94,7 @@ class SceneBuilder {
 
   ImportedScene result_;
   ModifierTable modifiers_;
+  EmissionPatterns patterns_;
   scene::ObjectIndex names_;
   std::size_t bent_ = 0;
   SourceLine firstBent_;
@@ -93,8 +102,9 @@ class SceneBuilder {
 
 }  // namespace
 
-ImportedScene buildScene(const std::vector<RadObject>& objects, const ImportSettings& settings) {
-  SceneBuilder builder(settings);
+ImportedScene buildScene(const std::vector<RadObject>& objects, FileAccess& files, const ImportSettings& settings,
+                         const ExpansionLimits& limits) {
+  SceneBuilder builder(files, settings, limits);
   for (const RadObject& object : objects) builder.add(object);
   return builder.take();
 }

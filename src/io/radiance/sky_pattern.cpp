@@ -4,9 +4,26 @@
 
 namespace deltalux::io::radiance {
 
-void recogniseSky(RadObject& object) {
-  if (object.strings.size() < 2 || object.strings[0] != "skybr" || !object.strings[1].ends_with("skybright.cal"))
-    return;
+namespace {
+
+[[noreturn]] void fail(const RadObject& object, const std::string& message, const std::string& hint = {}) {
+  throw inputError(object.where, "brightfunc '" + object.name + "': " + message, hint);
+}
+
+/// The canonical form, in the world's directions.
+void become(RadObject& object, Type type, std::vector<double> reals) {
+  const std::span<const std::string> options = std::span(object.strings).subspan(2);
+  std::size_t used = 0;
+  const Transform transform = parseTransform(options, used, object.where);
+  if (used != options.size()) fail(object, "'" + options[used] + "' is no transform option");
+  RadObject canonical = object;
+  canonical.type = type;
+  canonical.strings.clear();
+  canonical.reals = std::move(reals);
+  object = placed(canonical, Placement{transform, false, {}, {}});
+}
+
+void recogniseGensky(RadObject& object) {
   const std::vector<double>& a = object.reals;
   const int kind = a.empty() ? 0 : static_cast<int>(a[0]);
   const bool cloudy = kind == 2 || kind == 3;
@@ -23,17 +40,27 @@ void recogniseSky(RadObject& object) {
     }
     sky.sunDirection = glm::normalize(sky.sunDirection);
   }
-  const std::span<const std::string> options = std::span(object.strings).subspan(2);
-  std::size_t used = 0;
-  const Transform transform = parseTransform(options, used, object.where);
-  if (used != options.size()) {
-    throw inputError(object.where, "brightfunc '" + object.name + "': '" + options[used] + "' is no transform option");
+  become(object, Type::SkyBrightness, skyArguments(sky, Vec3(0, 0, 1)));
+}
+
+void recogniseGendaylit(RadObject& object) {
+  const std::vector<double>& a = object.reals;
+  if (a.size() != 10) {
+    fail(object, "skybright's arguments are not those of gendaylit",
+         "diffuse normalisation, ground brightness, five coefficients, sun direction");
   }
-  RadObject canonical = object;
-  canonical.type = Type::SkyBrightness;
-  canonical.strings.clear();
-  canonical.reals = skyArguments(sky, Vec3(0, 0, 1));
-  object = placed(canonical, Placement{transform, false, {}, {}});
+  const Vec3 sun(a[7], a[8], a[9]);
+  PerezSky sky{a[0], a[1], {a[2], a[3], a[4], a[5], a[6]}, glm::length(sun) > 0 ? glm::normalize(sun) : Vec3(0, 0, 1)};
+  become(object, Type::PerezBrightness, skyArguments(sky, Vec3(0, 0, 1)));
+}
+
+}  // namespace
+
+void recogniseSky(RadObject& object) {
+  if (object.strings.size() < 2) return;
+  const std::string &function = object.strings[0], &file = object.strings[1];
+  if (function == "skybr" && file.ends_with("skybright.cal")) return recogniseGensky(object);
+  if (function == "skybright" && file.ends_with("perezlum.cal")) return recogniseGendaylit(object);
 }
 
 std::vector<double> skyArguments(const RadianceSky& sky, const Vec3& up) {
@@ -42,14 +69,23 @@ std::vector<double> skyArguments(const RadianceSky& sky, const Vec3& up) {
       static_cast<double>(sky.kind), sky.zenith, sky.ground, sky.normalization, sun.x, sun.y, sun.z, up.x, up.y, up.z};
 }
 
-RadianceSky skyOf(const RadObject& object) {
+std::vector<double> skyArguments(const PerezSky& sky, const Vec3& up) {
+  const auto& [a, b, c, d, e] = sky.coefficients;
+  const Vec3& sun = sky.sunDirection;
+  return {sky.diffuse, sky.ground, a, b, c, d, e, sun.x, sun.y, sun.z, up.x, up.y, up.z};
+}
+
+SkyFunction skyOf(const RadObject& object) {
   const std::vector<double>& a = object.reals;
+  if (object.type == Type::PerezBrightness)
+    return PerezSky{a[0], a[1], {a[2], a[3], a[4], a[5], a[6]}, glm::normalize(Vec3(a[7], a[8], a[9]))};
   const auto kind = static_cast<RadianceSky::Kind>(static_cast<int>(a[0]));
-  return {kind, a[1], a[2], a[3], glm::normalize(Vec3(a[4], a[5], a[6]))};
+  return RadianceSky{kind, a[1], a[2], a[3], glm::normalize(Vec3(a[4], a[5], a[6]))};
 }
 
 Vec3 zenithOf(const RadObject& object) {
-  return glm::normalize(Vec3(object.reals[7], object.reals[8], object.reals[9]));
+  const double* const up = object.reals.data() + object.reals.size() - 3;
+  return glm::normalize(Vec3(up[0], up[1], up[2]));
 }
 
 }  // namespace deltalux::io::radiance

@@ -112,6 +112,12 @@ void mapModifier(RadObject& object, const Transform& t) {
     case Type::SkyBrightness:
       mapVector(reals, 4, t, 1 / t.scale), mapVector(reals, 7, t, 1 / t.scale);
       break;
+    case Type::PerezBrightness:
+      mapVector(reals, 7, t, 1 / t.scale), mapVector(reals, 10, t, 1 / t.scale);
+      break;
+    case Type::Pattern:
+      object.toWorld = std::make_shared<const Mat4>(object.toWorld ? t.matrix * *object.toWorld : t.matrix);
+      break;
     default:
       break;
   }

@@ -13,10 +13,12 @@
 #include <deltalux/error.hpp>
 #include <deltalux/ids.hpp>
 #include <deltalux/math.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <typeindex>
 #include <variant>
 #include <vector>
 
@@ -45,9 +47,9 @@ concept HasMembers = requires(Archive& archive, T& value) {
   members(archive, value);
 };
 
-/// Things that several values share, in order of their first appearance: each is stored once. Of one type.
+/// Things that several values share, by type and in order of their first appearance: each is stored once.
 struct SharedThings {
-  std::vector<std::shared_ptr<const void>> shared;
+  std::map<std::type_index, std::vector<std::shared_ptr<const void>>> shared;
 };
 
 /// Counts the bytes that writing would take.
@@ -176,20 +178,21 @@ void transferOptional(Archive& archive, Optional& v) {
 template <class Archive, class Pointer>
 void transferShared(Archive& archive, Pointer& v) {
   using Thing = typename std::remove_const_t<Pointer>::element_type;
-  const auto known = std::find(archive.shared.begin(), archive.shared.end(), v);
-  auto index = static_cast<std::uint32_t>(Archive::kReads ? 0 : known - archive.shared.begin());
+  auto& shared = archive.shared[std::type_index(typeid(Thing))];
+  const auto known = std::find(shared.begin(), shared.end(), v);
+  auto index = static_cast<std::uint32_t>(Archive::kReads ? 0 : known - shared.begin());
   transfer(archive, index);
-  const bool first = index == archive.shared.size();
+  const bool first = index == shared.size();
   if constexpr (Archive::kReads) {
-    archive.require(index <= archive.shared.size());
+    archive.require(index <= shared.size());
     if (first) {
       auto fresh = std::make_shared<std::remove_const_t<Thing>>();
       transfer(archive, *fresh);
-      archive.shared.push_back(std::move(fresh));
+      shared.push_back(std::move(fresh));
     }
-    v = std::static_pointer_cast<Thing>(archive.shared[index]);
+    v = std::static_pointer_cast<Thing>(shared[index]);
   } else if (first) {
-    archive.shared.push_back(v);
+    shared.push_back(v);
     transfer(archive, *v);
   }
 }

@@ -82,9 +82,17 @@ void members(auto& archive, Is<SpotCone> auto& c) {
   auto& [fullAngle, direction] = c;
   transferAll(archive, fullAngle, direction);
 }
+void members(auto& archive, Is<DirectionTable> auto& t) {
+  auto& [rows, columns, values] = t;
+  transferAll(archive, rows, columns, values);
+}
+void members(auto& archive, Is<EmissionPattern> auto& p) {
+  auto& [table, frame, scale, normal] = p;
+  transferAll(archive, table, frame, scale, normal);
+}
 void members(auto& archive, Is<Emission> auto& e) {
-  auto& [radiance, bothSides, spot] = e;
-  transferAll(archive, radiance, bothSides, spot);
+  auto& [radiance, bothSides, spot, pattern] = e;
+  transferAll(archive, radiance, bothSides, spot, pattern);
 }
 void members(auto& archive, Is<Material> auto& m) {
   auto& [name, surface, emission] = m;
@@ -132,6 +140,14 @@ void members(auto& archive, Is<RadianceSky> auto& s) {
 void members(auto& archive, Is<CieSky> auto& s) {
   auto& [type, zenith, ground, sun] = s;
   transferAll(archive, type, zenith, ground, sun);
+}
+void members(auto& archive, Is<PerezSky> auto& s) {
+  auto& [diffuse, ground, coefficients, sun] = s;
+  transferAll(archive, diffuse, ground, coefficients, sun);
+}
+void members(auto& archive, Is<TabulatedSky> auto& s) {
+  auto& [table, frame] = s;
+  transferAll(archive, table, frame);
 }
 void members(auto& archive, Is<DomeLight> auto& l) {
   auto& [axis, halfAngle, scale, distribution, up] = l;

@@ -47,7 +47,7 @@ Parts partsOf(const Scene& scene, const std::string& name) {
   return parts;
 }
 
-bool hasDirection(const Material& m) { return m.emission && m.emission->spot; }
+bool hasDirection(const Material& m) { return m.emission && isDirectional(*m.emission); }
 
 }  // namespace
 
@@ -56,12 +56,10 @@ void planMove(Plan& plan, const Scene& scene, PrimitiveId primitive, const Mat4&
   state.matrix = settled(matrix * state.matrix);
   const Material& material = scene.materialOf(primitive);
   if (hasDirection(material)) {
-    // The cone is the material's, which others may share: the surface gets one of its own.
+    // The direction is the material's, which others may share: the surface gets one of its own.
     Material own = material;
-    Vec3& direction = own.emission->spot->direction;
-    const Vec3 turned = glm::dmat3(matrix) * direction;
-    if (turned != direction) {
-      direction = turned;
+    turn(*own.emission, glm::dmat3(matrix));
+    if (!(*own.emission == *material.emission)) {
       state.material = MaterialId(scene.materials.size() + plan.materials.size());
       plan.materials.push_back(std::move(own));
     }
@@ -146,8 +144,7 @@ Plan plan(const Scene& scene, const AddObject& edit) {
                                   settled(edit.matrix), true};
     if (hasDirection(material)) {
       result.materials.push_back(part[p.material]);
-      Vec3& direction = result.materials.back().emission->spot->direction;
-      direction = glm::dmat3(edit.matrix) * direction;
+      turn(*result.materials.back().emission, glm::dmat3(edit.matrix));
       state.material = MaterialId(firstMaterial + result.materials.size() - 1);
     }
     result.primitives.push_back({p.shape, state.material, ObjectId()});

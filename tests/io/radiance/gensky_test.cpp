@@ -15,7 +15,7 @@ SunAngles sunAt(int month, int day, double hour, double latitude, double longitu
 
 RadianceSky skyOfCommand(const std::string& options) {
   for (const RadObject& object : expand("!gensky " + options)) {
-    if (object.type == Type::SkyBrightness) return skyOf(object);
+    if (object.type == Type::SkyBrightness) return std::get<RadianceSky>(skyOf(object));
   }
   throw std::runtime_error("no sky");
 }

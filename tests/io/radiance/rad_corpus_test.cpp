@@ -24,7 +24,7 @@ TEST(RadCorpus, ReadsCleanlyWholeAndCutShort) {
 }
 
 TEST(RadCorpus, SeedsAreScenes) {
-  for (const char* seed : {"surfaces", "materials", "sky", "arrays", "boxes", "curves"}) {
+  for (const char* seed : {"surfaces", "materials", "sky", "arrays", "boxes", "curves", "patterns"}) {
     const auto file = deltalux::test::sourceFolder() / "fuzz/corpus/rad" / (std::string(seed) + ".rad");
     TextFiles files(readInputFile(file));
     EXPECT_NO_THROW(readRadiance(files.scene(), files, {})) << seed;

@@ -1,0 +1,50 @@
+#pragma once
+// Patterns that multiply what a light emits, evaluated natively: brightfunc, brightdata, colorfunc, colordata, and the
+// sky functions of gensky and gendaylit. [Radiance reference manual, "Patterns"]
+//
+// Function files are read where the program finds them, beside the scene, or from function_library.hpp. A pattern's
+// coordinates are the world's, taken back through its own transform and those of the xforms around it. Departures: no
+// noise, no recursion; the distance to what is lit (T, Ts) is taken to be large.
+#include <functional>
+#include <memory>
+
+#include "io/radiance/file_access.hpp"
+#include "io/radiance/rad_object.hpp"
+
+namespace deltalux::io::radiance {
+
+/// Where a ray that looks at a light meets it.
+struct PatternPoint {
+  Vec3 direction{0, 0, 1};  // unit, of the ray: against the light that leaves
+  Vec3 normal{0, 0, -1};    // unit, towards the side that is looked at
+  Vec3 position{0};
+  double cosine = 1;  // between normal and the light that leaves, above 0
+};
+
+class PatternFunction {
+ public:
+  /// Throws InputError for what cannot be read or compiled. `calls` bounds the work of all evaluations; it is counted
+  /// down.
+  PatternFunction(const RadObject&, FileAccess&, long& calls);
+
+  /// By which the pattern multiplies each channel. Throws InputError when the work is used up.
+  glm::dvec3 operator()(const PatternPoint& p) const { return value_(p); }
+
+  /// What its values depend on beside the direction.
+  bool usesNormal() const { return usesNormal_; }  // beyond the cosine
+  bool usesCosine() const { return usesCosine_; }
+  bool usesPosition() const { return usesPosition_; }
+  bool usesDistance() const { return usesDistance_; }
+  /// Orthogonal; the pattern's axes in the world.
+  const glm::dmat3& frame() const { return frame_; }
+
+  /// Whether this kind of pattern can be read at all.
+  static bool understands(const RadObject&);
+
+ private:
+  std::function<glm::dvec3(const PatternPoint&)> value_;
+  bool usesNormal_ = false, usesCosine_ = false, usesPosition_ = false, usesDistance_ = false;
+  glm::dmat3 frame_{1.0};
+};
+
+}  // namespace deltalux::io::radiance

@@ -1,0 +1,35 @@
+#pragma once
+// Perez's models of daylight: the sky's radiance from its clearness and brightness [Perez, Seals & Michalsky 1993,
+// Solar Energy 50(3) 235-245, erratum 51(5) 423], and luminous efficacies [Perez, Ineichen, Seals, Michalsky & Stewart
+// 1990, Solar Energy 44(5) 271-289].
+#include <array>
+
+namespace deltalux::io::radiance {
+
+struct SkyCondition {
+  double sunZenith = 0;     // [rad]
+  double clearness = 1;     // epsilon, 1 (overcast) to 12
+  double brightness = 0.1;  // Delta, 0.01 to 0.6
+};
+
+/// Sun and sky: across the beam, and on the horizontal.
+struct Daylight {
+  double directNormal = 0, diffuse = 0;
+};
+
+/// Irradiance beyond the atmosphere [W/m2], at the sun's mean distance.
+inline constexpr double kSolarConstant = 1367;
+
+/// Optical air mass of the sun's path. [Kasten 1966]
+double airMass(double sunZenith);
+/// epsilon and Delta of irradiances [W/m2], within the models' range; `outside` is the irradiance beyond the
+/// atmosphere.
+SkyCondition conditionOf(const Daylight&, double sunZenith, double outside);
+/// The irradiances of a condition: the inverse.
+Daylight daylightOf(const SkyCondition&, double outside);
+/// Luminous efficacies [lm/W] of both; `water`: precipitable water in the air [cm].
+Daylight efficacies(const SkyCondition&, double water);
+/// Coefficients a to e of the radiance distribution.
+std::array<double, 5> perezCoefficients(const SkyCondition&);
+
+}  // namespace deltalux::io::radiance
