@@ -187,7 +187,7 @@ TEST(Edit, AddBringsSurfacesMaterialsAndLampsButNoSky) {
   std::size_t skies = 0;
   for (const Light& l : scene.lights)
     skies += std::holds_alternative<SunLight>(l.emitter) || std::holds_alternative<DomeLight>(l.emitter);
-  EXPECT_EQ(skies, 4u);
+  EXPECT_EQ(skies, 6u);
   for (std::size_t i = before.lights.size(); i < scene.lights.size(); ++i)
     if (const auto* area = std::get_if<AreaLight>(&scene.lights[i].emitter)) {
       EXPECT_GE(area->primitive.index(), before.primitives.size());
