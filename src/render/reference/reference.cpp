@@ -94,9 +94,7 @@ class Reporter {
 
 struct ReferenceIntegrator::Impl {
   Impl(const Scene& s, const ReferenceSettings& wanted)
-      : settings(wanted),
-        scene(s, wanted.diffuseOnly),
-        connections(scene) {
+      : settings(wanted), scene(s, wanted.diffuseOnly), connections(scene) {
     DELTALUX_CHECK(settings.samples > 0 || settings.seconds > 0 || settings.targetError > 0,
                    "samples, seconds or a target error");
   }
@@ -259,6 +257,7 @@ Image ReferenceIntegrator::render(const View& view, int width, int height, Progr
     schedule.done += batches;
   }
   Image image;
+  image.luminousEfficacy = impl_->scene.scene().luminousEfficacy;
   image.width = width, image.height = height;
   for (const BatchMoments& m : moments) image.pixels.push_back(Rgb(m.mean));
   impl.seconds += secondsSince(start);
