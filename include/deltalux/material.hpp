@@ -95,6 +95,7 @@ struct Emission {
   bool bothSides = false;
   std::optional<SpotCone> spot;
   std::optional<EmissionPattern> pattern = std::nullopt;
+  bool seenOnly = false;  // by cameras and in mirrors: it lights nothing [Radiance, glow of negative radius]
 
   bool operator==(const Emission&) const = default;
 };
@@ -109,6 +110,8 @@ struct Material {
   Rgb filter{1.0f};    // of what passes beside it
 };
 
+/// Whether a surface of it lights others.
+inline bool sendsLight(const Material& m) { return m.emission && !m.emission->seenOnly; }
 /// Radiance towards unit `direction`, relative to Emission::radiance.
 double relativeRadiance(const EmissionPattern&, const Vec3& direction);
 /// The same with all that depends on direction and on the distance to what is lit [scene units]; 1 for diffuse

@@ -46,6 +46,11 @@ Rgb emittedRadiance(const Emission& emission, const Vec3& direction, double dist
   return emission.radiance * static_cast<float>(relativeRadiance(emission, direction, distance));
 }
 
+Rgb seenRadiance(const Material& material, const Vec3& direction, double distance, bool front) {
+  if (!material.emission || !material.emission->seenOnly) return Rgb(0.0f);
+  return emittedRadiance(*material.emission, direction, distance, front);
+}
+
 /// Made when first asked for: many who sample area lights never ask.
 class LightSampler::LazyDome {
  public:

@@ -91,8 +91,8 @@ void members(auto& archive, Is<EmissionPattern> auto& p) {
   transferAll(archive, table, frame, scale, normal);
 }
 void members(auto& archive, Is<Emission> auto& e) {
-  auto& [radiance, bothSides, spot, pattern] = e;
-  transferAll(archive, radiance, bothSides, spot, pattern);
+  auto& [radiance, bothSides, spot, pattern, seenOnly] = e;
+  transferAll(archive, radiance, bothSides, spot, pattern, seenOnly);
 }
 void members(auto& archive, Is<Material> auto& m) {
   auto& [name, surface, emission, coverage, filter] = m;
@@ -185,8 +185,10 @@ void members(auto& archive, Is<SwitchedOff> auto& s) {
   transferAll(archive, light, scale);
 }
 void members(auto& archive, Is<Scene> auto& s) {
-  auto& [metres, up, materials, primitives, objects, lights, textures, views, placements, off] = s;
-  transferAll(archive, metres, up, materials, primitives, objects, lights, textures, views, placements, off);
+  auto& [metres, origin, efficacy, up, materials, primitives, objects, lights, backdrops, textures, views, placements,
+         off] = s;
+  transferAll(archive, metres, origin, efficacy, up, materials, primitives, objects, lights, backdrops, textures, views,
+              placements, off);
 }
 
 }  // namespace deltalux::io
