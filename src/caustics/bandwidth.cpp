@@ -8,16 +8,16 @@ namespace deltalux::caustics {
 
 namespace {
 
-constexpr double kNarrowest = 0.5;       // standard deviation in cells
-constexpr double kWidest = 6;            // in cells
-constexpr double kFactor = 1.6;          // between widths
-constexpr double kConfidence = 2.25;     // standard deviations of a difference that noise explains, had it Gaussian
-                                         // kernels: 2.4 of those of ours
-constexpr double kLeastParticles = 4.0;  // that a kernel expects when it is asked
-constexpr float kEnough = 16;            // particles that tell how noisy they are
-constexpr double kCut = 0.9;             // of the mean area: less is cut by an outline
-constexpr double kFew = 0.02;            // of the cells: not worth another level
-constexpr double kBlend = 3.0;           // standard deviation in cells, of the blending of widths
+constexpr double kNarrowest = 0.5;      // standard deviation in cells
+constexpr double kWidest = 6;           // in cells
+constexpr double kFactor = 1.6;         // between widths
+constexpr double kConfidence = 2.25;    // standard deviations of a difference that noise explains, had it Gaussian
+                                        // kernels: 2.4 of those of ours
+constexpr double kLeastExpected = 4.0;  // that a kernel expects when it is asked
+constexpr float kEnough = 16;           // particles that tell how noisy they are
+constexpr double kCut = 0.9;            // of the mean area: less is cut by an outline
+constexpr double kFew = 0.02;           // of the cells: not worth another level
+constexpr double kBlend = 3.0;          // standard deviation in cells, of the blending of widths
 constexpr float kTiny = 1e-30f;
 constexpr std::size_t kChunk = 256;  // slots whose numbers stay close by
 
@@ -33,7 +33,7 @@ struct Overlaps {
     for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
       const double narrow = kernelOverlap(levels[k].width, levels[k].width, cell);
       const double both = kernelOverlap(levels[k].width, wide.width, meanArea);
-      asked.push_back(static_cast<float>(kLeastParticles * narrow * meanArea));
+      asked.push_back(static_cast<float>(kLeastExpected * narrow * meanArea));
       factor.push_back(static_cast<float>(kConfidence * kConfidence * (narrow + wide.overlap - 2 * both) * meanArea));
     }
   }

@@ -13,7 +13,7 @@ namespace deltalux::caustics {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr double kMatters = 0.1;          // of the target error: differences that are a change
+constexpr double kChangeMatters = 0.1;    // of the target error: differences that are a change
 constexpr double kMattersToChoice = 0.5;  // where there is no texture
 constexpr double kNoise = 0.25;           // of the noise of a tile's flux: smaller differences are no change
 constexpr double kStrays = 2;             // particles that are no change where there are few
@@ -77,7 +77,7 @@ TextureUpkeep::Report TextureUpkeep::follow(const particles::ParticleUpdate& upd
   report.judged = static_cast<std::uint64_t>(std::count(sides.begin(), sides.end(), 1));
   for (SurfaceCaustics& s : caustics.surfaces)
     if (const std::size_t side = particles::sideIndex(s.primitive, s.front); !sides[side])
-      report.scaled += rescale(s, fluxOf(side), kMatters * error_);
+      report.scaled += rescale(s, fluxOf(side), kChangeMatters * error_);
   report.rebuilt = remakeCaustics(caustics, parts_.scene, parts_.elements, landedOn(sides, powers), error_, sides);
   remember(sides, background);
   return report;
@@ -166,7 +166,7 @@ bool TextureUpkeep::fewParticles(const SurfaceTiles::Side& side) const {
 bool TextureUpkeep::changed(std::size_t side, double background, bool textured) const {
   const SurfaceTiles::Side& s = tiles_.sides()[side];
   if (s.across == 0 || (!textured && fewParticles(s))) return false;
-  const double error = (textured ? kMatters : kMattersToChoice) * error_;
+  const double error = (textured ? kChangeMatters : kMattersToChoice) * error_;
   std::vector<Tile> level(tile_.begin() + s.first, tile_.begin() + s.first + s.count());
   double area = s.area;
   for (std::uint32_t across = s.across;; across /= 2, area *= 4) {

@@ -10,14 +10,14 @@ namespace deltalux::caustics {
 namespace {
 
 constexpr double kParticles = 30;       // of a kernel that edges are looked for with
-constexpr double kWidest = 6;           // of its kernel, in cells
-constexpr double kFactor = 2;           // between widths
+constexpr double kWidestKernel = 6;     // of its kernel, in cells
+constexpr double kWidthFactor = 2;      // between widths
 constexpr double kContrast = 2;         // jumps of a blurred edge, in units of noise
 constexpr double kSharpParticles = 16;  // whose noise a sharp edge must stand out from,
 constexpr double kSharpContrast = 1.5;  // and by how much
 constexpr float kLeast = 1e-3f;         // openness of a closed wall
-constexpr float kTiny = 1e-30f;
-constexpr std::size_t kChunk = 256;  // slots whose numbers stay close by
+constexpr float kTinyWeight = 1e-30f;
+constexpr std::size_t kSlotChunk = 256;  // slots whose numbers stay close by
 
 /// Of all slots, each with the kernel that holds kParticles.
 struct Estimates {
@@ -31,14 +31,15 @@ void estimateChunk(const std::vector<ScaleLevel>& levels, double area, std::size
                    Estimates& to) {
   constexpr float few = 0.1f;
   const auto wanted = static_cast<float>(kParticles);
-  float before[kChunk], estimate[kChunk], level[kChunk], grain[kChunk], open[kChunk], last[kChunk];
+  float before[kSlotChunk], estimate[kSlotChunk], level[kSlotChunk], grain[kSlotChunk], open[kSlotChunk],
+      last[kSlotChunk];
   for (std::size_t k = 0; k < levels.size(); ++k) {
     const float *light = levels[k].light[0].data() + begin, *squares = levels[k].light[1].data() + begin;
     const auto overlap = static_cast<float>(levels[k].overlap * area), log = std::log(overlap);
     const float logBefore = k > 0 ? static_cast<float>(std::log(levels[k - 1].overlap * area)) : log;
     const bool first = k == 0;
     for (std::size_t i = 0; i < count; ++i) {
-      const float E = std::max(light[i], 0.0f), square = std::max(squares[i], kTiny);
+      const float E = std::max(light[i], 0.0f), square = std::max(squares[i], kTinyWeight);
       const float holds = std::max(E * E / (square * overlap), few);
       const bool takes = first || open[i] > 0, between = !first && holds > wanted && before[i] < wanted;
       const float t = between ? (logOf(wanted) - logOf(before[i])) / (logOf(holds) - logOf(before[i])) : 1.0f;
@@ -53,15 +54,15 @@ void estimateChunk(const std::vector<ScaleLevel>& levels, double area, std::size
   for (std::size_t i = 0; i < count; ++i) {
     to.root[begin + i] = std::sqrt(std::max(estimate[i], 0.0f));
     to.overlap[begin + i] = expOf(level[i]);
-    to.noise[begin + i] = std::max(grain[i] * expOf(level[i]), kTiny);
+    to.noise[begin + i] = std::max(grain[i] * expOf(level[i]), kTinyWeight);
   }
 }
 
 Estimates estimatesOf(const CellRaster& raster, const std::vector<ScaleLevel>& levels) {
   Estimates result{Slots(raster.slots(), 0.0f), Slots(raster.slots(), 1.0f), Slots(raster.slots(), 1.0f)};
   const std::size_t end = raster.rowBegin(raster.rows());
-  for (std::size_t begin = raster.rowBegin(0); begin < end; begin += kChunk)
-    estimateChunk(levels, raster.meanArea(), begin, std::min(kChunk, end - begin), result);
+  for (std::size_t begin = raster.rowBegin(0); begin < end; begin += kSlotChunk)
+    estimateChunk(levels, raster.meanArea(), begin, std::min(kSlotChunk, end - begin), result);
   for (Slots* s : {&result.root, &result.overlap, &result.noise}) raster.closeRows(*s);
   return result;
 }
@@ -117,7 +118,7 @@ Borders opennessBy(const CellRaster& raster, double contrast, const Squared& squ
 
 EdgeStopping blurredWalls(const CellRaster& raster, const Channels& light) {
   const HeatFlow even(raster, {});
-  ScaleSpace space(raster, even, light, kWidest, kFactor);
+  ScaleSpace space(raster, even, light, kWidestKernel, kWidthFactor);
   while (space.widen()) {
   }
   const Estimates estimates = estimatesOf(raster, space.levels());
@@ -143,7 +144,7 @@ Borders sharpWalls(const CellRaster& raster, const Slots& E, double darkness) {
   const float* const root = roots.data();
   const auto noise = static_cast<float>(2 * std::sqrt(kSharpParticles));
   return opennessBy(raster, kSharpContrast, [=](std::size_t a, std::size_t b) {
-    const float jump = noise * (1 - std::min(root[a], root[b]) / std::max(std::max(root[a], root[b]), kTiny));
+    const float jump = noise * (1 - std::min(root[a], root[b]) / std::max(std::max(root[a], root[b]), kTinyWeight));
     return jump * jump;
   });
 }

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kLargest = 1e9;  // coordinates beyond are mistakes
+constexpr double kLargestCoordinate = 1e9;  // coordinates beyond are mistakes
 
 /// Reads the entries of one file.
 class EntryReader {
@@ -67,14 +67,14 @@ class EntryReader {
     value.expectNumber(low, high);
     return value.value().get<double>();
   }
-  static Vec3 triple(const io::JsonView& value, double low = -kLargest, double high = kLargest) {
+  static Vec3 triple(const io::JsonView& value, double low = -kLargestCoordinate, double high = kLargestCoordinate) {
     value.expectPresent("three numbers");
     value.expectNumbers(3, low, high);
     return {value.value()[0].get<double>(), value.value()[1].get<double>(), value.value()[2].get<double>()};
   }
 
   static Mat4 rowMajor(const io::JsonView& value) {
-    value.expectNumbers(16, -kLargest, kLargest);
+    value.expectNumbers(16, -kLargestCoordinate, kLargestCoordinate);
     Mat4 m;
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column)
@@ -110,8 +110,8 @@ class EntryReader {
     const std::string name = text(entry, "light");
     const std::string key = oneOf(entry, {"scale", "rgb", "on", "aim", "translate"});
     const io::JsonView value = entry.member(key.c_str());
-    if (key == "scale") return Edit(ScaleLight{name, static_cast<float>(number(value, 0, kLargest))});
-    if (key == "rgb") return Edit(ColourLight{name, Rgb(triple(value, 0, kLargest))});
+    if (key == "scale") return Edit(ScaleLight{name, static_cast<float>(number(value, 0, kLargestCoordinate))});
+    if (key == "rgb") return Edit(ColourLight{name, Rgb(triple(value, 0, kLargestCoordinate))});
     if (key == "on") return value.expectBool(), EditStep(Edit(SwitchLight{name, value.value().get<bool>()}));
     if (key == "translate") return Edit(MoveLight{name, triple(value)});
     const Vec3 direction = triple(value);

@@ -17,9 +17,9 @@ namespace deltalux::io {
 namespace {
 
 // Puts a document's nodes, one by one, into a scene.
-class SceneBuilder {
+class GltfSceneBuilder {
  public:
-  SceneBuilder(const GltfDocument& document, const ImportSettings& settings)
+  GltfSceneBuilder(const GltfDocument& document, const ImportSettings& settings)
       : document_(document), efficacy_(settings.luminousEfficacy), meshes_(document.model.meshes.size()) {
     scene().up = {0, 1, 0};
     scene().luminousEfficacy = efficacy_;
@@ -111,7 +111,7 @@ class SceneBuilder {
 ImportedScene readGltf(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
                        const ImportSettings& settings) {
   const GltfDocument document = openGltf(bytes, name, folder);
-  SceneBuilder builder(document, settings);
+  GltfSceneBuilder builder(document, settings);
   for (const PlacedNode& node : placedNodes(document)) builder.add(node);
   return builder.finish();
 }

@@ -12,26 +12,26 @@ namespace {
 // Relative to the mesh's size, and in the sines of angles: what single precision leaves of a plane.
 constexpr double kFlat = 1e-6;
 
-using Triangle = std::array<std::uint32_t, 3>;
+using FaceCorners = std::array<std::uint32_t, 3>;
 
 // The same mesh with one vertex per place, so that neighbours share indices.
-std::vector<Triangle> weldedTriangles(const Mesh& mesh) {
+std::vector<FaceCorners> weldedTriangles(const Mesh& mesh) {
   const auto before = [](const Vec3& a, const Vec3& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
   std::map<Vec3, std::uint32_t, decltype(before)> places(before);
-  std::vector<Triangle> triangles = mesh.triangles;
-  for (Triangle& triangle : triangles) {
+  std::vector<FaceCorners> triangles = mesh.triangles;
+  for (FaceCorners& triangle : triangles) {
     for (std::uint32_t& corner : triangle) corner = places.try_emplace(mesh.positions[corner], corner).first->second;
   }
   return triangles;
 }
 
-Vec3 scaledNormal(const Mesh& mesh, const Triangle& t) {
+Vec3 scaledNormal(const Mesh& mesh, const FaceCorners& t) {
   return glm::cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]);
 }
 
 bool isFlatShaded(const Mesh& mesh) {
   if (mesh.normals.empty()) return true;
-  for (const Triangle& triangle : mesh.triangles) {
+  for (const FaceCorners& triangle : mesh.triangles) {
     const Vec3 normal = glm::normalize(scaledNormal(mesh, triangle));
     for (const std::uint32_t corner : triangle) {
       if (glm::dot(normal, mesh.normals[corner]) < 1 - 1e-4) return false;
@@ -40,7 +40,7 @@ bool isFlatShaded(const Mesh& mesh) {
   return true;
 }
 
-bool isCoplanar(const Mesh& mesh, const Triangle& a, const Triangle& b, double size) {
+bool isCoplanar(const Mesh& mesh, const FaceCorners& a, const FaceCorners& b, double size) {
   const Vec3 normal = glm::normalize(scaledNormal(mesh, a));
   if (glm::dot(normal, scaledNormal(mesh, b)) <= 0) return false;
   return std::all_of(b.begin(), b.end(), [&](std::uint32_t corner) {
@@ -51,7 +51,7 @@ bool isCoplanar(const Mesh& mesh, const Triangle& a, const Triangle& b, double s
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 // For every triangle the number of its face. An edge that more than two triangles use joins none of them.
-std::vector<std::size_t> facesOf(const Mesh& mesh, const std::vector<Triangle>& triangles, double size) {
+std::vector<std::size_t> facesOf(const Mesh& mesh, const std::vector<FaceCorners>& triangles, double size) {
   std::map<Edge, std::vector<std::size_t>> users;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
@@ -74,9 +74,9 @@ std::vector<std::size_t> facesOf(const Mesh& mesh, const std::vector<Triangle>& 
 }
 
 // The outline of the face's triangles, walked counter-clockwise from the front; nullopt unless it is one simple loop.
-std::optional<std::vector<std::uint32_t>> outlineOf(const std::vector<Triangle>& triangles) {
+std::optional<std::vector<std::uint32_t>> outlineOf(const std::vector<FaceCorners>& triangles) {
   std::map<Edge, int> count;
-  for (const Triangle& t : triangles) {
+  for (const FaceCorners& t : triangles) {
     for (int i = 0; i < 3; ++i) ++count[{t[i], t[(i + 1) % 3]}];
   }
   std::map<std::uint32_t, std::uint32_t> next;
@@ -112,14 +112,14 @@ std::vector<Vec3> cornersOf(const Mesh& mesh, const std::vector<std::uint32_t>& 
   return corners;
 }
 
-std::optional<Polygon> polygonOf(const Mesh& mesh, const std::vector<Triangle>& triangles) {
+std::optional<Polygon> polygonOf(const Mesh& mesh, const std::vector<FaceCorners>& triangles) {
   const auto outline = outlineOf(triangles);
   if (!outline) return std::nullopt;
   std::optional<Polygon> polygon = makePolygon(cornersOf(mesh, *outline));
   if (!polygon) return std::nullopt;
   double area = 0;
   Vec3 normal(0);
-  for (const Triangle& t : triangles) {
+  for (const FaceCorners& t : triangles) {
     area += 0.5 * glm::length(scaledNormal(mesh, t));
     normal += scaledNormal(mesh, t);
   }
@@ -146,12 +146,12 @@ std::vector<Shape> planarFaces(Mesh mesh) {
     return shapes;
   };
   if (mesh.triangles.size() > kMaxFacetedTriangles || !mesh.texcoords.empty() || !isFlatShaded(mesh)) return asMesh();
-  const std::vector<Triangle> triangles = weldedTriangles(mesh);
+  const std::vector<FaceCorners> triangles = weldedTriangles(mesh);
   const std::vector<std::size_t> face = facesOf(mesh, triangles, sizeOf(mesh));
   std::vector<Shape> shapes;
   for (std::size_t first = 0; first < triangles.size(); ++first) {
     if (face[first] != first) continue;
-    std::vector<Triangle> members;
+    std::vector<FaceCorners> members;
     for (std::size_t t = first; t < triangles.size(); ++t) {
       if (face[t] == first) members.push_back(triangles[t]);
     }

@@ -13,19 +13,14 @@
 #include "io/atomic_file.hpp"
 #include "io/number.hpp"
 #include "io/plain_text.hpp"
+#include "io/trimmed.hpp"
 
 namespace deltalux {
 
 namespace {
 constexpr std::array<const char*, 6> kNeeded{"x", "y", "z", "nx", "ny", "nz"};
-constexpr double kLargest = 1e15;  // coordinate
+constexpr double kLargestColumn = 1e15;  // coordinate
 constexpr const char* kExpected = "a points file starts with a row x,y,z,nx,ny,nz";
-
-std::string_view trimmed(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
 
 /// Fields of one line; a comma within double quotes belongs to its field. [RFC 4180, one line per record]
 std::vector<std::string> fieldsOf(std::string_view line) {
@@ -96,7 +91,7 @@ class Parser {
     std::array<double, 6> v{};
     for (std::size_t i = 0; i < v.size(); ++i) v[i] = number(row[needed_[i]], kNeeded[i]);
     for (std::size_t i = 0; i < 3; ++i)
-      if (std::abs(v[i]) > kLargest)
+      if (std::abs(v[i]) > kLargestColumn)
         fail(fmt::format("column {}: {} is too far away", kNeeded[i], row[needed_[i]]), "points lie within 1e15 units");
     const double largest = std::max({std::abs(v[3]), std::abs(v[4]), std::abs(v[5])});
     if (!(largest > 0)) fail("the normal nx,ny,nz has no direction", "give the surface's normal");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/cosine_direction.hpp"
+#include "base/square.hpp"
 #include "particles/solid_angle_rectangle.hpp"
 
 namespace deltalux::particles {
@@ -14,8 +15,6 @@ constexpr double kFar = 3.0;           // radii from a sphere's centre beyond wh
 constexpr double kFarRectangle = 3.0;  // the same for rectangles, whose solid angle is known
 constexpr double kWide = 1.5;          // sr: wider cones are not worth one
 constexpr double kLeeway = 1.05;       // times a sphere's radius: those of curved cells are found by samples
-
-double square(double x) { return x * x; }
 
 bool seenBySolidAngle(const Vec3& from, const Rectangle& r) {
   const Vec3 toCenter = r.at({0.5, 0.5}) - from;

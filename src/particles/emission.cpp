@@ -1,4 +1,5 @@
 #include "particles/emission.hpp"
+#include "base/square.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,6 @@ namespace {
 
 constexpr float kAverted = 0.05f;   // of a sample that falls where its sender does not shine
 constexpr double kVeryFar = 1e100;  // where a spotlight's focal offset no longer matters
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

@@ -1,4 +1,5 @@
 #include "particles/moved_shapes.hpp"
+#include "base/square.hpp"
 
 #include <algorithm>
 
@@ -31,8 +32,6 @@ double distanceSquared(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 to = a + t * d - p;
   return glm::dot(to, to);
 }
-
-double square(double x) { return x * x; }
 
 /// The least value in [0, 1] of a convex function, to a millionth of its reach.
 template <class Function>

@@ -32,7 +32,7 @@ std::vector<double> landedFlux(const Particles& p, const Senders& senders) {
   return flux;
 }
 
-void append(DsLinks& links, const DsLinks& more) {
+void appendLinks(DsLinks& links, const DsLinks& more) {
   links.all.insert(links.all.end(), more.all.begin(), more.all.end());
   std::sort(links.all.begin(), links.all.end(), [](const DsLink& a, const DsLink& b) { return a.key < b.key; });
   links.flux += more.flux, links.rays += more.rays, links.judged += more.judged;
@@ -62,7 +62,7 @@ ParticlePlan plan(const Scene& scene, const tracing::RayTracer& tracer, const Pa
   tracePaths(scene, tracer, emission, settings.maxDepth, pilots);
   exitance = coarseExitance(scene, tracer, lights, senders, landedFlux(pilots, senders));
   senders.weigh(exitance.perCell);
-  append(links, refine(senders.surfaceRoots()));
+  appendLinks(links, refine(senders.surfaceRoots()));
 
   nameSenders(senders, exitance, result.empty);
   result.empty.looks = exitance.rays + links.rays + pilots.rays;

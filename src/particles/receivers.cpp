@@ -9,20 +9,20 @@ namespace deltalux::particles {
 
 namespace {
 
-constexpr double kCellsOfScene = 4096;  // cells that the whole scene's area would make
+constexpr double kReceiverCellsOfScene = 4096;  // cells that the whole scene's area would make
 constexpr std::uint64_t kSeed = 0x7265636569766572ull;
 
 double lobe(const SpecularLobe& l) { return maxChannel(l.reflectance); }
 
 /// A few digits only: a motion must not change them, nor with them which cells are drawn.
-double rounded(double x) {
+double roundedFraction(double x) {
   return static_cast<double>(static_cast<float>(std::ldexp(std::round(std::ldexp(x, 12)), -12)));
 }
 
 double weightOf(double area, double albedo) {
   int exponent = 0;
   const double mantissa = std::frexp(area * albedo, &exponent);
-  return std::ldexp(rounded(mantissa), exponent);
+  return std::ldexp(roundedFraction(mantissa), exponent);
 }
 
 Rectangle frameOf(const Polygon& p) {
@@ -81,7 +81,7 @@ Receivers::Receivers(const Scene& scene) : scene_(scene), surfaceOf_(scene.primi
   double total = 0;
   for (std::size_t i = 0; i < scene.primitives.size(); ++i)
     total += deltalux::area(scene::edits::restShape(scene, PrimitiveId(i)));
-  const double limit = coarse(total) / kCellsOfScene;
+  const double limit = coarse(total) / kReceiverCellsOfScene;
   const std::vector<std::uint32_t> top = topObjects(scene);
   std::vector<std::pair<Code, Cell>> cells;
   std::vector<double> areas;  // at rest, by surface

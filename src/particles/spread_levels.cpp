@@ -10,7 +10,7 @@ namespace deltalux::particles {
 namespace {
 
 constexpr double kByChance = 2;  // times what surfaces could send: more is no mere chance
-constexpr std::size_t kBlock = 64;
+constexpr std::size_t kElementBlock = 64;
 
 /// By which what comes back exceeds what a patch of that area may get.
 double excess(const Feedback& f, double area, const hierarchy::ElementLight& light) {
@@ -47,7 +47,7 @@ void SpreadLevels::choose(std::span<const hierarchy::ElementId> surfaces, const 
                           const std::vector<LandingSums>& sums) {
   of_.resize(elements.size(), kNone);
   damping_.resize(elements.size(), 1.0f);
-  parallelBlocks(surfaces.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+  parallelBlocks(surfaces.size(), kElementBlock, [&](std::size_t begin, std::size_t end) {
     PatchTree tree;
     std::vector<Cut> cuts;
     for (std::size_t i = begin; i < end; ++i) {

@@ -14,7 +14,7 @@ namespace deltalux::particles {
 
 namespace {
 
-constexpr std::size_t kBlock = PathBlock::kPaths;
+constexpr std::size_t kPathBlock = PathBlock::kPaths;
 
 class Tracing {
  public:
@@ -254,14 +254,14 @@ void trace(const Scene& scene, const tracing::RayTracer& tracer, const ParticleE
   DELTALUX_CHECK(maxDepth < 0xffff, "at most 65534 events");
   constexpr std::size_t kTogether = 128;  // blocks whose memory is used again by the next
   Tracing tracing(scene, tracer, emission, p, maxDepth, only);
-  std::vector<PathBlock> blocks(std::min(kTogether, (count + kBlock - 1) / kBlock));
+  std::vector<PathBlock> blocks(std::min(kTogether, (count + kPathBlock - 1) / kPathBlock));
   const std::size_t vertices = p.vertices.size(), impacts = p.impactSlots();
-  for (std::size_t first = 0; first < count; first += kTogether * kBlock) {
-    const std::size_t some = std::min(kTogether * kBlock, count - first);
-    parallelBlocks(some, kBlock, [&](std::size_t begin, std::size_t end) {
-      tracing.trace(first + begin, first + end, blocks[begin / kBlock]);
+  for (std::size_t first = 0; first < count; first += kTogether * kPathBlock) {
+    const std::size_t some = std::min(kTogether * kPathBlock, count - first);
+    parallelBlocks(some, kPathBlock, [&](std::size_t begin, std::size_t end) {
+      tracing.trace(first + begin, first + end, blocks[begin / kPathBlock]);
     });
-    append(std::span(blocks).first((some + kBlock - 1) / kBlock), first, only, p);
+    append(std::span(blocks).first((some + kPathBlock - 1) / kPathBlock), first, only, p);
     reserveFor(count, first + some, vertices, p.vertices, p.met);
     reserveFor(count, first + some, impacts, p.primitive, p.triangleAndSide, p.uv, p.throughput);
   }

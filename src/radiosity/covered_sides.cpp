@@ -19,7 +19,7 @@ constexpr std::size_t kLooks = 32;    // rays of a side, before paths
 constexpr std::size_t kLines = 1024;  // through a box that was left
 constexpr std::size_t kBoxes = 8;     // more are taken for one
 constexpr double kMargin = 0.01;      // of a box's diagonal: how far beside it counts as in it
-constexpr double kNear = 0.1;         // and as close by
+constexpr double kNearBox = 0.1;      // and as close by
 constexpr std::uint64_t kLineKey = 0x756e636f7665726cull;
 
 Box widened(const Box& box, double share = kMargin) {
@@ -130,7 +130,7 @@ class Search {
         if (!isAwake(e) || elements_.at(e).blocker) return false;
         const hierarchy::Side s = elements_.sideOf(e);
         if (std::any_of(within.begin(), within.end(),
-                        [&](const Box& box) { return holds(box, own) && noRayLeaves(widened(box, kNear), s); }))
+                        [&](const Box& box) { return holds(box, own) && noRayLeaves(widened(box, kNearBox), s); }))
           closed.push_back(s);
         return false;
       });

@@ -10,7 +10,7 @@ namespace deltalux::radiosity {
 
 namespace {
 
-constexpr std::size_t kBlock = 8;  // a row takes a tenth of a millisecond or more, and updates make few
+constexpr std::size_t kRowBlock = 8;  // a row takes a tenth of a millisecond or more, and updates make few
 
 /// The area that variation over a leaf is weighed against.
 double scaleAround(const hierarchy::ElementGeometry& g, const LeafTransferSettings& settings) {
@@ -84,7 +84,7 @@ DirectRowsReport sampleDirectRows(std::vector<hierarchy::ElementId> leaves, hier
     rows.assign(leaves.size(), {}), splits.assign(leaves.size(), 0);
     {
       const DirectSampler sampler(scene, elements, links, tracer);
-      parallelFor(leaves.size(), kBlock, [&](std::size_t i) {
+      parallelFor(leaves.size(), kRowBlock, [&](std::size_t i) {
         rows[i] = sampler.at(leaves[i], settings.shadowRays);
         splits[i] = varies(rows[i], elements, leaves[i], settings) ||
                     leaks(rows[i], elements, scene, tracer, leaves[i], settings);

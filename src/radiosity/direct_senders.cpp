@@ -10,15 +10,16 @@ namespace deltalux::radiosity {
 namespace {
 constexpr std::uint32_t kFewLights = 4096;  // clusters of no more than these are told apart
 constexpr float kLeastCosine = 0.1f;        // credited to senders only part of which rises above the horizon
-constexpr float kLeastKernel = 0.02f;  // of the sender's solid angle: its few nodes may all face away, or lie below
+constexpr float kLeastSenderKernel =
+    0.02f;  // of the sender's solid angle: its few nodes may all face away, or lie below
 
 /// Transfer that a sender of unknown orientation is credited with.
 float leastKernel(const hierarchy::Elements& elements, const Vec3f& x, hierarchy::ElementId sender) {
   const hierarchy::ElementGeometry& g = elements.shape(sender);
-  if (elements.isDistant(sender)) return kLeastKernel * g.area;
+  if (elements.isDistant(sender)) return kLeastSenderKernel * g.area;
   if (!elements.isPatch(sender)) return 0.0f;
   const Vec3f d = g.center - x;
-  return kLeastKernel * g.area / (float(kPi) * (glm::dot(d, d) + g.area));
+  return kLeastSenderKernel * g.area / (float(kPi) * (glm::dot(d, d) + g.area));
 }
 }  // namespace
 

@@ -11,7 +11,7 @@ namespace deltalux::radiosity {
 
 namespace {
 
-constexpr float kMostGone = 0.5f;  // of a row's rays: with more to deal anew, all may be
+constexpr float kMostDirectGone = 0.5f;  // of a row's rays: with more to deal anew, all may be
 constexpr float kSamePlan = 2.0f;  // factor within which a row's weight stands, for its rays to be shared out well
 
 /// Weight that a term was dealt its rays for, in rays.
@@ -110,7 +110,7 @@ DirectUpdate DirectSampler::update(hierarchy::ElementId leaf, int rays, const Li
 bool DirectSampler::sampleChanged(hierarchy::ElementId leaf, int rays, std::span<const hierarchy::LinkId> changed,
                                   float gone, TransferRow& row, DirectUpdate& update, std::uint64_t& traced) const {
   const float all = static_cast<float>(rays);
-  if (gone > kMostGone * all) return false;
+  if (gone > kMostDirectGone * all) return false;
   std::vector<hierarchy::LinkId> active;
   std::vector<hierarchy::LinkId> tops;
   for (const hierarchy::LinkId id : changed) tops.push_back(toWholeLight(links_, elements_, id));

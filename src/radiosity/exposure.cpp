@@ -15,7 +15,7 @@ namespace {
 constexpr int kFewPoints = 8;                 // of a leaf, at first
 constexpr int kManyPoints = 64;               // when something may cover some,
 constexpr std::size_t kInAll = 1 << 18;       // and up to 1024 where leaves are few
-constexpr int kLines = 6;                     // across a flat leaf, either way
+constexpr int kLeafLines = 6;                 // across a flat leaf, either way
 constexpr float kLow = 1e-3f, kHigh = 3e-2f;  // of them above it, by turns, in its radii: under what hangs close
 constexpr int kRays = 4;  // of a point, all of which must meet sides without an element when those are far
 
@@ -58,8 +58,8 @@ bool Exposure::stoodUpon(hierarchy::ElementId leaf) const {
     const Vec3f up = height * g.radius * g.normal;
     return tracer_.occluded(tracing::segment(a.position + up, Vec3f(0.0f), b.position + up, Vec3f(0.0f)));
   };
-  for (int i = 0; i < kLines; ++i) {
-    const double at = (i + 0.5) / kLines, u = d.u0 + at * (d.u1 - d.u0), v = d.v0 + at * (d.v1 - d.v0);
+  for (int i = 0; i < kLeafLines; ++i) {
+    const double at = (i + 0.5) / kLeafLines, u = d.u0 + at * (d.u1 - d.u0), v = d.v0 + at * (d.v1 - d.v0);
     const float height = i % 2 == 0 ? kLow : kHigh;
     if (meets(height, d.u0, v, d.u1, v) || meets(height, u, d.v0, u, d.v1)) return true;
   }

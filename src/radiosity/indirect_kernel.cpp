@@ -10,10 +10,10 @@ namespace deltalux::radiosity {
 
 namespace {
 
-constexpr float kNear = 8.0f;   // in radii of the leaf: nearer to a sender than this, K is taken at all its nodes
-constexpr float kSmall = 0.5f;  // radius of a sender, in those of the leaf, that counts as small
-constexpr int kFewSets = 2;     // of pairs of points, where K only shares out rays
-constexpr int kPoints = 16;     // of the smaller of two patches
+constexpr float kNearSender = 8.0f;  // in radii of the leaf: nearer to a sender than this, K is taken at all its nodes
+constexpr float kSmall = 0.5f;       // radius of a sender, in those of the leaf, that counts as small
+constexpr int kFewSets = 2;          // of pairs of points, where K only shares out rays
+constexpr int kPoints = 16;          // of the smaller of two patches
 constexpr float kGauss = 0.57735027f;  // place of the two nodes that integrate cubics, from the middle to the end
 constexpr float kMostPieces = 6.0f;    // of a rectangle that is longer than wide
 
@@ -67,7 +67,7 @@ float IndirectSampler::kernelAtLeaf(hierarchy::ElementId leaf, hierarchy::Elemen
     if (turned) return s.area / r.area * kernelOverNodes(sender, leaf);
   }
   if (!exact(sender) && isClosePatch(leaf, sender)) return kernelOverPairs(leaf, sender, kFewSets);
-  const float reach = kNear * r.radius + s.radius;
+  const float reach = kNearSender * r.radius + s.radius;
   const Vec3f d = s.center - r.center;
   if (!clear && !measures(leaf) && glm::dot(d, d) > reach * reach)
     return static_cast<float>(kernelAtPoint(elements_, scene_, r.center, r.normal, sender));

@@ -13,8 +13,8 @@ namespace deltalux::radiosity {
 
 namespace {
 
-constexpr float kMostGone = 0.5f;  // of the rays of a leaf that has moved: with fewer left, all are dealt anew
-constexpr double kUneven = 5.0;    // so they are when the mean square of what each may bring is this many shares'
+constexpr float kMostGone = 0.5f;   // of the rays of a leaf that has moved: with fewer left, all are dealt anew
+constexpr double kUnevenRow = 5.0;  // so they are when the mean square of what each may bring is this many shares'
 constexpr std::size_t kMostInherited = 2;  // times the rays that a leaf deserves: more cost more than new ones
 
 }  // namespace
@@ -177,7 +177,7 @@ bool IndirectSampler::uneven(hierarchy::ElementId leaf, std::span<const Again> a
     const double x = t.gain * K * strength(leaf, t.sender) * std::sqrt(openness(links_[t.link]));
     sum += x * x;
   }
-  return sum > kUneven * share * share * static_cast<double>(row.terms.size());
+  return sum > kUnevenRow * share * share * static_cast<double>(row.terms.size());
 }
 
 /// Whether a term that was dealt over a link now split is one of these links' by now. What is above a changed link has

@@ -14,7 +14,7 @@ void append(const std::vector<T>& from, std::vector<T>& to) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-constexpr float kBeside = 1.05f;  // of the angle of a sky's cell: no direction of it is farther from its centre
+constexpr float kBesideCell = 1.05f;  // of the angle of a sky's cell: no direction of it is farther from its centre
 }  // namespace
 
 struct LineSpace::Finding {
@@ -51,7 +51,7 @@ LineSpace::Finding LineSpace::examine(hierarchy::LinkId id) const {
   bool left = false, arrives = false;
   if (!f.moved) {
     const hierarchy::ElementGeometry &r = elements_.shape(l.receiver), &s = elements_.shape(l.sender);
-    if (elements_.isDistant(l.sender) ? !change_.meetsBeam(r, s.center, kBeside * s.radius)
+    if (elements_.isDistant(l.sender) ? !change_.meetsBeam(r, s.center, kBesideCell * s.radius)
                                       : !change_.meets(r.center, r.radius, s.center, s.radius))
       return f;
     if (change_.hiddenFrom(l.receiver) || change_.hiddenFrom(l.sender)) return f;

@@ -11,7 +11,7 @@ namespace deltalux::radiosity {
 
 namespace {
 
-constexpr std::size_t kBlock = 64;
+constexpr std::size_t kLinkBlock = 64;
 
 /// Children of `link` after splitting its end(s), appended contiguously. False when the end cannot be split.
 bool splitLink(hierarchy::Links& links, hierarchy::Elements& elements, const Scene& scene, hierarchy::LinkId id,
@@ -47,12 +47,12 @@ RefineReport LinkDescent::run() {
   for (const hierarchy::LinkId root : links_.roots)
     if (marks_[root.index()] != LinkMark::None) tasks.push_back({root, everything, 0, marks_[root.index()]});
   while (!tasks.empty()) {
-    const std::size_t blocks = (tasks.size() + kBlock - 1) / kBlock;
+    const std::size_t blocks = (tasks.size() + kLinkBlock - 1) / kLinkBlock;
     if (level_.size() < blocks) level_.resize(blocks);
     const LinkJudge judge(elements_, scene_, tracer_, settings_);
-    parallelBlocks(tasks.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-      judgeBlock(judge, std::span(tasks).subspan(begin, end - begin), static_cast<std::uint32_t>(begin / kBlock),
-                 level_[begin / kBlock]);
+    parallelBlocks(tasks.size(), kLinkBlock, [&](std::size_t begin, std::size_t end) {
+      judgeBlock(judge, std::span(tasks).subspan(begin, end - begin), static_cast<std::uint32_t>(begin / kLinkBlock),
+                 level_[begin / kLinkBlock]);
     });
     next.clear();
     const bool stopping = stop && stop();

@@ -12,7 +12,7 @@ namespace deltalux::radiosity {
 
 namespace {
 
-constexpr std::size_t kBlock = 256;
+constexpr std::size_t kElementBlock = 256;
 constexpr float kDarkest = 0.1f, kBrightest = 2.0f;  // tolerance of a leaf relative to its surface's first estimate
 constexpr float kLeast = 1e-12f;
 
@@ -194,9 +194,9 @@ RgbSum pull(hierarchy::Elements& elements, std::span<const hierarchy::ElementId>
     (elements.topology[i].childCount == 0 ? below : above).push_back(static_cast<std::uint32_t>(i));
   });
   std::reverse(above.begin(), above.end());
-  parallelFor(below.size(), kBlock, [&](std::size_t k) { pullIrradiance(elements, below[k]); });
+  parallelFor(below.size(), kElementBlock, [&](std::size_t k) { pullIrradiance(elements, below[k]); });
   for (const std::uint32_t i : above) pullExposure(elements, i), pullIrradiance(elements, i);
-  RgbSum change = parallelSum<RgbSum>(below.size(), kBlock, [&](std::size_t k) {
+  RgbSum change = parallelSum<RgbSum>(below.size(), kElementBlock, [&](std::size_t k) {
     RgbSum own(0.0);
     reflectAndPull(elements, below[k], own);
     return own;

@@ -10,7 +10,7 @@ namespace deltalux::radiosity {
 
 namespace {
 
-constexpr float kSlack = 1e-4f;  // of cosines
+constexpr float kCosineSlack = 1e-4f;  // of cosines
 
 std::size_t sectorOf(DirectionCode code) {
   return static_cast<std::size_t>((code.y + 128) >> 5 << 3 | (code.x + 128) >> 5);
@@ -140,7 +140,7 @@ bool RowReach::meets(const hierarchy::ElementGeometry& leaf, const Vec3f& lower,
   int met = 0;
   for (std::size_t s = 0; s < kSectors; ++s) {
     const float apart = cone.axis.x * all.x[s] + cone.axis.y * all.y[s] + cone.axis.z * all.z[s];
-    const bool within = apart >= cone.cosine * all.cosine[s] - sine * all.sine[s] - kSlack;
+    const bool within = apart >= cone.cosine * all.cosine[s] - sine * all.sine[s] - kCosineSlack;
     met |= within & (furthest[s] > nearest);
   }
   return met;

@@ -18,7 +18,7 @@ namespace deltalux::radiosity {
 
 namespace {
 
-constexpr std::size_t kBlock = 64;
+constexpr std::size_t kUpdateBlock = 64;
 constexpr std::size_t kFew = 8;  // a row made from nothing takes as long as looking at fifty, and those stand together
 constexpr int kByLights = 1, kByLeaves = 2;  // which row of a leaf is concerned
 
@@ -106,7 +106,7 @@ void LeafTransfers::listRows(const hierarchy::Elements& elements, const Scene& s
   }
   surplus_ = {};
   surplus_.resize(elements);
-  parallelFor(rows_.size(), kBlock, [&](std::size_t i) { measure(rows_[i], elements, scene); });
+  parallelFor(rows_.size(), kUpdateBlock, [&](std::size_t i) { measure(rows_[i], elements, scene); });
   std::vector<hierarchy::ElementId> concerned;
   surplus_.follow(elements, leaves(), concerned);
 }
@@ -136,13 +136,14 @@ ConcernedLeaves LeafTransfers::concerned(const hierarchy::Elements& elements, co
 
   const bool inScene = space.within(elements.sceneBox);
   const std::vector<hierarchy::ElementId> surfaces = reaches_.met(space, !inScene);
-  std::vector<std::vector<std::pair<hierarchy::ElementId, int>>> met((surfaces.size() + kBlock - 1) / kBlock);
-  parallelFor(surfaces.size(), kBlock, [&](std::size_t i) {
+  std::vector<std::vector<std::pair<hierarchy::ElementId, int>>> met((surfaces.size() + kUpdateBlock - 1) /
+                                                                     kUpdateBlock);
+  parallelFor(surfaces.size(), kUpdateBlock, [&](std::size_t i) {
     const bool hidden = space.hiddenFrom(surfaces[i]);
     hierarchy::forEachLeafBelow(elements, surfaces[i], [&](hierarchy::ElementId e) {
       const LeafRow* row = find(e);
       if (const int by = row ? concernedBy(elements, *row, space, inScene, hidden) : 0)
-        met[i / kBlock].push_back({e, by});
+        met[i / kUpdateBlock].push_back({e, by});
     });
   });
   for (const auto& some : met)

@@ -11,7 +11,7 @@ namespace deltalux::radiosity {
 
 namespace {
 
-constexpr float kSlack = 1e-5f;  // of the coordinates: boxes are grown by what single precision loses
+constexpr float kBoxSlack = 1e-5f;  // of the coordinates: boxes are grown by what single precision loses
 
 bool segmentMeets(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& ray) {
   float near = ray.tNear, far = ray.tFar;
@@ -62,7 +62,7 @@ float tangent(float angle) { return angle / (1.0f - 0.36f * angle * angle); }  /
 void SpaceChange::add(const Box& box) {
   if (box.empty()) return;
   const Vec3f size = glm::max(glm::abs(Vec3f(box.lower)), glm::abs(Vec3f(box.upper)));
-  const Vec3f slack(kSlack * std::max({size.x, size.y, size.z, 1e-3f}));
+  const Vec3f slack(kBoxSlack * std::max({size.x, size.y, size.z, 1e-3f}));
   parts_.add({Vec3f(box.lower) - slack, Vec3f(box.upper) + slack});
   hidden_.reset();
 }

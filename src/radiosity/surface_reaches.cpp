@@ -8,10 +8,10 @@ namespace deltalux::radiosity {
 namespace {
 
 constexpr float kBeside = 0.1f;  // of a leaf's radius: as near is upon it
-constexpr int kFinest = 3;       // subdivisions of the input level
+constexpr int kFinestReach = 3;  // subdivisions of the input level
 
 hierarchy::ElementId partOf(const hierarchy::Elements& elements, hierarchy::ElementId leaf) {
-  while (elements.at(leaf).depth > kFinest) leaf = elements.at(leaf).parent;
+  while (elements.at(leaf).depth > kFinestReach) leaf = elements.at(leaf).parent;
   return leaf;
 }
 

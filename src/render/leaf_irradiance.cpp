@@ -9,7 +9,7 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr std::size_t kBlock = 512;
+constexpr std::size_t kLeafBlock = 512;
 
 /// Rays that bring so much each are as good as independent: their number varies by its root.
 float noiseOf(const radiosity::TransferRow& row, const hierarchy::Elements& elements) {
@@ -35,7 +35,7 @@ std::vector<LeafIrradiance> meshIrradiance(const hierarchy::Elements& elements, 
     values[i] = {l.direct, textured ? l.indirect : l.indirect + l.particle};
   }
   const std::span<const radiosity::LeafRow> rows = transfers.rows();
-  parallelFor(rows.size(), kBlock,
+  parallelFor(rows.size(), kLeafBlock,
               [&](std::size_t i) { values[rows[i].leaf.index()].noise = noiseOf(rows[i].indirect, elements); });
   return values;
 }

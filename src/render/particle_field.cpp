@@ -15,7 +15,7 @@ constexpr std::size_t kMostNeighbours = 400;
 constexpr double kStep = 1.25;       // between radii
 constexpr std::size_t kFewest = 6;   // impacts within four times the least radius
 constexpr double kConfidence = 1.5;  // standard deviations of an interval [GN97, 2.3: about 2 for Gaussian noise]
-constexpr double kLift = 0.02;       // of the radius, for looking along the surface
+constexpr double kAlongLift = 0.02;  // of the radius, for looking along the surface
 constexpr int kDisc = 128;
 constexpr int kPasses = 3;  // with what is known at the point ever closer
 
@@ -145,7 +145,7 @@ Rgb ParticleField::at(PrimitiveId primitive, bool front, const Vec3& position, c
 }
 
 bool ParticleField::inSight(const Query& q, const Vec3& to) const {
-  const double lift = kLift * q.radius;
+  const double lift = kAlongLift * q.radius;
   const Vec3f from(q.position + lift * q.normal), d = Vec3f(to + lift * q.normal) - from;
   tracing::Ray ray;
   ray.origin = from;

@@ -12,7 +12,7 @@ struct Step {
   double fraction;
 };
 
-Step locate(double x, std::size_t steps) {
+Step stepAt(double x, std::size_t steps) {
   const double last = static_cast<double>(steps) - 1;
   const double index = std::clamp(std::floor(x), 0.0, last);
   return {static_cast<std::size_t>(index), std::clamp(x - index, 0.0, 1.0)};
@@ -22,12 +22,12 @@ Step locate(double x, std::size_t steps) {
 
 double valueAt(const DirectionTable& table, const Vec3& w) {
   const double sine = std::hypot(w.x, w.y);  // acos(z) loses half of the digits near the poles
-  const auto [row, down] = locate(std::atan2(sine, w.z) / kPi * static_cast<double>(table.rows - 1), table.rows - 1);
+  const auto [row, down] = stepAt(std::atan2(sine, w.z) / kPi * static_cast<double>(table.rows - 1), table.rows - 1);
   const float* const upper = table.values.data() + row * table.columns;
   const float* const lower = upper + table.columns;
   if (table.columns == 1) return (1 - down) * upper[0] + down * lower[0];
   const double turn = std::atan2(w.y, w.x) / (2 * kPi);
-  const auto [column, along] = locate((turn < 0 ? turn + 1 : turn) * static_cast<double>(table.columns), table.columns);
+  const auto [column, along] = stepAt((turn < 0 ? turn + 1 : turn) * static_cast<double>(table.columns), table.columns);
   const std::size_t next = column + 1 < table.columns ? column + 1 : 0;
   return (1 - down) * ((1 - along) * upper[column] + along * upper[next]) +
          down * ((1 - along) * lower[column] + along * lower[next]);

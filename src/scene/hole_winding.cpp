@@ -10,12 +10,12 @@ namespace deltalux::scene {
 
 namespace {
 
-using Indices = std::vector<std::uint32_t>;
+using VertexOrder = std::vector<std::uint32_t>;
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 // A number for each vertex, equal for vertices at one point.
-Indices pointsOf(const std::vector<Vec2>& outline, std::size_t& count) {
-  Indices order(outline.size()), point(outline.size());
+VertexOrder pointsOf(const std::vector<Vec2>& outline, std::size_t& count) {
+  VertexOrder order(outline.size()), point(outline.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto key = [&](std::uint32_t i) { return std::pair(outline[i].x, outline[i].y); };
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
@@ -30,7 +30,7 @@ Indices pointsOf(const std::vector<Vec2>& outline, std::size_t& count) {
 
 struct Corner {
   std::uint32_t vertex;
-  Indices hanging = {};  // loops that the walk makes from here before it goes on
+  VertexOrder hanging = {};  // loops that the walk makes from here before it goes on
 };
 
 struct Loop {
@@ -43,10 +43,10 @@ struct Loop {
 };
 
 // Loops that pass no point twice; the last one is what is left of the walk.
-std::vector<Loop> loopsOf(const std::vector<Vec2>& outline, const Indices& point, std::size_t points) {
+std::vector<Loop> loopsOf(const std::vector<Vec2>& outline, const VertexOrder& point, std::size_t points) {
   std::vector<Loop> loops;
   std::vector<Corner> walk;
-  Indices placeInWalk(points, kNone);
+  VertexOrder placeInWalk(points, kNone);
   for (std::uint32_t i = 0; i < outline.size(); ++i) {
     const std::uint32_t place = placeInWalk[point[i]];
     if (place == kNone) {
@@ -120,7 +120,7 @@ bool contains(const Loop& loop, const std::vector<Vec2>& outline, const Vec2& p)
 }
 
 // Marks the loops to walk backwards; false when there are none.
-bool turn(std::vector<Loop>& loops, const std::vector<Vec2>& outline) {
+bool turnLoops(std::vector<Loop>& loops, const std::vector<Vec2>& outline) {
   std::vector<std::size_t> bySize;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     measure(loops[i], outline);
@@ -145,7 +145,7 @@ bool turn(std::vector<Loop>& loops, const std::vector<Vec2>& outline) {
 }
 
 // The walk over all loops, each in its direction.
-Indices walkOf(const std::vector<Loop>& loops, std::size_t vertices) {
+VertexOrder walkOf(const std::vector<Loop>& loops, std::size_t vertices) {
   struct Step {
     std::uint32_t index;
     bool isLoop;
@@ -161,7 +161,7 @@ Indices walkOf(const std::vector<Loop>& loops, std::size_t vertices) {
     for (std::size_t i = 1; i < n; ++i) push(loop.corners[loop.backwards ? i : n - i], true);
     push(loop.corners[0], loop.closing == kNone);
   };
-  Indices walk;
+  VertexOrder walk;
   walk.reserve(vertices);
   for (pushLoop(loops.back()); !todo.empty();) {
     const Step step = todo.back();
@@ -175,23 +175,23 @@ Indices walkOf(const std::vector<Loop>& loops, std::size_t vertices) {
   return walk;
 }
 
-Indices asItIs(std::size_t count) {
-  Indices order(count);
+VertexOrder asItIs(std::size_t count) {
+  VertexOrder order(count);
   std::iota(order.begin(), order.end(), 0u);
   return order;
 }
 
 }  // namespace
 
-Indices windingOrder(const std::vector<Vec2>& outline) {
+VertexOrder windingOrder(const std::vector<Vec2>& outline) {
   std::size_t points = 0;
-  const Indices point = pointsOf(outline, points);
+  const VertexOrder point = pointsOf(outline, points);
   if (points == outline.size()) return asItIs(outline.size());
   std::vector<Loop> loops = loopsOf(outline, point, points);
-  return turn(loops, outline) ? walkOf(loops, outline.size()) : asItIs(outline.size());
+  return turnLoops(loops, outline) ? walkOf(loops, outline.size()) : asItIs(outline.size());
 }
 
-Indices windingOrder(const std::vector<Vec3>& vertices) {
+VertexOrder windingOrder(const std::vector<Vec3>& vertices) {
   if (vertices.size() < 6) return asItIs(vertices.size());  // two loops with an area have six edges
   return windingOrder(flatOutline(vertices, newellVector(vertices)));
 }

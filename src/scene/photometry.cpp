@@ -13,7 +13,7 @@ struct Interval {
   double fraction;
 };
 
-Interval locate(const std::vector<double>& angles, double angle) {
+Interval intervalOf(const std::vector<double>& angles, double angle) {
   const auto above = std::upper_bound(angles.begin() + 1, angles.end() - 1, angle);
   const std::size_t i = static_cast<std::size_t>(above - angles.begin()) - 1;
   return {i, std::clamp((angle - angles[i]) / (angles[i + 1] - angles[i]), 0.0, 1.0)};
@@ -28,8 +28,8 @@ double integrateWithSine(double t0, double t1, double f0, double f1) {
 }  // namespace
 
 double candela(const Photometry& photometry, double vertical, double horizontal) {
-  const auto [v, fv] = locate(photometry.verticals, vertical);
-  const auto [h, fh] = locate(photometry.horizontals, horizontal);
+  const auto [v, fv] = intervalOf(photometry.verticals, vertical);
+  const auto [h, fh] = intervalOf(photometry.horizontals, horizontal);
   const std::size_t rows = photometry.verticals.size();
   const auto at = [&](std::size_t i, std::size_t j) { return photometry.candela[i * rows + j]; };
   const double here = (1 - fv) * at(h, v) + fv * at(h, v + 1);

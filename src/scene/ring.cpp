@@ -1,13 +1,12 @@
 #include <algorithm>
 
+#include "base/square.hpp"
 #include "base/unit_circle.hpp"
 #include "scene/shape_kinds.hpp"
 
 namespace deltalux::scene::kinds {
 
-namespace {
-double square(double x) { return x * x; }
-}  // namespace
+namespace {}  // namespace
 
 double area(const Ring& r) { return kPi * (square(r.outerRadius) - square(r.innerRadius)); }
 

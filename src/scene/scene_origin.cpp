@@ -34,7 +34,7 @@ struct Part {
   double size;
 };
 
-std::vector<Part> partsOf(const Scene& scene) {
+std::vector<Part> namedParts(const Scene& scene) {
   std::vector<Part> parts;
   for (const Primitive& primitive : scene.primitives)
     if (const Box box = bounds(primitive.shape); !box.empty()) parts.push_back({box.center(), box.diagonal()});
@@ -64,7 +64,7 @@ void shift(Mesh& s, const Vec3& by) {
 }  // namespace
 
 Vec3 fittingOrigin(const Scene& scene) {
-  const std::vector<Part> parts = partsOf(scene);
+  const std::vector<Part> parts = namedParts(scene);
   if (parts.empty()) return Vec3(0);
   Vec3 middle(0);
   std::vector<Weighted> all(parts.size());

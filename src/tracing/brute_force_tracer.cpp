@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/check.hpp"
+#include "base/square.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux::tracing {
@@ -17,8 +18,6 @@ struct Meeting {
   Vec3 normal;
   std::uint32_t triangle = 0;
 };
-
-double square(double x) { return x * x; }
 
 /// Calls visit(t) for the real roots of a t^2 + b t + c.
 template <class Visit>

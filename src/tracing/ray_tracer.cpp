@@ -6,7 +6,7 @@
 namespace deltalux::tracing {
 
 namespace {
-constexpr std::size_t kBatchBlock = 1024;  // rays per task: enough to hide the scheduling, few enough to balance
+constexpr std::size_t kOcclusionBlock = 1024;  // rays per task: enough to hide the scheduling, few enough to balance
 }
 
 std::uint64_t RayTracer::traced() const {
@@ -17,19 +17,19 @@ std::uint64_t RayTracer::traced() const {
 
 void RayTracer::closestHits(std::span<const Ray> rays, std::span<Hit> hits) const {
   DELTALUX_CHECK(rays.size() == hits.size(), "one hit per ray");
-  parallelFor(rays.size(), kBatchBlock, [&](std::size_t i) { hits[i] = closestHit(rays[i]); });
+  parallelFor(rays.size(), kOcclusionBlock, [&](std::size_t i) { hits[i] = closestHit(rays[i]); });
 }
 
 void RayTracer::transmittances(std::span<const Ray> rays, std::span<Rgb> results) const {
   DELTALUX_CHECK(rays.size() == results.size(), "one result per ray");
-  parallelFor(rays.size(), kBatchBlock, [&](std::size_t i) { results[i] = transmittance(rays[i]); });
+  parallelFor(rays.size(), kOcclusionBlock, [&](std::size_t i) { results[i] = transmittance(rays[i]); });
 }
 
 void RayTracer::passings(std::span<const Ray> rays, std::span<Passing> results) const {
   DELTALUX_CHECK(rays.size() == results.size(), "one result per ray");
   const auto one = [&](std::size_t i) { results[i] = passing(rays[i]); };
   // A few rays are done before a task would have begun.
-  if (rays.size() > kBatchBlock) return parallelFor(rays.size(), kBatchBlock, one);
+  if (rays.size() > kOcclusionBlock) return parallelFor(rays.size(), kOcclusionBlock, one);
   for (std::size_t i = 0; i < rays.size(); ++i) one(i);
 }
 

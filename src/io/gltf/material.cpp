@@ -22,26 +22,26 @@ struct Inputs {
   float transmission = 0;
 };
 
-float number(double value) { return static_cast<float>(value); }
+float single(double value) { return static_cast<float>(value); }
 
 Inputs inputsOf(const tinygltf::Material& material, GltfTextures& textures) {
   const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
   Inputs in;
   in.factor = in.base = rgbOf(pbr.baseColorFactor);
   if (pbr.baseColorTexture.index >= 0) in.base *= textures.average(pbr.baseColorTexture.index, TexelEncoding::Srgb);
-  in.metallic = number(pbr.metallicFactor), in.roughness = number(pbr.roughnessFactor);
+  in.metallic = single(pbr.metallicFactor), in.roughness = single(pbr.roughnessFactor);
   if (pbr.metallicRoughnessTexture.index >= 0) {
     const Rgb texel = textures.average(pbr.metallicRoughnessTexture.index, TexelEncoding::Linear);
     in.roughness *= texel.g, in.metallic *= texel.b;
   }
   // An ior of 0 stands for a surface that reflects everything. [KHR_materials_ior]
-  in.ior = number(numberOf(extensionOf(material.extensions, "KHR_materials_ior"), "ior", 1.5));
+  in.ior = single(numberOf(extensionOf(material.extensions, "KHR_materials_ior"), "ior", 1.5));
   const float root = in.ior == 0 ? 1.0f : (in.ior - 1) / (in.ior + 1);
   const tinygltf::Value* specular = extensionOf(material.extensions, "KHR_materials_specular");
   const Rgb colour = rgbOf(numbersOf(specular, "specularColorFactor", {1, 1, 1}));
-  in.f0 = glm::min(root * root * colour, Rgb(1.0f)) * number(numberOf(specular, "specularFactor", 1));
+  in.f0 = glm::min(root * root * colour, Rgb(1.0f)) * single(numberOf(specular, "specularFactor", 1));
   const tinygltf::Value* transmission = extensionOf(material.extensions, "KHR_materials_transmission");
-  in.transmission = number(numberOf(transmission, "transmissionFactor", 0)) * (1 - in.metallic);
+  in.transmission = single(numberOf(transmission, "transmissionFactor", 0)) * (1 - in.metallic);
   return in;
 }
 
@@ -68,7 +68,7 @@ Dielectric dielectricOf(const Inputs& in, const tinygltf::Value& volume) {
   const Rgb colour = rgbOf(numbersOf(&volume, "attenuationColor", {1, 1, 1}));
   Dielectric surface;
   surface.ior = in.ior == 0 ? 1.5f : in.ior;
-  for (int c = 0; c < 3; ++c) surface.transmission[c] = number(std::pow(static_cast<double>(colour[c]), 1 / distance));
+  for (int c = 0; c < 3; ++c) surface.transmission[c] = single(std::pow(static_cast<double>(colour[c]), 1 / distance));
   return surface;
 }
 
@@ -95,12 +95,12 @@ float coverageOf(const tinygltf::Material& material, GltfTextures& textures, Ign
     return masked ? (a >= material.alphaCutoff ? 1.0 : 0.0) : a;
   };
   const int texture = material.pbrMetallicRoughness.baseColorTexture.index;
-  if (texture < 0) return number(share(1));
+  if (texture < 0) return single(share(1));
   const std::array<double, 256>& alphas = textures.alphas(texture);
   double sum = 0;
   for (std::size_t i = 0; i < alphas.size(); ++i) sum += alphas[i] * share(static_cast<double>(i) / 255);
   if (*std::max_element(alphas.begin(), alphas.end()) < 1) ++ignored["alpha textures (average used)"];
-  return number(std::min(sum, 1.0));
+  return single(std::min(sum, 1.0));
 }
 
 std::optional<Emission> emissionOf(const tinygltf::Material& material, double luminousEfficacy,
@@ -113,7 +113,7 @@ std::optional<Emission> emissionOf(const tinygltf::Material& material, double lu
   if (material.emissiveTexture.index >= 0)
     emissive *= textures.average(material.emissiveTexture.index, TexelEncoding::Srgb);
   Emission emission;
-  emission.radiance = emissive * number(strength / luminousEfficacy);
+  emission.radiance = emissive * single(strength / luminousEfficacy);
   emission.bothSides = material.doubleSided;
   if (isBlack(emission.radiance)) return std::nullopt;
   return emission;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kDegree = kPi / 180;
 constexpr double kStep = 1e-6;  // width [degrees] of the step from the last measured angle to darkness
-constexpr const char* kHint = "get the file again from the maker, or correct its angles";
+constexpr const char* kAnglesHint = "get the file again from the maker, or correct its angles";
 
 std::string angleText(double degrees) {
   std::string text = std::to_string(degrees);
@@ -20,7 +20,7 @@ std::string angleText(double degrees) {
 }
 
 InputError badAngles(const IesRecord& record, const std::string& name, const std::string& message) {
-  return InputError(name, record.anglesLine, message, kHint);
+  return InputError(name, record.anglesLine, message, kAnglesHint);
 }
 
 // One plane of the completed distribution and the measured plane that it repeats.

@@ -10,7 +10,7 @@ namespace deltalux::io {
 
 namespace {
 constexpr std::string_view kSeparators(" \t\r\n,\f\v", 7);
-constexpr const char* kHint = "compare the file with its IES LM-63 standard, or get it again from the maker";
+constexpr const char* kStandardHint = "compare the file with its IES LM-63 standard, or get it again from the maker";
 }  // namespace
 
 NumberReader::NumberReader(std::string_view text, std::string name, int line)
@@ -24,7 +24,7 @@ std::string_view NumberReader::rest() {
 }
 
 std::string_view NumberReader::next(const char* what) {
-  if (rest().empty()) throw InputError(name_, line_, std::string("the file ends before ") + what, kHint);
+  if (rest().empty()) throw InputError(name_, line_, std::string("the file ends before ") + what, kStandardHint);
   const std::string_view token = text_.substr(0, text_.find_first_of(kSeparators));
   text_.remove_prefix(token.size());
   return token;
@@ -33,7 +33,7 @@ std::string_view NumberReader::next(const char* what) {
 double NumberReader::number(const char* what) {
   const std::string_view token = next(what);
   if (const auto value = parseDecimal(token)) return *value;
-  throw InputError(name_, line_, notANumber(token) + " for " + what, kHint);
+  throw InputError(name_, line_, notANumber(token) + " for " + what, kStandardHint);
 }
 
 int NumberReader::integer(const char* what, int low, int high) {
@@ -42,7 +42,7 @@ int NumberReader::integer(const char* what, int low, int high) {
     throw InputError(
         name_, line_,
         std::string(what) + " must be a whole number from " + std::to_string(low) + " to " + std::to_string(high),
-        kHint);
+        kStandardHint);
   }
   return static_cast<int>(value);
 }
@@ -51,7 +51,8 @@ void NumberReader::expectRoomFor(int count, const char* what) {
   // Each takes a digit and, all but the last, a separator.
   if (static_cast<std::size_t>(count) > text_.size() / 2 + 1) {
     throw InputError(name_, line_,
-                     std::to_string(count) + " values for " + what + " are announced, the file is too short", kHint);
+                     std::to_string(count) + " values for " + what + " are announced, the file is too short",
+                     kStandardHint);
   }
 }
 
@@ -68,7 +69,7 @@ std::vector<double> NumberReader::ascending(int count, const char* what) {
   for (int i = 0; i < count; ++i) {
     values.push_back(number(what));
     if (i > 0 && values[values.size() - 1] <= values[values.size() - 2]) {
-      throw InputError(name_, line_, std::string(what) + " do not ascend", kHint);
+      throw InputError(name_, line_, std::string(what) + " do not ascend", kStandardHint);
     }
   }
   return values;

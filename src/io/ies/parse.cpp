@@ -10,6 +10,7 @@
 #include "io/ies/number_reader.hpp"
 #include "io/import_file.hpp"
 #include "io/plain_text.hpp"
+#include "io/trimmed.hpp"
 
 namespace deltalux::io {
 
@@ -22,12 +23,6 @@ std::string upperCase(std::string_view text) {
   std::string upper(text);
   std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return std::toupper(c); });
   return upper;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin);
 }
 
 // Files of 1986 name no standard.

@@ -17,7 +17,7 @@ namespace deltalux::io {
 
 namespace {
 constexpr const char* kViewAttribute = "radianceView";
-constexpr int kMaxSide = 65536;
+constexpr int kMaxExrSide = 65536;
 
 class MemoryOutput : public Imf::OStream {
  public:
@@ -102,7 +102,7 @@ Image decodeExr(std::string_view bytes, const std::string& fileName) {
       if (!file.header().channels().findChannel(name))
         throw InputError(fileName, 0, std::string("the picture has no channel ") + name,
                          "only RGB pictures can be read");
-    if (window.max.x - window.min.x >= kMaxSide || window.max.y - window.min.y >= kMaxSide)
+    if (window.max.x - window.min.x >= kMaxExrSide || window.max.y - window.min.y >= kMaxExrSide)
       throw InputError(fileName, 0, "the picture is too large");
 
     Image image;

@@ -7,6 +7,7 @@
 #include <deltalux/error.hpp>
 
 #include "io/image/formats.hpp"
+#include "io/trimmed.hpp"
 
 namespace deltalux::io {
 
@@ -20,14 +21,8 @@ Rgb toRgb(const Rgbe& v) {
   return scale * Rgb(static_cast<float>(v[0]) + 0.5f, static_cast<float>(v[1]) + 0.5f, static_cast<float>(v[2]) + 0.5f);
 }
 
-std::string_view trimmed(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
 /// Numbers at the front of `text`, as many as there are.
-std::vector<double> numbersIn(std::string_view text) {
+std::vector<double> numbersOfLine(std::string_view text) {
   std::vector<double> numbers;
   for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
     double value = 0;
@@ -95,12 +90,12 @@ class Decoder {
       fail("pictures of format " + std::string(value) + " cannot be read");
     if (name == "VIEW") image_.view += (image_.view.empty() ? "" : " ") + std::string(value);
     if (name == "EXPOSURE") {
-      const std::vector<double> numbers = numbersIn(value);
+      const std::vector<double> numbers = numbersOfLine(value);
       if (numbers.size() != 1 || !(numbers[0] > 0)) fail("EXPOSURE should be one positive number");
       image_.exposure *= numbers[0];
     }
     if (name == "COLORCORR") {
-      const std::vector<double> numbers = numbersIn(value);
+      const std::vector<double> numbers = numbersOfLine(value);
       if (numbers.size() != 3 || !(std::min({numbers[0], numbers[1], numbers[2]}) > 0))
         fail("COLORCORR should be three positive numbers");
       correction_ *= glm::dvec3(numbers[0], numbers[1], numbers[2]);

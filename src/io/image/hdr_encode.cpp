@@ -11,9 +11,9 @@
 namespace deltalux::io {
 
 namespace {
-using Rgbe = std::array<std::uint8_t, 4>;
+using RgbePixel = std::array<std::uint8_t, 4>;
 
-Rgbe toRgbe(const Rgb& color) {
+RgbePixel toRgbe(const Rgb& color) {
   const glm::dvec3 c = glm::max(glm::dvec3(color), 0.0);
   const double brightest = std::max({c.r, c.g, c.b});
   if (!(brightest > 1e-32)) return {0, 0, 0, 0};
@@ -50,9 +50,9 @@ void appendRuns(std::string& bytes, const std::vector<std::uint8_t>& row) {
   }
 }
 
-void appendScanline(std::string& bytes, const std::vector<Rgbe>& line) {
+void appendScanline(std::string& bytes, const std::vector<RgbePixel>& line) {
   if (line.size() < 8 || line.size() > 32767) {
-    for (const Rgbe& pixel : line) bytes.append(pixel.begin(), pixel.end());
+    for (const RgbePixel& pixel : line) bytes.append(pixel.begin(), pixel.end());
     return;
   }
   bytes += {2, 2, static_cast<char>(line.size() >> 8), static_cast<char>(line.size() & 255)};
@@ -69,7 +69,7 @@ std::string encodeHdr(const Image& image) {
   if (!image.view.empty()) bytes += fmt::format("VIEW= {}\n", image.view);
   if (image.exposure != 1.0) bytes += fmt::format("EXPOSURE={:.9g}\n", image.exposure);
   bytes += fmt::format("FORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", image.height, image.width);
-  std::vector<Rgbe> line(static_cast<std::size_t>(image.width));
+  std::vector<RgbePixel> line(static_cast<std::size_t>(image.width));
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x)
       line[static_cast<std::size_t>(x)] = toRgbe(image.at(x, y) * static_cast<float>(image.exposure));

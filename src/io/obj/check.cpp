@@ -7,12 +7,13 @@
 #include "io/number.hpp"
 #include "io/obj/lines.hpp"
 #include "io/obj/words.hpp"
+#include "io/trimmed.hpp"
 
 namespace deltalux::io {
 
 namespace {
 
-constexpr double kLargest = 1e15;  // coordinate
+constexpr double kLargestVertex = 1e15;  // coordinate
 
 bool parses(std::string_view word, int& value) {
   if (word.starts_with('+')) word.remove_prefix(1);
@@ -29,7 +30,7 @@ void checkNumbers(std::string_view line, int required, const auto& fail) {
     if (word.empty() || word.starts_with('#')) return;
     const auto value = parseDecimal(word);
     if (!value) fail(notANumber(word));
-    if (std::abs(*value) > kLargest) fail("'" + std::string(word.substr(0, 40)) + "' is too large");
+    if (std::abs(*value) > kLargestVertex) fail("'" + std::string(word.substr(0, 40)) + "' is too large");
   }
 }
 
@@ -68,7 +69,7 @@ ObjSurvey surveyObj(std::string_view text, const std::string& name) {
     if (keyword == "l" || keyword == "p") ++survey.ignored["points or lines"];
     if (keyword == "curv" || keyword == "curv2" || keyword == "surf") ++survey.ignored["free-form curves or surfaces"];
     if (keyword == "mtllib") {
-      survey.materialLines.push_back(trimmed(line));
+      survey.materialLines.emplace_back(trimmed(line));
       survey.materialLineNumbers.push_back(lines.line());
     }
   }

@@ -10,7 +10,7 @@ namespace deltalux::io {
 namespace {
 
 using Face = std::vector<ObjCorner>;
-using Triangle = std::array<std::size_t, 3>;  // corners of a face
+using CornerTriangle = std::array<std::size_t, 3>;  // corners of a face
 
 Face withoutRepetitions(const Face& face, const ObjVertices& vertices) {
   Face kept;
@@ -31,19 +31,19 @@ Face withHolesWound(const Face& face, const ObjVertices& vertices) {
   return scene::inOrder(face, scene::windingOrder(outline));
 }
 
-std::vector<Triangle> fan(std::size_t corners) {
-  std::vector<Triangle> triangles;
+std::vector<CornerTriangle> fan(std::size_t corners) {
+  std::vector<CornerTriangle> triangles;
   for (std::size_t i = 1; i + 1 < corners; ++i) triangles.push_back({0, i, i + 1});
   return triangles;
 }
 
-std::vector<Triangle> triangulated(const Face& face, const ObjVertices& vertices) {
+std::vector<CornerTriangle> triangulated(const Face& face, const ObjVertices& vertices) {
   if (face.size() <= 3) return fan(face.size());
   std::vector<Vec3> outline;
   for (const ObjCorner& corner : face) outline.push_back(vertices.positions[static_cast<std::size_t>(corner.position)]);
   const auto polygon = makePolygon(std::move(outline));
   if (!polygon || polygon->vertices.size() != face.size()) return fan(face.size());
-  std::vector<Triangle> triangles;
+  std::vector<CornerTriangle> triangles;
   for (const auto& [a, b, c] : polygon->triangles) triangles.push_back({a, b, c});
   return triangles;
 }
@@ -99,7 +99,7 @@ Mesh meshOf(const ObjVertices& vertices, const std::vector<Face>& faces, bool te
   for (const Face& given : faces) {
     const Face face = withHolesWound(withoutRepetitions(given, vertices), vertices);
     bool any = false;
-    for (const Triangle& triangle : triangulated(face, vertices)) {
+    for (const CornerTriangle& triangle : triangulated(face, vertices)) {
       const auto at = [&](std::size_t i) {
         return vertices.positions[static_cast<std::size_t>(face[triangle[i]].position)];
       };

@@ -13,7 +13,7 @@ namespace deltalux::io {
 
 namespace {
 
-using Ignored = std::map<std::string, std::size_t>;
+using IgnoredStatements = std::map<std::string, std::size_t>;
 namespace fs = std::filesystem;
 
 Rgb fractions(const double (&values)[3]) {
@@ -31,14 +31,14 @@ Rgb filterOf(const tinyobj::material_t& m) {
 
 // How much of a surface is there: d and Tr, the same at every angle. Without them the illumination models of glass say
 // that light passes all of it.
-float coverageOf(const tinyobj::material_t& m) {
+float coverageOfMtl(const tinyobj::material_t& m) {
   const bool glass = m.illum == 4 || m.illum == 6 || m.illum == 7 || m.illum == 9;
   if (m.dissolve < 1) return static_cast<float>(std::max(m.dissolve, 0.0));
   return glass ? 0.0f : 1.0f;
 }
 
 // Glass that refracts is a pane, whose reflection and transmission go by the angle.
-bool isPaneOfGlass(const tinyobj::material_t& m) { return coverageOf(m) == 0 && !(m.dissolve < 1) && m.ior > 1; }
+bool isPaneOfGlass(const tinyobj::material_t& m) { return coverageOfMtl(m) == 0 && !(m.dissolve < 1) && m.ior > 1; }
 
 ThinGlass glassOf(const tinyobj::material_t& m) {
   return {filterOf(m), static_cast<float>(std::clamp(m.ior, 1.0, 100.0))};
@@ -49,7 +49,7 @@ class ObjTextures {
  public:
   ObjTextures(const fs::path& folder, std::string referrer) : folder_(folder), referrer_(std::move(referrer)) {}
 
-  TextureId put(std::string reference, Scene& scene, Ignored& ignored) {
+  TextureId put(std::string reference, Scene& scene, IgnoredStatements& ignored) {
     std::replace(reference.begin(), reference.end(), '\\', '/');
     const auto [entry, isNew] = placed_.try_emplace(reference);
     if (!isNew) return entry->second;
@@ -76,7 +76,7 @@ class ObjTextures {
   std::map<std::string, TextureId> placed_;
 };
 
-Opaque opaqueOf(const tinyobj::material_t& m, ObjTextures& textures, Scene& scene, Ignored& ignored) {
+Opaque opaqueOfMtl(const tinyobj::material_t& m, ObjTextures& textures, Scene& scene, IgnoredStatements& ignored) {
   Opaque surface;
   surface.diffuse = fractions(m.diffuse);
   if (!m.diffuse_texname.empty()) surface.diffuseTexture = textures.put(m.diffuse_texname, scene, ignored);
@@ -92,14 +92,14 @@ Opaque opaqueOf(const tinyobj::material_t& m, ObjTextures& textures, Scene& scen
   return surface;
 }
 
-Material materialOf(const tinyobj::material_t& m, ObjTextures& textures, Scene& scene, Ignored& ignored) {
+Material materialOf(const tinyobj::material_t& m, ObjTextures& textures, Scene& scene, IgnoredStatements& ignored) {
   Material material;
   material.name = m.name;
   if (isPaneOfGlass(m)) {
     material.surface = glassOf(m);
   } else {
-    material.surface = opaqueOf(m, textures, scene, ignored);
-    material.coverage = coverageOf(m);
+    material.surface = opaqueOfMtl(m, textures, scene, ignored);
+    material.coverage = coverageOfMtl(m);
     material.filter = filterOf(m);
   }
   const glm::dvec3 emitted(m.emission[0], m.emission[1], m.emission[2]);

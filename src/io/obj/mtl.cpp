@@ -9,6 +9,7 @@
 #include "io/obj/lines.hpp"
 #include "io/obj/words.hpp"
 #include "io/plain_text.hpp"
+#include "io/trimmed.hpp"
 
 namespace deltalux::io {
 
@@ -55,7 +56,7 @@ std::string mapFile(std::string_view line, bool& hasOptions) {
     const std::string_view word = takeWord(rest);
     const auto* const option =
         std::find_if(kOptions.begin(), kOptions.end(), [&](const Option& o) { return o.name == lowerCase(word); });
-    if (option == kOptions.end()) return trimmed(line);
+    if (option == kOptions.end()) return std::string(trimmed(line));
     hasOptions = true;
     for (int i = 0; i < option->most; ++i) {
       std::string_view behind = rest;
@@ -79,7 +80,7 @@ class MtlReader {
       keyword_ = keyword;
       const std::string lower = lowerCase(keyword);
       if (lower == "newmtl") {
-        begin(trimmed(line));
+        begin(std::string(trimmed(line)));
       } else if (materials_.empty()) {
         count("MTL statements before newmtl");
       } else if (lower.starts_with("map_") || isMapWithoutPrefix(lower)) {

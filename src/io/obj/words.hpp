@@ -16,11 +16,4 @@ inline std::string_view takeWord(std::string_view& line) {
   return word;
 }
 
-/// `text` without the blanks around it.
-inline std::string trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  return std::string(text.substr(begin, text.find_last_not_of(kBlank) + 1 - begin));
-}
-
 }  // namespace deltalux::io

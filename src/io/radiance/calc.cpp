@@ -5,6 +5,7 @@
 
 #include "io/radiance/calc_compiled.hpp"
 #include "io/radiance/calc_translator.hpp"
+#include "io/trimmed.hpp"
 
 namespace deltalux::io::radiance {
 
@@ -24,13 +25,6 @@ std::string withoutComments(std::string_view text) {
     if (c == '}' && depth > 0) --depth;
   }
   return kept;
-}
-
-std::string trimmed(std::string_view text) {
-  const auto space = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
-  while (!text.empty() && space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && space(text.back())) text.remove_suffix(1);
-  return std::string(text);
 }
 
 bool isName(const std::string& text) {
@@ -62,23 +56,23 @@ void Calc::define(std::string_view text) {
   const std::string clean = withoutComments(text);
   for (std::size_t begin = 0; begin < clean.size();) {
     const std::size_t end = std::min(clean.find(';', begin), clean.size());
-    const std::string statement = trimmed(std::string_view(clean).substr(begin, end - begin));
+    const std::string statement(trimmed(std::string_view(clean).substr(begin, end - begin)));
     begin = end + 1;
     if (statement.empty()) continue;
     const std::size_t equals = statement.find_first_of("=:");
     if (equals == std::string::npos) fail("'" + statement.substr(0, 60) + "' defines nothing: name = expression");
-    std::string head = trimmed(std::string_view(statement).substr(0, equals));
+    std::string head(trimmed(std::string_view(statement).substr(0, equals)));
     Definition definition;
-    definition.expression = trimmed(std::string_view(statement).substr(equals + 1));
+    definition.expression = std::string(trimmed(std::string_view(statement).substr(equals + 1)));
     if (const std::size_t open = head.find('('); open != std::string::npos) {
       if (head.back() != ')') fail("'" + head.substr(0, 60) + "' is no function's head: name(a,b)");
       std::string_view list = std::string_view(head).substr(open + 1, head.size() - open - 2);
       for (std::size_t comma = 0; comma != std::string_view::npos;) {
         comma = list.find(',');
-        definition.parameters.push_back(trimmed(list.substr(0, comma)));
+        definition.parameters.emplace_back(trimmed(list.substr(0, comma)));
         if (comma != std::string_view::npos) list.remove_prefix(comma + 1);
       }
-      head = trimmed(std::string_view(head).substr(0, open));
+      head = std::string(trimmed(std::string_view(head).substr(0, open)));
     }
     for (const std::string& parameter : definition.parameters) {
       if (!isName(parameter)) fail("'" + parameter.substr(0, 60) + "' is no parameter name");

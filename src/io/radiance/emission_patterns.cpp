@@ -31,10 +31,6 @@ std::vector<SurfacePoint> placesOn(const Shape& shape, int n) {
   return points;
 }
 
-bool isSky(const RadObject& object) {
-  return object.type == Type::SkyBrightness || object.type == Type::PerezBrightness;
-}
-
 Rgb scaled(const Rgb& radiance, const glm::dvec3& factor) {
   constexpr double kLargest = 1e30;
   const glm::dvec3 result = glm::dvec3(radiance) * factor;
@@ -247,7 +243,7 @@ void EmissionPatterns::apply(const Modifier& modifier, Light& light) {
   const Chain chain = modifier.patterns.empty() ? Chain{} : readable(modifier);
   if (chain.empty()) return;
   auto* const dome = std::get_if<DomeLight>(&light.emitter);
-  if (dome && chain.size() == 1 && isSky(*chain[0])) {
+  if (dome && chain.size() == 1 && isSkyPattern(*chain[0])) {
     std::visit([&](const auto& sky) { dome->distribution = sky; }, skyOf(*chain[0]));
     dome->up = zenithOf(*chain[0]);
     return;

@@ -13,11 +13,11 @@ namespace {
 using Corner = unsigned;
 constexpr std::string_view kVertexNames = "0123456789._ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
 
-struct Face {
+struct BoxFace {
   std::array<Corner, 4> corners;
   unsigned insets;  // of the face's own vertices when edges are bevelled: the axes along it
 };
-constexpr std::array<Face, 6> kFaces{
+constexpr std::array<BoxFace, 6> kFaces{
     {{{1, 5, 4, 0}, 5}, {{4, 6, 2, 0}, 6}, {{2, 3, 1, 0}, 3}, {{3, 2, 6, 7}, 5}, {{5, 1, 3, 7}, 6}, {{6, 4, 5, 7}, 3}}};
 constexpr std::array<std::array<Corner, 2>, 12> kEdges{
     {{0, 1}, {0, 4}, {0, 2}, {3, 1}, {3, 2}, {3, 7}, {5, 1}, {5, 4}, {5, 7}, {6, 2}, {6, 4}, {6, 7}}};
@@ -28,7 +28,7 @@ class BoxBuilder {
       : maker_(maker), size_(size), bevel_(bevel), inward_(inward) {}
 
   void faces() {
-    for (const Face& face : kFaces) {
+    for (const BoxFace& face : kFaces) {
       std::vector<unsigned> vertices;
       for (const Corner corner : face.corners) vertices.push_back(vertex(corner, bevel_ > 0 ? face.insets : 0));
       polygon(std::move(vertices));

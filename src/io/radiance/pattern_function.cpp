@@ -16,18 +16,18 @@ namespace {
 
 constexpr double kFar = 1e10;  // the distance to what is lit, where a function asks for it
 
-std::filesystem::path folderOf(const RadObject& object) {
+std::filesystem::path folderOfSource(const RadObject& object) {
   return object.where.file ? std::filesystem::path(*object.where.file).parent_path() : std::filesystem::path();
 }
 
 SourceFile openFile(const std::string& name, const RadObject& object, FileAccess& files) {
-  if (auto file = files.open(name, folderOf(object))) return std::move(*file);
+  if (auto file = files.open(name, folderOfSource(object))) return std::move(*file);
   throw inputError(object.where, "cannot find '" + name.substr(0, 100) + "'");
 }
 
 std::string functionText(const std::string& name, const RadObject& object, FileAccess& files) {
   if (name == ".") return {};
-  if (auto file = files.open(name, folderOf(object))) return std::move(file->text);
+  if (auto file = files.open(name, folderOfSource(object))) return std::move(file->text);
   if (const auto known = functionFile(name)) return std::string(*known);
   throw inputError(object.where, "cannot find '" + name.substr(0, 100) + "'");
 }
@@ -123,19 +123,15 @@ bool isFinite(const Mat4& matrix) {
   return true;
 }
 
-bool isSky(const RadObject& object) {
-  return object.type == Type::SkyBrightness || object.type == Type::PerezBrightness;
-}
-
 }  // namespace
 
 bool PatternFunction::understands(const RadObject& object) {
-  return isSky(object) || object.typeName == "brightfunc" || object.typeName == "colorfunc" ||
+  return isSkyPattern(object) || object.typeName == "brightfunc" || object.typeName == "colorfunc" ||
          object.typeName == "brightdata" || object.typeName == "colordata";
 }
 
 PatternFunction::PatternFunction(const RadObject& object, FileAccess& files, long& calls) {
-  if (isSky(object)) {
+  if (isSkyPattern(object)) {
     const Vec3 up = zenithOf(object);
     frame_ = glm::dmat3(Frame(up).tangent, Frame(up).bitangent, up);
     DomeLight dome{up, kPi, Rgb(1.0f), UniformSky{}, up};

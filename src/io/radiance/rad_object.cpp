@@ -148,6 +148,10 @@ std::optional<Type> typeNamed(std::string_view word) {
   return found->second;
 }
 
+bool isSkyPattern(const RadObject& object) {
+  return object.type == Type::SkyBrightness || object.type == Type::PerezBrightness;
+}
+
 std::string nameOf(Type type) {
   if (type == Type::GeneratedMesh) return "mesh";
   if (type == Type::SkyBrightness || type == Type::PerezBrightness) return "brightfunc";

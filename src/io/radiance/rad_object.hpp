@@ -71,6 +71,8 @@ struct RadObject {
 };
 
 bool isSurface(Type);
+/// Whether it is a pattern that says how bright the sky is.
+bool isSkyPattern(const RadObject&);
 
 /// The type that `word` names, or nullopt for a word that is no type of Radiance.
 std::optional<Type> typeNamed(std::string_view word);

@@ -48,7 +48,7 @@ struct Miss {
   }
 };
 
-double rootBetween(const Miss& f, double a, double fa, double b) {
+double rootOfMiss(const Miss& f, double a, double fa, double b) {
   for (int i = 0; i < 52; ++i) {
     const double m = 0.5 * (a + b), fm = f(m);
     if ((fm > 0) == (fa > 0))
@@ -60,7 +60,7 @@ double rootBetween(const Miss& f, double a, double fa, double b) {
 }
 
 /// The extremum of f between two angles by golden sections, for a pair of roots that no sample separates.
-double extremumBetween(const Miss& f, double a, double b, double sign) {
+double extremumOfMiss(const Miss& f, double a, double b, double sign) {
   constexpr double kGolden = 0.6180339887498949;
   for (int i = 0; i < 30; ++i) {
     const double left = b - kGolden * (b - a), right = a + kGolden * (b - a);
@@ -136,7 +136,7 @@ BallPassages ballPassages(const Sphere& sphere, double ior, int inner, const Vec
     value[k] = miss(at[k]);
   }
   const auto found = [&](double a, double fa, double b) {
-    const BallPassage p = makePassage(sphere, course, x, axis, side, rootBetween(miss, a, fa, b));
+    const BallPassage p = makePassage(sphere, course, x, axis, side, rootOfMiss(miss, a, fa, b));
     const bool ahead = light.infinite || glm::dot(light.at - p.exit, p.direction) > 0.0;
     if (ahead && result.count < static_cast<int>(result.list.size())) result.list[result.count++] = p;
   };
@@ -153,7 +153,7 @@ BallPassages ballPassages(const Sphere& sphere, double ior, int inner, const Vec
     // Does a stretch without a change of sign reach across between two samples?
     if (k == 0 || (value[k - 1] > 0) != (value[k] > 0) || !joined(k) || !joined(k - 1)) continue;
     if (std::abs(value[k]) > std::abs(value[k - 1]) || std::abs(value[k]) > std::abs(value[k + 1])) continue;
-    const double bottom = extremumBetween(miss, at[k - 1], at[k + 1], value[k] > 0 ? 1.0 : -1.0), low = miss(bottom);
+    const double bottom = extremumOfMiss(miss, at[k - 1], at[k + 1], value[k] > 0 ? 1.0 : -1.0), low = miss(bottom);
     if ((low > 0) == (value[k] > 0)) continue;
     found(at[k - 1], value[k - 1], bottom);
     found(bottom, low, at[k + 1]);

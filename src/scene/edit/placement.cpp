@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-bool finite(const Mat4& m) {
+bool finiteMap(const Mat4& m) {
   for (int c = 0; c < 4; ++c)
     for (int r = 0; r < 4; ++r)
       if (!std::isfinite(m[c][r])) return false;
@@ -30,7 +30,7 @@ Mat4 settled(const Mat4& matrix, const Scene& scene) {
   for (int c = 0; c < 4; ++c)
     for (int r = 0; r < 4; ++r)
       deviation = std::max(deviation, std::abs(matrix[c][r] - (c == r ? 1.0 : 0.0)) / (c == 3 ? size : 1.0));
-  return finite(matrix) && deviation <= kRounding ? Mat4(1.0) : matrix;
+  return finiteMap(matrix) && deviation <= kRounding ? Mat4(1.0) : matrix;
 }
 
 Mat4 between(const Mat4& matrix, const Vec3& from, const Vec3& to) {
@@ -68,7 +68,7 @@ Shape shapeOf(const Scene& scene, const Restore::PrimitiveState& state, const Sh
   if (!state.present) return removedShape();
   if (state.matrix == Mat4(1.0)) return rest;
   const Mat4& m = state.matrix;
-  if (!finite(m) || m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
+  if (!finiteMap(m) || m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
     refuse("the matrix is no affine map", "its last row is 0 0 0 1");
   std::optional<Shape> shape = transformed(rest, m);
   if (shape) return std::move(*shape);
