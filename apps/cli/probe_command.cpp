@@ -28,8 +28,8 @@ void runProbe(const ProbeOptions& options) {
   {
     ProgressPrinter progress(options.run.progressStyle());
     const SolutionView solution = options.source.load(run, options.run, progress);
-    const std::vector<ProbeResult> results = probe(solution, table.points, settings, &progress);
-    writeProbeResults(options.output, table, results, ProbeColumns::Values);
+    const std::vector<ProbeResult> results = probe(solution, pointsIn(solution.scene(), table), settings, &progress);
+    writeProbeResults(options.output, table, results, ProbeColumns::Values, solution.scene().luminousEfficacy);
   }
   run.say(fmt::format("{}: {} points", options.output, table.points.size()));
   run.finish();

@@ -45,10 +45,10 @@ double relativeError(const std::vector<ProbeResult>& results) {
   return sum > 0 ? std::sqrt(squares / n) / (sum / n) : 0.0;
 }
 
-void probePoints(const ReferenceOptions& options, const PointTable& table, ReferenceIntegrator& integrator,
-                 Progress& progress, const Run& run) {
-  const std::vector<ProbeResult> results = integrator.probe(table.points, &progress);
-  writeProbeResults(options.output, table, results, ProbeColumns::ValuesAndErrors);
+void probePoints(const ReferenceOptions& options, const Scene& scene, const PointTable& table,
+                 ReferenceIntegrator& integrator, Progress& progress, const Run& run) {
+  const std::vector<ProbeResult> results = integrator.probe(pointsIn(scene, table), &progress);
+  writeProbeResults(options.output, table, results, ProbeColumns::ValuesAndErrors, scene.luminousEfficacy);
   run.say(fmt::format("{}: {} points, standard error {:.2g} % of their mean", options.output, results.size(),
                       100 * relativeError(results)));
 }
@@ -64,6 +64,7 @@ Image irradianceSeen(const Scene& scene, const View& view, glm::ivec2 size, Refe
   Image image;
   image.width = size.x;
   image.height = size.y;
+  image.luminousEfficacy = scene.luminousEfficacy;
   image.pixels.reserve(seen.size());
   auto result = results.begin();
   for (const auto& point : seen) image.pixels.push_back(point ? Rgb((result++)->irradiance) : Rgb(-1.0f));
@@ -77,7 +78,7 @@ void renderView(const ReferenceOptions& options, const Scene& scene, const View&
     options.picture.saveFalseColor(options.output, irradianceSeen(scene, view, size, integrator, progress));
   } else {
     Image image = integrator.render(view, size.x, size.y, &progress);
-    image.view = viewOptions(view);
+    image.view = viewOptions(view, scene.origin);
     options.picture.save(options.output, image, run);
   }
   run.say(fmt::format("{}: {} x {} pixels", options.output, size.x, size.y));
@@ -101,7 +102,7 @@ void runReference(const ReferenceOptions& options) {
   {
     ProgressPrinter progress(options.run.progressStyle());
     if (table)
-      probePoints(options, *table, integrator, progress, run);
+      probePoints(options, imported.scene, *table, integrator, progress, run);
     else
       renderView(options, imported.scene, *view, integrator, progress, run);
   }

@@ -52,6 +52,7 @@ Image irradianceSeen(const SolutionView& solution, const View& view, glm::ivec2 
   const std::vector<ProbeResult> results = probe(solution, points, settings, &progress);
   Image image;
   image.width = size.x, image.height = size.y;
+  image.luminousEfficacy = solution.scene().luminousEfficacy;
   image.pixels.reserve(seen.size());
   auto result = results.begin();
   for (const auto& point : seen) image.pixels.push_back(point ? Rgb((result++)->irradiance) : Rgb(-1.0f));
@@ -109,7 +110,7 @@ void saveView(const RenderOptions& options, const SolutionView& solution, const 
     options.picture.saveFalseColor(options.output, image);
   } else {
     Image image = picture(options, solution, view, size, progress);
-    image.view = viewOptions(view);
+    image.view = viewOptions(view, solution.scene().origin);
     options.picture.save(options.output, image, run);
   }
   run.say(fmt::format("{}: {} x {} pixels", options.output, size.x, size.y));

@@ -9,6 +9,11 @@ namespace deltalux::cli {
 
 namespace {
 std::string text(const Rgb& c) { return fmt::format("{:.4g} {:.4g} {:.4g}", c.r, c.g, c.b); }
+std::string placeText(const Scene& scene, const Vec3& p) {
+  if (scene.origin == Vec3(0)) return fmt::format("{:.6g} {:.6g} {:.6g}", p.x, p.y, p.z);
+  const Vec3 v = p + scene.origin;  // of many digits the last ones matter
+  return fmt::format("{:.12g} {:.12g} {:.12g}", v.x, v.y, v.z);
+}
 std::string text(const Vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
 template <class... Cases>
@@ -56,39 +61,43 @@ std::string surfaceText(const Surface& surface) {
 std::string emissionText(const std::optional<Emission>& emission) {
   if (!emission) return "";
   return fmt::format(
-      ", emits {} W/(sr m2){}{}", text(emission->radiance), emission->bothSides ? " on both sides" : "",
+      ", emits {} W/(sr m2){}{}{}", text(emission->radiance), emission->bothSides ? " on both sides" : "",
+      emission->seenOnly ? ", seen only" : "",
       emission->spot ? fmt::format(" within {:.4g} degrees", emission->spot->fullAngle * 180 / kPi) : "");
 }
 
 std::string lightText(const Scene& scene, const Light& light) {
   const std::string kind = std::visit(
-      Overloaded{
-          [&](const AreaLight& a) {
-            const Primitive& primitive = scene[a.primitive];
-            return fmt::format("area, {} of {:.4g} square units, material {}", shapeName(primitive.shape),
-                               area(primitive.shape), scene[primitive.material].name);
-          },
-          [](const PointLight& l) { return fmt::format("point at {}, {} W/sr", text(l.position), text(l.intensity)); },
-          [](const SpotLight& l) {
-            return fmt::format("spot at {} towards {}, {} W/sr", text(l.position), text(l.direction),
-                               text(l.intensity));
-          },
-          [](const LambertPointLight& l) {
-            return fmt::format("Lambertian point at {}, {} W/sr", text(l.position), text(l.intensity));
-          },
-          [](const PhotometricLight& l) {
-            const auto& candela = l.photometry->candela;
-            return fmt::format("measured at {} aimed at {}, up to {:.4g} cd", text(l.position), text(-l.frame[2]),
-                               candela.empty() ? 0.0 : *std::max_element(candela.begin(), candela.end()));
-          },
-          [](const SunLight& l) {
-            return fmt::format("sun from {}, {} W/(sr m2), {:.4g} W/m2 across the beam", text(l.direction),
-                               text(l.radiance), solidAngle(l) * gray(glm::dvec3(l.radiance)));
-          },
-          [](const DomeLight& l) {
-            return fmt::format("dome of half angle {:.4g} degrees about {}, scale {}", l.halfAngle * 180 / kPi,
-                               text(l.axis), text(l.scale));
-          }},
+      Overloaded{[&](const AreaLight& a) {
+                   const Primitive& primitive = scene[a.primitive];
+                   return fmt::format("area, {} of {:.4g} square units, material {}", shapeName(primitive.shape),
+                                      area(primitive.shape), scene[primitive.material].name);
+                 },
+                 [&](const PointLight& l) {
+                   return fmt::format("point at {}, {} W/sr", placeText(scene, l.position), text(l.intensity));
+                 },
+                 [&](const SpotLight& l) {
+                   return fmt::format("spot at {} towards {}, {} W/sr", placeText(scene, l.position), text(l.direction),
+                                      text(l.intensity));
+                 },
+                 [&](const LambertPointLight& l) {
+                   return fmt::format("Lambertian point at {}, {} W/sr", placeText(scene, l.position),
+                                      text(l.intensity));
+                 },
+                 [&](const PhotometricLight& l) {
+                   const auto& candela = l.photometry->candela;
+                   return fmt::format("measured at {} aimed at {}, up to {:.4g} cd", placeText(scene, l.position),
+                                      text(-l.frame[2]),
+                                      candela.empty() ? 0.0 : *std::max_element(candela.begin(), candela.end()));
+                 },
+                 [](const SunLight& l) {
+                   return fmt::format("sun from {}, {} W/(sr m2), {:.4g} W/m2 across the beam", text(l.direction),
+                                      text(l.radiance), solidAngle(l) * gray(glm::dvec3(l.radiance)));
+                 },
+                 [](const DomeLight& l) {
+                   return fmt::format("dome of half angle {:.4g} degrees about {}, scale {}", l.halfAngle * 180 / kPi,
+                                      text(l.axis), text(l.scale));
+                 }},
       light.emitter);
   return light.scale == Rgb(1.0f) ? kind : fmt::format("{}, scaled by {}", kind, text(light.scale));
 }
@@ -149,11 +158,17 @@ std::vector<std::string> lightLines(const Scene& scene) {
   return lines;
 }
 
+std::vector<std::string> backdropLines(const Scene& scene) {
+  std::vector<std::string> lines;
+  for (const DomeLight& dome : scene.backdrops) lines.push_back(lightText(scene, {"", dome, Rgb(1.0f)}));
+  return lines;
+}
+
 std::vector<std::string> viewLines(const Scene& scene) {
   std::vector<std::string> lines;
   for (const View& v : scene.views)
-    lines.push_back(fmt::format("{}: from {} towards {}, {:.4g} x {:.4g}", v.name, text(v.position), text(v.direction),
-                                v.horizontal, v.vertical));
+    lines.push_back(fmt::format("{}: from {} towards {}, {:.4g} x {:.4g}", v.name, placeText(scene, v.position),
+                                text(v.direction), v.horizontal, v.vertical));
   return lines;
 }
 }  // namespace
@@ -167,11 +182,15 @@ std::string summarize(const ImportedScene& imported) {
   result += fmt::format("primitives     {}\n", countsText(primitiveCounts(scene)));
   result += fmt::format("ignored        {}\n", countsText(imported.report.ignored));
   result += fmt::format("unit           {:.6g} m, up is {}\n", scene.metresPerUnit, text(scene.up));
-  if (!box.empty()) result += fmt::format("bounds         {} to {}\n", text(box.lower), text(box.upper));
-  result += fmt::format("photometry     {:.4g} lm/W\n", imported.report.luminousEfficacy);
+  if (!box.empty())
+    result += fmt::format("bounds         {} to {}\n", placeText(scene, box.lower), placeText(scene, box.upper));
+  if (scene.origin != Vec3(0))
+    result += fmt::format("origin         {:.12g} {:.12g} {:.12g}\n", scene.origin.x, scene.origin.y, scene.origin.z);
+  result += fmt::format("photometry     {:.4g} lm/W\n", scene.luminousEfficacy);
   result += section("Objects at the top", objectLines(scene));
   result += section("Materials", materialLines(scene));
   result += section("Lights", lightLines(scene));
+  if (!scene.backdrops.empty()) result += section("Seen at infinity only", backdropLines(scene));
   result += section("Views", viewLines(scene));
   return result;
 }

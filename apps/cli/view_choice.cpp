@@ -22,7 +22,7 @@ View chooseView(const Scene& scene, const std::string& name) {
   for (const View& view : scene.views)
     if (view.name == name) return view;
   std::error_code error;
-  if (std::filesystem::is_regular_file(name, error)) return loadView(name);
+  if (std::filesystem::is_regular_file(name, error)) return inScene(scene, loadView(name));
   throw InputError("", 0, fmt::format("there is no view or view file '{}'", name), hintFor(scene, name));
 }
 

@@ -14,13 +14,16 @@
 
 namespace deltalux {
 
+// Matrices are in the coordinates of the scene's files (Scene::origin).
+
 /// Moves an object, all below it, and the lights named after it, by a map applied after their present one.
 struct TransformObject {
   std::string object;
   Mat4 matrix{1.0};
 };
 
-/// Puts all of a scene file but its sky, sun and views into the scene, as the object `object`.
+/// Puts all of a scene file but its sky, sun and views into the scene, as the object `object`. The matrix goes from the
+/// coordinates of that file; light keeps its photometric value.
 struct AddObject {
   std::string object;
   std::string file;  // where `part` came from, for messages and recordings
@@ -74,7 +77,7 @@ struct Restore {
   struct PrimitiveState {
     PrimitiveId primitive;
     MaterialId material;
-    Mat4 matrix{1.0};  // from the rest shape to the world
+    Mat4 matrix{1.0};  // from the rest shape to the scene
     bool present = true;
   };
   struct LightState {

@@ -17,6 +17,7 @@ struct Image {
   std::vector<Rgb> pixels;
   double exposure = 1;  // what a .hdr file's stored values are multiplied by; `pixels` never are
   std::string view;     // Radiance view options ("-vtv -vp 0 0 1 ..."), empty when unknown
+  double luminousEfficacy = kLuminousEfficacy;  // of the scene that it shows [lm/W]
 
   Rgb& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
   const Rgb& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width + x]; }

@@ -17,8 +17,8 @@ enum class ImageFormat {
 /// The format that the file name's extension means (.exr, .hdr or .pic, .png); nullopt for any other.
 std::optional<ImageFormat> imageFormatOf(const std::filesystem::path&);
 
-/// Writes a picture in the format of its name. .exr carries Radiance's chromaticities and the view; .hdr VIEW= and
-/// EXPOSURE=. `mapping` matters to .png alone. Throws OutputError.
+/// Writes a picture in the format of its name. .exr carries Radiance's chromaticities, the efficacy and the view; .hdr
+/// VIEW= and EXPOSURE=. `mapping` matters to .png alone. Throws OutputError.
 void saveImage(const std::filesystem::path&, const Image&, const ToneMapping& mapping = {});
 /// Writes a .png. Throws OutputError.
 void saveImage(const std::filesystem::path&, const DisplayImage&);
@@ -27,7 +27,8 @@ void saveImage(const std::filesystem::path&, const DisplayImage&);
 /// InputError.
 Image loadImage(const std::filesystem::path&);
 
-/// The view as Radiance's programs take it: "-vtv -vp x y z -vd x y z -vu x y z -vh h -vv v".
-std::string viewOptions(const View&);
+/// The view as Radiance's programs take it: "-vtv -vp x y z -vd x y z -vu x y z -vh h -vv v". `origin` is that of the
+/// view's scene.
+std::string viewOptions(const View&, const Vec3& origin = Vec3(0));
 
 }  // namespace deltalux

@@ -9,7 +9,8 @@
 namespace deltalux {
 
 struct ImportSettings {
-  /// glTF photometric values to radiometric [lm/W]; 179 is Radiance's convention, 683 Blender's exporter.
+  /// glTF photometric values to radiometric [lm/W]; 179 is Radiance's convention, 683 Blender's exporter. The scene
+  /// keeps it. Other formats hold radiometric values, whose efficacy is 179.
   double luminousEfficacy = kLuminousEfficacy;
   /// Metres per scene unit where the format does not say (.rad, .obj).
   double metresPerUnit = 1.0;
@@ -19,7 +20,6 @@ struct ImportReport {
   std::map<std::string, std::size_t> surfaces;  // by the format's own type names: "polygon", "cylinder", "source" ...
   std::map<std::string, std::size_t> ignored;   // what was skipped, by kind ("colorpict", "texfunc" ...)
   std::vector<std::string> warnings;            // one line each; at most one for everything in `ignored`
-  double luminousEfficacy = kLuminousEfficacy;
 };
 
 struct ImportedScene {
@@ -28,7 +28,7 @@ struct ImportedScene {
 };
 
 /// Reads `files` as one scene: several .rad files in order, as `oconv a b c` takes them, or one file of another format.
-/// Throws InputError (file, line, what to do); nothing is half-read.
+/// The scene has its fittingOrigin. Throws InputError (file, line, what to do); nothing is half-read.
 ImportedScene loadScene(const std::vector<std::filesystem::path>& files, const ImportSettings& = {});
 
 /// Reads an IES LM-63 file (1986-2019; types A, B, C) into type C photometry. Throws InputError. What was mended or
@@ -38,13 +38,14 @@ Photometry loadPhotometry(const std::filesystem::path& file, std::vector<std::st
 /// A measured light that hangs in a scene: aimed against its up, the 0 degree plane along +x (+y where up is x).
 struct Luminaire {
   std::filesystem::path file;  // IES LM-63
-  Vec3 position{0};
+  Vec3 position{0};            // in the coordinates of the scene's files
 };
 
 /// Adds it, named after its file and different from every light. Throws InputError.
 void addLuminaire(Scene&, const Luminaire&);
 
-/// Reads a Radiance view file: the last line that starts with rview, rvu, rpict or VIEW=. Throws InputError.
+/// Reads a Radiance view file: the last line that starts with rview, rvu, rpict or VIEW=, in its own coordinates.
+/// Throws InputError.
 View loadView(const std::filesystem::path& file);
 
 }  // namespace deltalux

@@ -1,5 +1,5 @@
 #pragma once
-// Senders of light. Every emitting thing of a scene has an entry here, area emitters included, so that an edit can
+// Senders of light. Everything that lights a scene has an entry here, area emitters included, so that an edit can
 // name it and scale it.
 #include <array>
 #include <deltalux/ids.hpp>

@@ -79,6 +79,7 @@ struct Emission {
   Rgb radiance{0.0f};  // L [W/(sr m2)]; exitance M = pi L
   bool bothSides = false;
   std::optional<SpotCone> spot;
+  bool seenOnly = false;  // by cameras and in mirrors: it lights nothing [Radiance, glow of negative radius]
 
   bool operator==(const Emission&) const = default;
 };
@@ -88,6 +89,9 @@ struct Material {
   Surface surface = Opaque{};
   std::optional<Emission> emission;
 };
+
+/// Whether a surface of it lights others.
+inline bool sendsLight(const Material& m) { return m.emission && !m.emission->seenOnly; }
 
 /// What a material does, told apart as the solver needs it: fractions of incident flux at the front (back) side.
 Rgb diffuseReflectance(const Material&, bool front);

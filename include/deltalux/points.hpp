@@ -13,7 +13,7 @@ namespace deltalux {
 struct PointTable {
   std::vector<std::string> columns;            // of the header row, trimmed
   std::vector<std::vector<std::string>> rows;  // fields verbatim (quotes included), as many as columns
-  std::vector<ProbePoint> points;              // one per row; normals are made unit
+  std::vector<ProbePoint> points;              // one per row, in the file's coordinates; normals are made unit
 };
 
 /// Reads a points file. Lines that start with '#' and blank lines are skipped. Throws InputError with the line: a
@@ -21,16 +21,20 @@ struct PointTable {
 PointTable readPoints(const std::filesystem::path&);
 PointTable parsePoints(std::string_view text, const std::string& fileName);
 
+/// The table's points in the coordinates of a scene.
+std::vector<ProbePoint> pointsIn(const Scene&, const PointTable&);
+
 enum class ProbeColumns {
   Values,          // E_r,E_g,E_b [W/m2], lux
   ValuesAndErrors  // the same and se_r,se_g,se_b: standard errors of E
 };
 
 /// The table's rows plus the results' columns; a column of the table that has a result's name is replaced by it.
-/// results.size() == table.rows.size().
-std::string formatProbeResults(const PointTable& table, std::span<const ProbeResult> results, ProbeColumns);
+/// results.size() == table.rows.size(); the efficacy is the scene's.
+std::string formatProbeResults(const PointTable& table, std::span<const ProbeResult> results, ProbeColumns,
+                               double luminousEfficacy = kLuminousEfficacy);
 /// formatProbeResults into a file, atomically. Throws OutputError.
 void writeProbeResults(const std::filesystem::path&, const PointTable& table, std::span<const ProbeResult> results,
-                       ProbeColumns);
+                       ProbeColumns, double luminousEfficacy);
 
 }  // namespace deltalux

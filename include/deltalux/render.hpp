@@ -19,10 +19,10 @@ struct ProbeSettings {
   std::uint64_t seed = 1;
 };
 
-/// Irradiance at every point, in their order [W/m2]. A point within 1e-3 of the scene's size from a surface whose side
-/// faces the normal reads the solution there (indirect light by the links at that very point); any other point gathers
-/// what it sees. Standard errors are those of the sampling, not of the solution. Does not depend on the number of
-/// threads. Throws Interrupted.
+/// Irradiance at every point, in their order [W/m2]. A point on a surface whose side faces the normal (within 1 mm, or
+/// some steps of single precision there) reads the solution there (indirect light by the links at that very point); any
+/// other point gathers what it sees. Standard errors are those of the sampling, not of the solution. Does not depend on
+/// the number of threads. Throws Interrupted.
 std::vector<ProbeResult> probe(const SolutionView&, std::span<const ProbePoint>, const ProbeSettings& = {},
                                Progress* progress = nullptr);
 

@@ -47,13 +47,19 @@ struct SwitchedOff {
   Rgb scale{1.0f};
 };
 
+/// Positions are relative to `origin`: single precision, in which rays run, has no digits for a site's coordinates of
+/// millions. Files have `origin` added: it is subtracted where they are read (io.hpp, points.hpp, edits), and added
+/// where they are written.
 struct Scene {
   double metresPerUnit = 1.0;
+  Vec3 origin{0};                               // in the coordinates of the scene's files
+  double luminousEfficacy = kLuminousEfficacy;  // by which it was read, and its light is told [lm/W]
   Vec3 up{0, 0, 1};
   std::vector<Material> materials;
   std::vector<Primitive> primitives;
   std::vector<Object> objects;
   std::vector<Light> lights;
+  std::vector<DomeLight> backdrops;  // at infinity, seen by cameras and in mirrors, but sending no light
   std::vector<Texture> textures;
   std::vector<View> views;
   std::vector<Placement> placements;     // of primitives that were edited, ascending (edit.hpp)
@@ -81,7 +87,14 @@ std::vector<std::string> nearMisses(std::string_view name, const std::vector<std
 
 /// Bounds of all primitives (lights at infinity have none).
 Box bounds(const Scene&);
-/// Appends an AreaLight for every emitting primitive that has none yet.
+/// Moves the scene's origin there, exactly as double precision has it; what the scene describes stays where it is.
+void moveOrigin(Scene&, const Vec3& origin);
+/// The origin that a scene wants: 0 as long as its coordinates are not large beside its extent, else a point in its
+/// middle with few binary digits, so that subtracting it is exact.
+Vec3 fittingOrigin(const Scene&);
+/// A view in the coordinates of the scene's files as one in the scene's own.
+View inScene(const Scene&, View);
+/// Appends an AreaLight for every primitive that sends light and has none yet.
 void addAreaLights(Scene&);
 
 /// Checks every reference and number of the scene (ids in range, finite values, reflectances in [0,1], unit

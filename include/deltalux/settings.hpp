@@ -7,7 +7,7 @@ namespace deltalux {
 struct SolveSettings {
   double error = 0.05;          // target relative error of irradiance, in (0, 1)
   std::uint64_t particles = 0;  // target count of particles; 0: from `error`
-  double seconds = 0;           // refinement ends after about this long; 0: when the target is met
+  double seconds = 0;           // solving ends after about this long; 0: when the target is met
   bool diffuseOnly = false;     // no specular lobes, no mirrors; thin glass passes light straight on
   bool causticTextures = true;  // off: the mesh shows the light of particles everywhere, refined for it
   std::uint64_t seed = 1;

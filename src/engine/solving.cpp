@@ -43,6 +43,7 @@ SolveReport Engine::State::step(Progress* progress) {
 void Engine::State::prepare(Progress* progress) {
   Solution& s = *solution;
   const engine::Clock time;
+  budget = engine::TimeBudget(s.settings.seconds, clock.seconds());
   radiosity::CoarseReport coarse;
   auto sides = radiosity::coarseSolution(s.scene, *s.tracer, &coarse);
   trace();
@@ -52,7 +53,6 @@ void Engine::State::prepare(Progress* progress) {
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.counts.raysVisibility += coarse.rays;
   s.report.times.hierarchy += time.seconds() - s.report.times.particles;
-  budget = engine::TimeBudget(s.settings.seconds, clock.seconds());
   nextError = s.settings.error * kFirstError * (budget.limited() ? kHasty : 1.0);
   if (progress) progress->report("hierarchy", 1.0);
 }
@@ -61,8 +61,11 @@ void Engine::State::trace() {
   Solution& s = *solution;
   if (s.settings.diffuseOnly) return;
   const engine::Clock time;
-  tracing.emplace(s.scene, *s.tracer, particles::ParticleSettings{engine::particleCount(s.settings), s.settings.seed});
-  s.particles = tracing->trace();
+  const std::uint64_t wanted = engine::particleCount(s.settings);
+  tracing.emplace(s.scene, *s.tracer, particles::ParticleSettings{wanted, s.settings.seed});
+  s.particles = budget.limited() ? tracing->traceWithin(engine::kParticleTime * budget.seconds()) : tracing->trace();
+  curtailed = tracing->count() < wanted;
+  if (curtailed) s.settings.particles = tracing->count();  // updates trace as many
   DELTALUX_VALIDATED(validate(s.particles, s.scene));
   s.report.times.particles += time.seconds();
   countParticles();
@@ -99,8 +102,8 @@ void Engine::State::round(Progress* progress) {
   nextError = std::max(least, oracle.error * kErrorFactor);
   bool whole = true;
   if (budget.limited()) {
-    const double needed = engine::leafRoundSeconds(s.elements, s.links, s.scene, *s.tracer, leaves),
-                 left = budget.left();
+    const double needed = engine::leafRoundSeconds(s.elements, s.links, s.scene, *s.tracer, leaves);
+    const double left = budget.left() - engine::kEndingTime * budget.seconds();
     nextError =
         budget.reach(radiosity::LinkErrors(s.links, s.elements, oracle), oracle.error, nextError, left - needed);
     whole = needed <= left;
@@ -111,8 +114,10 @@ void Engine::State::round(Progress* progress) {
   s.report.times.gather += gathering.seconds();
   if (finished) makeTextures();
   count();
-  prepareToFollow();
-  s.report.converged = settled && whole && last && !refined.stopped;
+  const bool limited = budget.limited();
+  if (finished) budget = engine::TimeBudget(0);  // updates take what time they need
+  if (!limited) prepareToFollow();               // or the first edit does
+  s.report.converged = settled && whole && last && !refined.stopped && !curtailed;
 }
 
 radiosity::RefineReport Engine::State::refineLinks(const radiosity::OracleSettings& oracle, Progress* progress) {
@@ -148,7 +153,8 @@ void Engine::State::makeTextures() {
   Solution& s = *solution;
   const engine::Clock time;
   std::vector<particles::Impact> landed;
-  if (s.settings.causticTextures) landed = particles::impacts(s.particles, s.elements, s.scene);
+  // The mesh shows what no texture does.
+  if (s.settings.causticTextures && !budget.up()) landed = particles::impacts(s.particles, s.elements, s.scene);
   s.caustics = caustics::makeCaustics(s.scene, s.elements, std::move(landed), s.settings.error);
   DELTALUX_VALIDATED(validate(s.caustics));
   s.report.times.textures += time.seconds();
@@ -176,6 +182,7 @@ bool Engine::State::settle(Progress* progress) {
     emitted = directPower();
     if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
     if (gray(unsettled) <= kSettled * gray(emitted)) break;
+    if (budget.up()) break;  // rows are settled anyway
   }
   return gray(unsettled) <= kSettled * gray(emitted);
 }
@@ -199,7 +206,7 @@ bool Engine::State::resolve(const radiosity::LeafTransferSettings& settings, Pro
   s.sampledScale.clear();
   for (const Light& light : s.scene.lights) s.sampledScale.push_back(light.scale);
   const bool settled = settleRows(progress);
-  settleCorners();
+  if (!budget.up()) settleCorners();
   return settled;
 }
 
@@ -225,7 +232,7 @@ bool Engine::State::settleRows(Progress* progress) {
     unsettled = radiosity::pull(s.elements);
     ++s.report.counts.iterations;
     if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
-    if (gray(unsettled) <= engine::kSettledWell * gray(emitted)) break;
+    if (gray(unsettled) <= (budget.up() ? kSettled : engine::kSettledWell) * gray(emitted)) break;
   }
   return gray(unsettled) <= engine::kSettledRows * gray(emitted);
 }

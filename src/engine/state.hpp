@@ -50,6 +50,7 @@ struct Engine::State {
   bool finished = false;  // the last round has run
   engine::Clock clock;
   engine::TimeBudget budget{0};
+  bool curtailed = false;                               // fewer particles than the error asks for: there was no time
   engine::SceneUpdate pending;                          // edits since the last update
   std::optional<particles::ParticleTracing> tracing;    // knows the scene that the particles are of
   RgbSum unsettled{0.0};                                // power that the last iteration of rows changed

@@ -1,7 +1,7 @@
 #pragma once
-// How far refinement goes when time is limited: what rounds have cost so far says which error the next can aim at, so
-// that it and the last round over the leaves still fit. Each state between rounds is consistent and can be the last
-// but for that round, whose rays shrink to what time is left.
+// How far a solve goes when time is limited. Particles are as many as their share of it allows. What rounds have cost
+// so far says which error the next can aim at, so that it and the last round over the leaves still fit. Each state
+// between rounds is consistent and can be the last but for that round, whose rays shrink to what time is left.
 #include <chrono>
 
 #include "radiosity/leaf_transfers.hpp"
@@ -9,12 +9,18 @@
 
 namespace deltalux::engine {
 
+constexpr double kParticleTime = 0.3;  // share of all time that particles may take
+constexpr double kEndingTime = 0.15;   // the same of what comes after the leaves' round: light over rows, textures
+
 class TimeBudget {
  public:
   /// `seconds` in all, of which some are spent already; 0: no limit.
   explicit TimeBudget(double seconds, double spent = 0) : seconds_(seconds), spentBefore_(spent) {}
 
   bool limited() const { return seconds_ > 0; }
+  double seconds() const { return seconds_; }
+  /// Whether the time is up: what is left to do is done in short.
+  bool up() const { return limited() && left() < 0; }
   double left() const {
     return seconds_ - spentBefore_ - std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }

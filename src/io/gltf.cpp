@@ -22,7 +22,7 @@ class SceneBuilder {
   SceneBuilder(const GltfDocument& document, const ImportSettings& settings)
       : document_(document), efficacy_(settings.luminousEfficacy), meshes_(document.model.meshes.size()) {
     scene().up = {0, 1, 0};
-    report().luminousEfficacy = efficacy_;
+    scene().luminousEfficacy = efficacy_;
     materials_ = addMaterials(document, efficacy_, scene(), report().ignored);
     profiles_ = readProfiles(document, report().warnings);
   }
@@ -40,7 +40,7 @@ class SceneBuilder {
       addPunctual(static_cast<std::size_t>(numberOf(punctual, "light", 0)), placed);
     }
     if (const tinygltf::Value* measured = extensionOf(node.extensions, "EXT_lights_ies")) {
-      scene().lights.push_back(measuredLight(*measured, profiles_, placed.toWorld, placed.path));
+      scene().lights.push_back(measuredLight(*measured, profiles_, placed.toWorld, efficacy_, placed.path));
     }
     if (node.extensions.contains("EXT_mesh_gpu_instancing")) ++report().ignored["EXT_mesh_gpu_instancing"];
   }

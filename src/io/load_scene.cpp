@@ -25,6 +25,16 @@ bool isOtherFormat(const fs::path& file) {
   return extension == ".gltf" || extension == ".glb" || extension == ".obj";
 }
 
+ImportedScene readFiles(const std::vector<fs::path>& files, const ImportSettings& settings) {
+  const auto other = std::find_if(files.begin(), files.end(), isOtherFormat);
+  if (other == files.end()) return loadRadiance(files, settings);
+  if (files.size() > 1) {
+    throw InputError(other->string(), 0, "cannot be joined with other files into one scene",
+                     "only several Radiance files make one scene");
+  }
+  return extensionOf(*other) == ".obj" ? loadObj(*other, settings) : loadGltf(*other, settings);
+}
+
 }  // namespace
 
 ImportedScene loadScene(const std::vector<fs::path>& files, const ImportSettings& settings) {
@@ -36,13 +46,9 @@ ImportedScene loadScene(const std::vector<fs::path>& files, const ImportSettings
   if (solution != files.end())
     throw InputError(solution->string(), 0, "is a solution, and a scene is asked for",
                      "name the scene it was made from");
-  const auto other = std::find_if(files.begin(), files.end(), isOtherFormat);
-  if (other == files.end()) return loadRadiance(files, settings);
-  if (files.size() > 1) {
-    throw InputError(other->string(), 0, "cannot be joined with other files into one scene",
-                     "only several Radiance files make one scene");
-  }
-  return extensionOf(*other) == ".obj" ? loadObj(*other, settings) : loadGltf(*other, settings);
+  ImportedScene imported = readFiles(files, settings);
+  moveOrigin(imported.scene, fittingOrigin(imported.scene));
+  return imported;
 }
 
 }  // namespace deltalux::io

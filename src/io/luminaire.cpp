@@ -26,11 +26,12 @@ std::string freeLightName(const Scene& scene, const std::filesystem::path& file)
 
 void addLuminaire(Scene& scene, const Luminaire& luminaire) {
   PhotometricLight light;
-  light.position = luminaire.position;
+  light.position = luminaire.position - scene.origin;
   light.frame = hangingFrame(scene.up);
   light.photometry = std::make_shared<const Photometry>(loadPhotometry(luminaire.file));
-  // I / d^2 is W/m2 for d in metres; transport measures d in scene units.
-  light.scale = Rgb(static_cast<float>(1.0 / (scene.metresPerUnit * scene.metresPerUnit)));
+  // I / d^2 is W/m2 for d in metres; transport measures d in scene units. Candelas become watts as the scene's own did.
+  light.scale =
+      Rgb(static_cast<float>(kLuminousEfficacy / scene.luminousEfficacy / (scene.metresPerUnit * scene.metresPerUnit)));
   scene.lights.push_back({freeLightName(scene, luminaire.file), std::move(light), Rgb(1.0f)});
 }
 

@@ -137,7 +137,6 @@ ImportedScene readObj(std::string_view text, const std::string& name, const std:
   ImportedScene imported;
   imported.scene.up = {0, 1, 0};
   imported.scene.metresPerUnit = settings.metresPerUnit;
-  imported.report.luminousEfficacy = settings.luminousEfficacy;
   imported.report.ignored = survey.ignored;
   imported.report.surfaces["face"] = survey.faces;
   auto materials = addObjMaterials(survey, name, folder, imported.scene, imported.report.ignored);

@@ -126,9 +126,9 @@ std::vector<std::string> resultColumns(ProbeColumns columns) {
   return names;
 }
 
-std::string resultFields(const ProbeResult& result, ProbeColumns columns) {
+std::string resultFields(const ProbeResult& result, ProbeColumns columns, double luminousEfficacy) {
   const glm::dvec3 E = result.irradiance, se = result.standardError;
-  std::string text = fmt::format("{:.7g},{:.7g},{:.7g},{:.7g}", E.r, E.g, E.b, photometric(E));
+  std::string text = fmt::format("{:.7g},{:.7g},{:.7g},{:.7g}", E.r, E.g, E.b, photometric(E, luminousEfficacy));
   if (columns == ProbeColumns::ValuesAndErrors) text += fmt::format(",{:.4g},{:.4g},{:.4g}", se.r, se.g, se.b);
   return text;
 }
@@ -144,7 +144,14 @@ PointTable readPoints(const std::filesystem::path& path) {
   return parsePoints(std::move(text).str(), path.string());
 }
 
-std::string formatProbeResults(const PointTable& table, std::span<const ProbeResult> results, ProbeColumns columns) {
+std::vector<ProbePoint> pointsIn(const Scene& scene, const PointTable& table) {
+  std::vector<ProbePoint> points = table.points;
+  for (ProbePoint& p : points) p.position -= scene.origin;
+  return points;
+}
+
+std::string formatProbeResults(const PointTable& table, std::span<const ProbeResult> results, ProbeColumns columns,
+                               double luminousEfficacy) {
   DELTALUX_CHECK(results.size() == table.rows.size(), "one result per point");
   const std::vector<std::string> added = resultColumns(columns);
   std::vector<std::size_t> kept;
@@ -156,14 +163,14 @@ std::string formatProbeResults(const PointTable& table, std::span<const ProbeRes
   text += fmt::format("{}\n", fmt::join(added, ","));
   for (std::size_t row = 0; row < results.size(); ++row) {
     for (const std::size_t i : kept) text += table.rows[row][i] + ",";
-    text += resultFields(results[row], columns) + "\n";
+    text += resultFields(results[row], columns, luminousEfficacy) + "\n";
   }
   return text;
 }
 
 void writeProbeResults(const std::filesystem::path& path, const PointTable& table, std::span<const ProbeResult> results,
-                       ProbeColumns columns) {
-  io::writeFile(path, formatProbeResults(table, results, columns));
+                       ProbeColumns columns, double luminousEfficacy) {
+  io::writeFile(path, formatProbeResults(table, results, columns, luminousEfficacy));
 }
 
 }  // namespace deltalux

@@ -10,11 +10,19 @@ namespace deltalux::particles {
 
 namespace {
 constexpr std::uint64_t kCountSeed = 0x636f756e747a7a7aull;
-}
 
-void countPaths(const DsLinks& links, double target, Particles& p) {
+double arrivingFlux(const DsLinks& links) {
   double arriving = 0;
   for (const DsLink& l : links.all) arriving += double(l.flux) * l.passing;
+  return arriving;
+}
+
+}  // namespace
+
+double arrivingShare(const DsLinks& links) { return links.flux > 0 ? arrivingFlux(links) / links.flux : 1.0; }
+
+void countPaths(const DsLinks& links, double target, Particles& p) {
+  const double arriving = arrivingFlux(links);
   p.quantum = target > 0 ? arriving / target : 0;
   if (!(p.quantum > 0)) return;
   std::uint64_t total = 0;

@@ -8,4 +8,7 @@ namespace deltalux::particles {
 /// larger target, never fewer: the samples of the smaller one are among them. [algorithm 4, quantum]
 void countPaths(const DsLinks&, double target, Particles&);
 
+/// About how many of the samples arrive, of those that start.
+double arrivingShare(const DsLinks&);
+
 }  // namespace deltalux::particles

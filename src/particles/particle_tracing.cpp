@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <optional>
 
 #include "base/check.hpp"
@@ -15,6 +16,8 @@ namespace deltalux::particles {
 
 namespace {
 
+constexpr std::uint64_t kFirstParticles = 1 << 10;  // that tell what each costs
+constexpr std::uint64_t kMostGrowth = 1 << 6;       // how much further their cost is trusted
 constexpr double kMargin = 1e-5;  // of the far distance: rays start and end a little off the points they join
 
 /// Whether a change from one to the other leaves all particles as they are.
@@ -106,12 +109,35 @@ ParticleTracing::Look::Look(const Scene& scene)
 ParticleTracing::ParticleTracing(const Scene& scene, const tracing::RayTracer& tracer, const ParticleSettings& settings)
     : scene_(scene), tracer_(tracer), settings_(settings), ends_(std::make_unique<Ends>(scene, tracer)), look_(scene) {}
 
-Particles ParticleTracing::trace() {
-  Particles p = planParticles(scene_, tracer_, settings_);
+Particles ParticleTracing::trace() { return trace(planParticles(scene_, tracer_, settings_)); }
+
+Particles ParticleTracing::trace(const ParticlePlan& plan) {
+  Particles p = counted(plan, settings_.count);
   if (p.paths() == 0) return p;
   weigh(p);
   tracePaths(scene_, tracer_, ends_->emission, settings_.maxDepth, p);
   return p;
+}
+
+Particles ParticleTracing::traceWithin(double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto since = [](Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  const Clock::time_point start = Clock::now();
+  const ParticlePlan plan = planParticles(scene_, tracer_, settings_);
+  const std::uint64_t wanted = settings_.count;
+  settings_.count = std::min(wanted, kFirstParticles);
+  while (true) {
+    const Clock::time_point tracing = Clock::now();
+    Particles p = trace(plan);
+    const double left = seconds - since(start), each = since(tracing) / static_cast<double>(settings_.count);
+    const double affordable = std::min(left / std::max(each, 1e-12), double(kMostGrowth * settings_.count));
+    const auto next = std::min(wanted, static_cast<std::uint64_t>(std::max(affordable, 0.0)));
+    // Tracing anew for less than twice as many is not worth it.
+    if (next < std::min(wanted, 2 * settings_.count) || settings_.count == wanted) return p;
+    settings_.count = next;
+  }
 }
 
 void ParticleTracing::weigh(const Particles& p) {

@@ -20,6 +20,8 @@
 
 namespace deltalux::particles {
 
+struct ParticlePlan;
+
 /// A path that was traced anew, and what it was: its range still holds that, until particles are made compact.
 struct RetracedPath {
   std::uint32_t path = 0;
@@ -40,6 +42,10 @@ class ParticleTracing {
   ParticleTracing(const Scene&, const tracing::RayTracer&, const ParticleSettings&);
 
   Particles trace();
+  /// As many particles as about so much time allows, at most those of the settings: a few are traced first, which tells
+  /// what each costs. count() is then theirs: what trace() gives for that count.
+  Particles traceWithin(double seconds);
+  std::uint64_t count() const { return settings_.count; }
 
   /// Brings `particles`, which were right before, up to an edit that scene and tracer have taken in.
   ParticleUpdate follow(Particles&, const SceneChange&);
@@ -88,6 +94,7 @@ class ParticleTracing {
     explicit Look(const Scene&);
   };
 
+  Particles trace(const ParticlePlan&);
   void weigh(const Particles&);
   bool looksAsBefore(const SceneChange&) const;
   void watch(const Particles&, std::span<const SceneChange::Moved>);

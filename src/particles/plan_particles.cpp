@@ -9,7 +9,8 @@ namespace deltalux::particles {
 
 namespace {
 
-constexpr double kPilots = 1 << 15;  // particles that find where caustics light diffuse senders
+constexpr double kPilots = 1 << 15;      // particles that find where caustics light diffuse senders
+constexpr double kPilotPaths = 1 << 20;  // of which no more start: where few arrive, each of them is dear
 
 void nameSenders(const Senders& senders, const CoarseExitance& exitance, Particles& p) {
   p.senderCells = senders.cells();
@@ -37,17 +38,16 @@ void append(DsLinks& links, const DsLinks& more) {
   links.flux += more.flux, links.rays += more.rays, links.judged += more.judged;
 }
 
-/// Everything but the paths themselves: who sends, the links, and how many paths each gets.
-Particles plan(const Scene& scene, const tracing::RayTracer& tracer, const ParticleSettings& settings) {
-  Particles p;
+ParticlePlan plan(const Scene& scene, const tracing::RayTracer& tracer, const ParticleSettings& settings) {
+  ParticlePlan result;
   const Receivers receivers(scene);
-  if (receivers.empty() || settings.count == 0) return p;
+  if (receivers.empty() || settings.count == 0) return result;
   const scene::LightSampler lights(scene, std::vector<Rgb>(scene.lights.size(), Rgb(1.0f)));
   Senders senders(scene, lights);
   const ParticleEmission emission(scene, tracer, senders, receivers);
   CoarseExitance exitance{skyStrengths(scene, senders)};
   senders.weigh(exitance.perCell);
-  DsLinks links;
+  DsLinks& links = result.links;
   const auto refine = [&](std::span<const std::uint32_t> roots) {
     DsSettings ds;
     ds.otherFlux = links.flux, ds.seed = settings.seed;
@@ -58,16 +58,15 @@ Particles plan(const Scene& scene, const tracing::RayTracer& tracer, const Parti
   links = refine(senders.lightRoots());
   Particles pilots;
   nameSenders(senders, exitance, pilots);
-  countPaths(links, kPilots, pilots);
+  countPaths(links, std::min(kPilots, kPilotPaths * arrivingShare(links)), pilots);
   tracePaths(scene, tracer, emission, settings.maxDepth, pilots);
   exitance = coarseExitance(scene, tracer, lights, senders, landedFlux(pilots, senders));
   senders.weigh(exitance.perCell);
   append(links, refine(senders.surfaceRoots()));
 
-  nameSenders(senders, exitance, p);
-  countPaths(links, static_cast<double>(settings.count), p);
-  p.looks = exitance.rays + links.rays + pilots.rays;
-  return p;
+  nameSenders(senders, exitance, result.empty);
+  result.empty.looks = exitance.rays + links.rays + pilots.rays;
+  return result;
 }
 
 bool moved(const Scene& scene) {
@@ -77,12 +76,18 @@ bool moved(const Scene& scene) {
 
 }  // namespace
 
-Particles planParticles(const Scene& scene, const tracing::RayTracer& tracer, const ParticleSettings& settings) {
+ParticlePlan planParticles(const Scene& scene, const tracing::RayTracer& tracer, const ParticleSettings& settings) {
   if (!moved(scene)) return plan(scene, tracer, settings);
   Scene rest = scene;
   for (const Placement& p : scene.placements) rest.primitives[p.primitive.index()].shape = p.rest;
   rest.placements.clear();
   return plan(rest, *tracing::makeEmbreeTracer(rest), settings);
+}
+
+Particles counted(const ParticlePlan& plan, std::uint64_t count) {
+  Particles p = plan.empty;
+  countPaths(plan.links, static_cast<double>(count), p);
+  return p;
 }
 
 }  // namespace deltalux::particles

@@ -37,18 +37,17 @@ EyePaths::EyePaths(const Solution& s, const Reconstruction& reconstruction, EyeS
 }
 
 Rgb EyePaths::radiance(const EyeRay& eye, Sights& sights) const {
-  return follow({eye.ray, Rgb(1.0f), eye.emitters}, eye, sights);
+  return follow({eye.ray, Rgb(1.0f), eye.emitters, eye.emitters}, eye, sights);
 }
 
 Rgb EyePaths::follow(Way w, const EyeRay& eye, Sights& sights) const {
   Rgb L(0.0f);
   while (w.depth <= settings_.maxDepth) {
     const tracing::Hit hit = tracer_.closestHit(w.ray);
-    const Lobe* lobe = w.lobe ? &*w.lobe : nullptr;
-    if (!hit) return w.emitters ? L + w.beta * background(Vec3(w.ray.direction), lobe) : L;
+    if (!hit) return w.emitters ? L + w.beta * background(w) : L;
     const Vec3 n = hit.front ? Vec3(hit.normal) : -Vec3(hit.normal);
     const Vertex v{hit, Vec3(hit.position), Vec3(w.ray.direction), n};
-    if (w.emitters) L += w.beta * emitted(v, lobe);
+    if (w.emitters) L += w.beta * emitted(w, v);
     const scene::Bsdf& scattering = bsdf(hit.primitive, hit.front);
     if (scattering.pane && !panesReflect_) {
       w.beta *= transmittance(*scattering.pane, -glm::dot(v.direction, n));
@@ -73,6 +72,7 @@ bool EyePaths::go(Way& w, const Vertex& v, const scene::Bsdf& scattering, const 
   const SpecularLobe& shape = s.direction.z > 0 ? scattering.reflection : scattering.transmission;
   const bool glossy = !scene::isDirac(s.event);
   w.lobe = glossy && lightsMet ? std::optional(Lobe{v.position, shape.roughness}) : std::nullopt;
+  w.clear = w.clear && !glossy;
   w.emitters = w.emitters || s.event != scene::ScatterEvent::StraightTransmission;
   w.ray.direction = Vec3f(glm::normalize(Frame(v.normal).toWorld(s.direction)));
   w.ray.origin = tracing::offsetOrigin(Vec3f(v.position), v.hit.normal, w.ray.direction);
@@ -131,18 +131,24 @@ bool EyePaths::metByShadowRays(LightId id, const Lobe& lobe) const {
   return 0.25 * kPi * glm::dot(box.extent(), box.extent()) < width * glm::dot(d, d);
 }
 
-Rgb EyePaths::background(const Vec3& towards, const Lobe* lobe) const {
+Rgb EyePaths::background(const Way& w) const {
   const scene::LightSampler& lights = reconstruction_.direct.lights();
+  const Vec3 towards(w.ray.direction);
   Rgb L(0.0f);
   for (const LightId id : lights.atInfinity())
-    if (!lobe || !metByShadowRays(id, *lobe)) L += lights.radianceFrom(id, towards);
+    if (!w.lobe || !metByShadowRays(id, *w.lobe)) L += lights.radianceFrom(id, towards);
+  if (w.clear)
+    for (const DomeLight& dome : scene_.backdrops) L += skyRadiance(dome, towards);
   return L;
 }
 
-Rgb EyePaths::emitted(const Vertex& v, const Lobe* lobe) const {
+Rgb EyePaths::emitted(const Way& w, const Vertex& v) const {
   const scene::LightSampler& lights = reconstruction_.direct.lights();
   const LightId id = lights.lightOf(v.hit.primitive);
-  if (!id.valid() || (lobe && metByShadowRays(id, *lobe))) return Rgb(0.0f);
+  if (!id.valid())
+    return w.clear ? scene::seenRadiance(scene_.materialOf(v.hit.primitive), -v.direction, v.hit.t, v.hit.front)
+                   : Rgb(0.0f);
+  if (w.lobe && metByShadowRays(id, *w.lobe)) return Rgb(0.0f);
   return lights.emittedRadiance(id, -v.direction, double(v.hit.t), v.hit.front);
 }
 

@@ -48,6 +48,7 @@ class EyePaths {
     tracing::Ray ray;
     Rgb beta{1.0f};  // of its radiance, what reaches the eye
     bool emitters = true;
+    bool clear = true;           // from a camera, by way of mirrors and clear things alone: sees what only is seen
     std::optional<Lobe> lobe{};  // of the surface before
     int depth = 0;               // non-diffuse events
     bool parted = false;         // once, into what a surface reflects and what it lets pass
@@ -59,8 +60,8 @@ class EyePaths {
   /// The way on; where there are two, the other one comes first: visit(Way).
   template <class Visit>
   bool goOn(Way&, const Vertex&, const scene::Bsdf&, const EyeRay&, bool lightsMet, const Visit&) const;
-  Rgb background(const Vec3& towards, const Lobe* lobe) const;
-  Rgb emitted(const Vertex&, const Lobe* lobe) const;
+  Rgb background(const Way&) const;
+  Rgb emitted(const Way&, const Vertex&) const;
   Rgb scattered(const Vertex&, const EyeRay&, int depth, Sights&, bool& lightsMet) const;
   Rgb irradiance(const Vertex&, bool front, const scene::Bsdf* lobes, const EyeRay&, int depth, Sights&,
                  Rgb& glossy) const;

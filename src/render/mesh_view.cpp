@@ -22,6 +22,7 @@ class MeshPainter {
 
   Image paint() const {
     Image image;
+    image.luminousEfficacy = s_.scene.luminousEfficacy;
     image.width = settings_.width, image.height = settings_.height;
     const auto w = static_cast<std::size_t>(image.width), h = static_cast<std::size_t>(image.height);
     image.pixels.resize(w * h);

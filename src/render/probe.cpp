@@ -16,7 +16,8 @@ namespace deltalux {
 
 namespace {
 
-constexpr double kOnSurface = 1e-3;  // of the scene's size: this near, a point lies on a surface
+constexpr double kOnSurface = 1e-3;  // [m] this near, a point lies on a surface
+constexpr float kRoundings = 8;      // the same, in steps of its coordinates in single precision
 constexpr double kFacing = 0.5;      // cosine from which a side faces the normal
 constexpr int kMaxLayers = 16;       // surfaces that are looked at around a point
 constexpr double kGatherRays = 40;   // over the links of a surface point, times the error that is asked for
@@ -46,7 +47,6 @@ class LightMeter {
         paths_(s, reconstruction_, {0, 24}),
         particles_(s),
         sampler_(s.scene, s.elements, s.links, *s.tracer),
-        size_(bounds(s.scene).diagonal()),
         gatherRays_(std::clamp(static_cast<int>(kGatherRays / settings.error), kFewestGatherRays, kMostGatherRays)) {}
 
   ProbeResult measure(const ProbePoint& point, std::uint64_t key) const {
@@ -55,9 +55,15 @@ class LightMeter {
   }
 
  private:
+  /// How near a surface has to be for a point to lie on it.
+  double reachAt(const Vec3& p) const {
+    const float rounding = std::numeric_limits<float>::epsilon() * tracing::largestCoordinate(Vec3f(p));
+    return std::max(kOnSurface / scene_.metresPerUnit, double(kRoundings * rounding));
+  }
+
   /// The nearest surface that faces the normal within reach of the point.
   std::optional<SurfaceSpot> surfaceAt(const ProbePoint& point) const {
-    const double reach = kOnSurface * size_;
+    const double reach = reachAt(point.position);
     const Vec3f n(point.normal);
     tracing::Ray ray;
     ray.origin = Vec3f(point.position + reach * point.normal);
@@ -171,7 +177,6 @@ class LightMeter {
   rendering::EyePaths paths_;
   rendering::ParticleField particles_;
   radiosity::IndirectSampler sampler_;
-  double size_;
   int gatherRays_;
 };
 

@@ -82,6 +82,7 @@ Image render(const SolutionView& solution, const View& view, const RenderSetting
   DELTALUX_CHECK(settings.samplesPerPixel > 0 && settings.shadowRays > 1, "at least one camera ray, two shadow rays");
   Image image;
   image.width = settings.width, image.height = settings.height;
+  image.luminousEfficacy = solution.scene().luminousEfficacy;
   image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   const Painter painter(solution.get(), view, settings);
   const int across = (image.width + kTile - 1) / kTile, down = (image.height + kTile - 1) / kTile;

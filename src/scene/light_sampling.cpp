@@ -51,6 +51,11 @@ Rgb emittedRadiance(const Emission& emission, const Vec3& direction, double dist
   return emission.radiance * static_cast<float>(factor * factor);
 }
 
+Rgb seenRadiance(const Material& material, const Vec3& direction, double distance, bool front) {
+  if (!material.emission || !material.emission->seenOnly) return Rgb(0.0f);
+  return emittedRadiance(*material.emission, direction, distance, front);
+}
+
 /// Made when first asked for: many who sample area lights never ask.
 class LightSampler::LazyDome {
  public:

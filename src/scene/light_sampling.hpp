@@ -28,6 +28,8 @@ struct LightSample {
 /// Radiance that an emitting material sends along unit `direction` to a surface at `distance`; `front`: from its front
 /// side. A light's scale comes on top.
 Rgb emittedRadiance(const Emission&, const Vec3& direction, double distance, bool front);
+/// The same of a material whose emission is seen only; 0 of all others.
+Rgb seenRadiance(const Material&, const Vec3& direction, double distance, bool front);
 
 class LightSampler {
  public:

@@ -78,7 +78,7 @@ void addAreaLights(Scene& scene) {
   }
   for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
     const Primitive& primitive = scene.primitives[i];
-    if (listed[i] || !scene[primitive.material].emission || !(area(primitive.shape) > 0)) continue;
+    if (listed[i] || !sendsLight(scene[primitive.material]) || !(area(primitive.shape) > 0)) continue;
     const std::string name = primitive.object.valid() ? scene[primitive.object].name : "";
     scene.lights.push_back({name, AreaLight{PrimitiveId(i)}, Rgb(1.0f)});
   }

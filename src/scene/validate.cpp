@@ -110,6 +110,14 @@ void checkMaterial(const Scene& scene, const Material& material, const std::stri
           where + ": spot cone");
 }
 
+void checkDome(const DomeLight& l, const std::string& where) {
+  require(unit(l.axis) && unit(l.up) && nonNegative(l.scale) && l.halfAngle > 0 && l.halfAngle <= kPi,
+          where + ": dome");
+  if (const auto* sky = std::get_if<CieSky>(&l.distribution)) {
+    require(sky->type >= 1 && sky->type <= 15 && unit(sky->sunDirection), where + ": CIE sky");
+  }
+}
+
 void checkLight(const Scene& scene, const Light& light, const std::string& where) {
   const auto sender = [&](const Vec3& position, const Rgb& intensity) {
     require(finite(position) && nonNegative(intensity), where + ": position or intensity");
@@ -117,7 +125,7 @@ void checkLight(const Scene& scene, const Light& light, const std::string& where
   std::visit(Overloaded{
                  [&](const AreaLight& l) {
                    require(l.primitive.index() < scene.primitives.size(), where + ": primitive out of range");
-                   require(scene.materialOf(l.primitive).emission.has_value(), where + ": its primitive does not emit");
+                   require(sendsLight(scene.materialOf(l.primitive)), where + ": its primitive sends no light");
                  },
                  [&](const PointLight& l) { sender(l.position, l.intensity); },
                  [&](const SpotLight& l) {
@@ -138,13 +146,7 @@ void checkLight(const Scene& scene, const Light& light, const std::string& where
                                l.angularRadius > 0 && l.angularRadius <= kPi,
                            where + ": sun");
                  },
-                 [&](const DomeLight& l) {
-                   require(unit(l.axis) && unit(l.up) && nonNegative(l.scale) && l.halfAngle > 0 && l.halfAngle <= kPi,
-                           where + ": dome");
-                   if (const auto* sky = std::get_if<CieSky>(&l.distribution)) {
-                     require(sky->type >= 1 && sky->type <= 15 && unit(sky->sunDirection), where + ": CIE sky");
-                   }
-                 },
+                 [&](const DomeLight& l) { checkDome(l, where); },
              },
              light.emitter);
   require(nonNegative(light.scale), where + ": scale");
@@ -165,6 +167,8 @@ void checkObjects(const Scene& scene) {
 
 void validate(const Scene& scene) {
   require(finite(scene.metresPerUnit) && scene.metresPerUnit > 0, "metres per unit");
+  require(finite(scene.origin), "origin");
+  require(finite(scene.luminousEfficacy) && scene.luminousEfficacy > 0, "luminous efficacy");
   require(unit(scene.up), "up direction");
   checkObjects(scene);
   for (const Texture& texture : scene.textures) {
@@ -181,6 +185,7 @@ void validate(const Scene& scene) {
     checkShape(primitive.shape, where);
   }
   for (const Light& light : scene.lights) checkLight(scene, light, "light " + light.name);
+  for (const DomeLight& dome : scene.backdrops) checkDome(dome, "backdrop");
   for (std::size_t i = 0; i < scene.placements.size(); ++i) {
     const Placement& p = scene.placements[i];
     require(p.primitive.index() < scene.primitives.size(), "placement: primitive out of range");

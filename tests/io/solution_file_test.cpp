@@ -125,6 +125,21 @@ TEST(SolutionFile, OneOfEverythingComesBackToTheBit) {
   EXPECT_EQ(measured[0]->opening, Vec3(0.1, 0.2, 0));
 }
 
+TEST(SolutionFile, OriginEfficacyAndWhatIsOnlySeenComeBack) {
+  Scene scene = test::oneOfEverything();
+  scene.origin = {5200000, -4100000, 12}, scene.luminousEfficacy = 683;
+  scene.backdrops.push_back(std::get<DomeLight>(scene.lights.back().emitter));
+  const MaterialId screen = test::addMaterial(scene, "screen", test::lambert(0), Emission{Rgb(3.0f), false, {}, true});
+  test::addPolygon(scene, screen, {{1, 1, 0.5}, {1.2, 1, 0.5}, {1.2, 1.2, 0.5}});
+  const SolutionView solution = solved(scene, 0.6);
+  const SolutionView loaded = readSolution(bytesOf(solution), "s.dlx");
+  EXPECT_TRUE(bytesOf(solution) == bytesOf(loaded));
+  EXPECT_EQ(loaded.scene().origin, scene.origin);
+  EXPECT_EQ(loaded.scene().luminousEfficacy, 683);
+  EXPECT_EQ(loaded.scene().backdrops, scene.backdrops);
+  EXPECT_EQ(loaded.scene()[screen].emission, scene[screen].emission);
+}
+
 TEST(SolutionFile, WhatEditsDidComesBackToo) {
   Scene scene = test::oneOfEverything();
   Mat4 up(1.0);

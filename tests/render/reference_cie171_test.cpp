@@ -13,7 +13,7 @@ using namespace test;
 
 constexpr double kTolerance = 0.005;
 
-double lux(const ProbeResult& r) { return photometric(r.irradiance); }
+double lux(const ProbeResult& r) { return photometric(r.irradiance, kLuminousEfficacy); }
 Rgb fromPhotometric(double value) { return Rgb(static_cast<float>(value / kLuminousEfficacy)); }
 
 std::vector<ProbeResult> measure(const Scene& scene, const std::vector<ProbePoint>& points, std::uint64_t samples) {

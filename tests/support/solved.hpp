@@ -9,7 +9,7 @@
 
 namespace deltalux::test {
 
-inline double lux(const ProbeResult& r) { return photometric(r.irradiance); }
+inline double lux(const ProbeResult& r) { return photometric(r.irradiance, kLuminousEfficacy); }
 inline Rgb fromPhotometric(double value) { return Rgb(static_cast<float>(value / kLuminousEfficacy)); }
 
 inline Engine solved(Scene scene, double error = 0.01) {

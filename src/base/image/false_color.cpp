@@ -41,7 +41,7 @@ double roundUp(double lux) {
 double automaticTop(const Image& irradiance) {
   std::vector<double> values;
   for (const Rgb& E : irradiance.pixels)
-    if (seesSurface(E) && gray(E) > 0.0f) values.push_back(photometric(glm::dvec3(E)));
+    if (seesSurface(E) && gray(E) > 0.0f) values.push_back(photometric(glm::dvec3(E), irradiance.luminousEfficacy));
   if (values.empty()) return 1000.0;
   const auto rank = static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
@@ -115,7 +115,8 @@ DisplayImage falseColor(const Image& irradiance, const FalseColorSettings& setti
     for (int x = 0; x < irradiance.width; ++x) {
       const Rgb& E = irradiance.at(x, y);
       display.at(legend.width + x, y) =
-          seesSurface(E) ? colorOf(scale.position(photometric(glm::dvec3(E)))) : kNoSurface;
+          seesSurface(E) ? colorOf(scale.position(photometric(glm::dvec3(E), irradiance.luminousEfficacy)))
+                         : kNoSurface;
     }
   drawLegend(display, legend, scale);
   return display;

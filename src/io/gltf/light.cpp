@@ -70,13 +70,13 @@ std::vector<std::shared_ptr<const Photometry>> readProfiles(const GltfDocument& 
 }
 
 Light measuredLight(const tinygltf::Value& instance, const std::vector<std::shared_ptr<const Photometry>>& profiles,
-                    const Mat4& toWorld, std::string name) {
+                    const Mat4& toWorld, double luminousEfficacy, std::string name) {
   PhotometricLight light;
   light.position = Vec3(toWorld[3]);
   light.frame = rotationOf(toWorld);
   light.photometry = profiles[static_cast<std::size_t>(numberOf(&instance, "light", 0))];
-  light.scale =
-      rgbOf(numbersOf(&instance, "color", {1, 1, 1})) * static_cast<float>(numberOf(&instance, "multiplier", 1));
+  light.scale = rgbOf(numbersOf(&instance, "color", {1, 1, 1})) *
+                static_cast<float>(numberOf(&instance, "multiplier", 1) * kLuminousEfficacy / luminousEfficacy);
   return {std::move(name), std::move(light)};
 }
 

@@ -16,9 +16,9 @@ Light punctualLight(const tinygltf::Light& light, const Mat4& toWorld, double lu
 /// The document's IES profiles, in order; warnings are appended. Throws InputError.
 std::vector<std::shared_ptr<const Photometry>> readProfiles(const GltfDocument&, std::vector<std::string>& warnings);
 
-/// A node's measured light: `instance` is the node's extension object.
+/// A node's measured light: `instance` is the node's extension object. Its candelas become watts by `luminousEfficacy`.
 Light measuredLight(const tinygltf::Value& instance, const std::vector<std::shared_ptr<const Photometry>>& profiles,
-                    const Mat4& toWorld, std::string name);
+                    const Mat4& toWorld, double luminousEfficacy, std::string name);
 
 /// A camera's view: along -Z of `toWorld`, +Y up. Perspective without an aspect ratio gets 16:9.
 View viewOf(const tinygltf::Camera&, const Mat4& toWorld, std::string name);

@@ -79,7 +79,7 @@ std::string encodeExr(const Image& image) {
   header.compression() = Imf::ZIP_COMPRESSION;
   for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   Imf::addChromaticities(header, radianceChromaticities());
-  Imf::addWhiteLuminance(header, static_cast<float>(kLuminousEfficacy));  // cd/m2 of the pixel (1, 1, 1)
+  Imf::addWhiteLuminance(header, static_cast<float>(image.luminousEfficacy));  // cd/m2 of the pixel (1, 1, 1)
   if (!image.view.empty()) header.insert(kViewAttribute, Imf::StringAttribute(image.view));
 
   std::string bytes;
@@ -113,6 +113,8 @@ Image decodeExr(std::string_view bytes, const std::string& fileName) {
     file.readPixels(window.min.y, window.max.y);
     if (const auto* view = file.header().findTypedAttribute<Imf::StringAttribute>(kViewAttribute))
       image.view = view->value();
+    if (Imf::hasWhiteLuminance(file.header()) && Imf::whiteLuminance(file.header()) > 0)
+      image.luminousEfficacy = Imf::whiteLuminance(file.header());
     return image;
   } catch (const InputError&) {
     throw;

@@ -72,10 +72,12 @@ Image loadImage(const std::filesystem::path& path) {
   throw InputError(path.string(), 0, "only .exr and .hdr pictures hold radiance and can be read");
 }
 
-std::string viewOptions(const View& view) {
+std::string viewOptions(const View& view, const Vec3& origin) {
   const auto vector = [](const Vec3& v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); };
+  const auto place = [](const Vec3& v) { return fmt::format("{:.12g} {:.12g} {:.12g}", v.x, v.y, v.z); };
   return fmt::format("-vt{} -vp {} -vd {} -vu {} -vh {:.9g} -vv {:.9g}",
-                     view.kind == View::Kind::Perspective ? 'v' : 'l', vector(view.position), vector(view.direction),
+                     view.kind == View::Kind::Perspective ? 'v' : 'l',
+                     origin == Vec3(0) ? vector(view.position) : place(view.position + origin), vector(view.direction),
                      vector(view.up), view.horizontal, view.vertical);
 }
 

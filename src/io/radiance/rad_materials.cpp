@@ -97,7 +97,7 @@ Material makeMaterial(const RadObject& object, const Material* alternate) {
   const Arguments a(object);
   const auto reflecting = [&](Surface surface) { return Material{object.name, std::move(surface), std::nullopt}; };
   const auto emitting = [&](std::optional<SpotCone> cone) {
-    return Material{object.name, Opaque{}, Emission{a.nonNegative(0), false, cone}};
+    return Material{object.name, Opaque{}, Emission{a.nonNegative(0), false, cone, false}};
   };
   if (alternate != nullptr) return {object.name, alternate->surface, alternate->emission};
   switch (object.type) {
@@ -120,9 +120,13 @@ Material makeMaterial(const RadObject& object, const Material* alternate) {
     case Type::Mirror:
       return reflecting(Mirror{a.reflectance(0)});
     case Type::Light:
-    case Type::Glow:
     case Type::Illum:
       return emitting(std::nullopt);
+    case Type::Glow: {
+      Material glow = emitting(std::nullopt);
+      glow.emission->seenOnly = a.real(3) < 0;  // [Radiance, glow]
+      return glow;
+    }
     case Type::Spotlight:
       return emitting(spotCone(a));
     default:

@@ -1,5 +1,7 @@
 #include "io/radiance/scene_builder.hpp"
 
+#include <deltalux/material.hpp>
+
 #include "io/radiance/modifier_table.hpp"
 #include "io/radiance/rad_shapes.hpp"
 #include "io/radiance/rad_sources.hpp"
@@ -14,7 +16,6 @@ class SceneBuilder {
   explicit SceneBuilder(const ImportSettings& settings)
       : modifiers_(result_.scene, result_.report), names_(result_.scene) {
     result_.scene.metresPerUnit = settings.metresPerUnit;
-    result_.report.luminousEfficacy = kLuminousEfficacy;
   }
 
   void add(const RadObject& object) {
@@ -55,7 +56,11 @@ class SceneBuilder {
 
   void addSource(const RadObject& object, const Modifier& modifier) {
     if (auto light = makeSource(object, modifier, result_.scene)) {
-      result_.scene.lights.push_back(std::move(*light));
+      const auto* dome = std::get_if<DomeLight>(&light->emitter);
+      if (dome != nullptr && !sendsLight(result_.scene[modifier.material]))
+        result_.scene.backdrops.push_back(*dome);
+      else
+        result_.scene.lights.push_back(std::move(*light));
       ++result_.report.surfaces["source"];
     } else {
       ignore("source without light");

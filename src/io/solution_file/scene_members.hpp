@@ -83,8 +83,8 @@ void members(auto& archive, Is<SpotCone> auto& c) {
   transferAll(archive, fullAngle, direction);
 }
 void members(auto& archive, Is<Emission> auto& e) {
-  auto& [radiance, bothSides, spot] = e;
-  transferAll(archive, radiance, bothSides, spot);
+  auto& [radiance, bothSides, spot, seenOnly] = e;
+  transferAll(archive, radiance, bothSides, spot, seenOnly);
 }
 void members(auto& archive, Is<Material> auto& m) {
   auto& [name, surface, emission] = m;
@@ -169,8 +169,10 @@ void members(auto& archive, Is<SwitchedOff> auto& s) {
   transferAll(archive, light, scale);
 }
 void members(auto& archive, Is<Scene> auto& s) {
-  auto& [metres, up, materials, primitives, objects, lights, textures, views, placements, off] = s;
-  transferAll(archive, metres, up, materials, primitives, objects, lights, textures, views, placements, off);
+  auto& [metres, origin, efficacy, up, materials, primitives, objects, lights, backdrops, textures, views, placements,
+         off] = s;
+  transferAll(archive, metres, origin, efficacy, up, materials, primitives, objects, lights, backdrops, textures, views,
+              placements, off);
 }
 
 }  // namespace deltalux::io

@@ -197,12 +197,18 @@ RgbSum PathTracer::lightAtInfinity(const Walk& walk) const {
     if (isBlack(L)) continue;
     sum += walk.throughput * L * static_cast<float>(meetingWeight(walk, light, Vec3(0), Vec3(0), kInfinity));
   }
+  if (walk.anchor.since == Anchor::Since::Camera)
+    for (const DomeLight& dome : scene_.scene().backdrops) sum += walk.throughput * skyRadiance(dome, walk.direction);
   return sum;
 }
 
 Rgb PathTracer::lightOf(const Walk& walk, PrimitiveId primitive, const tracing::Hit& hit) const {
   const LightId light = scene_.lights().lightOf(primitive);
-  if (!light.valid()) return Rgb(0.0f);
+  if (!light.valid()) {
+    if (walk.anchor.since != Anchor::Since::Camera) return Rgb(0.0f);
+    return scene::seenRadiance(scene_.scene().materialOf(primitive), -walk.direction, walk.anchor.fromSurface,
+                               hit.front);
+  }
   const Rgb L = scene_.lights().emittedRadiance(light, -walk.direction, walk.anchor.fromSurface, hit.front);
   if (isBlack(L)) return L;
   return L * static_cast<float>(meetingWeight(walk, light, Vec3(hit.normal), Vec3(hit.position), walk.anchor.distance));

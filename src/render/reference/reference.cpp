@@ -257,6 +257,7 @@ Image ReferenceIntegrator::render(const View& view, int width, int height, Progr
     schedule.done += batches;
   }
   Image image;
+  image.luminousEfficacy = impl_->scene.scene().luminousEfficacy;
   image.width = width, image.height = height;
   for (const BatchMoments& m : moments) image.pixels.push_back(Rgb(m.mean));
   impl.seconds += secondsSince(start);

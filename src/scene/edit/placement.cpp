@@ -23,11 +23,20 @@ const Placement* placementOf(const Scene& scene, PrimitiveId primitive) {
 
 }  // namespace
 
-Mat4 settled(const Mat4& matrix) {
+Mat4 settled(const Mat4& matrix, const Scene& scene) {
+  const Vec3 far = glm::abs(scene.origin);
+  const double size = std::max({1.0, far.x, far.y, far.z});
   double deviation = 0;
   for (int c = 0; c < 4; ++c)
-    for (int r = 0; r < 4; ++r) deviation = std::max(deviation, std::abs(matrix[c][r] - (c == r ? 1.0 : 0.0)));
+    for (int r = 0; r < 4; ++r)
+      deviation = std::max(deviation, std::abs(matrix[c][r] - (c == r ? 1.0 : 0.0)) / (c == 3 ? size : 1.0));
   return finite(matrix) && deviation <= kRounding ? Mat4(1.0) : matrix;
+}
+
+Mat4 between(const Mat4& matrix, const Vec3& from, const Vec3& to) {
+  Mat4 result = matrix;
+  result[3] += glm::dvec4(glm::dmat3(matrix) * from - to, 0);
+  return result;
 }
 
 bool isDark(const Light& light) {

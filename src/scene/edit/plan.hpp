@@ -35,10 +35,12 @@ Shape removedShape();
 bool isDark(const Light&);
 /// The rest shape under the state's map. Throws InputError where that is no shape of its kind.
 Shape shapeOf(const Scene&, const Restore::PrimitiveState&, const Shape& rest);
-/// `matrix`, or the identity when it is that within rounding.
-Mat4 settled(const Mat4& matrix);
+/// `matrix`, or the identity when it is that within the rounding of coordinates in the scene's files.
+Mat4 settled(const Mat4& matrix, const Scene&);
+/// A map between coordinates of files as one between coordinates relative to `from` and `to`.
+Mat4 between(const Mat4& matrix, const Vec3& from, const Vec3& to);
 
-/// Adds to the plan that `primitive` moves by `matrix`, with the cone of its spot, if it has one.
+/// Adds to the plan that `primitive` moves by `matrix` (of the scene), with the cone of its spot, if it has one.
 void planMove(Plan&, const Scene&, PrimitiveId, const Mat4& matrix);
 /// The same for a light at a place that is no surface.
 Light movedLight(const Light&, const Mat4& matrix);

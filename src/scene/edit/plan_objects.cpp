@@ -53,7 +53,7 @@ bool hasDirection(const Material& m) { return m.emission && m.emission->spot; }
 
 void planMove(Plan& plan, const Scene& scene, PrimitiveId primitive, const Mat4& matrix) {
   Restore::PrimitiveState state = stateOf(scene, primitive);
-  state.matrix = settled(matrix * state.matrix);
+  state.matrix = settled(matrix * state.matrix, scene);
   const Material& material = scene.materialOf(primitive);
   if (hasDirection(material)) {
     // The cone is the material's, which others may share: the surface gets one of its own.
@@ -89,11 +89,12 @@ Light movedLight(const Light& light, const Mat4& matrix) {
 
 Plan plan(const Scene& scene, const TransformObject& edit) {
   const Parts parts = partsOf(scene, edit.object);
+  const Mat4 matrix = between(edit.matrix, scene.origin, scene.origin);
   Plan result;
-  for (const PrimitiveId p : parts.primitives) planMove(result, scene, p, edit.matrix);
+  for (const PrimitiveId p : parts.primitives) planMove(result, scene, p, matrix);
   for (const LightId l : parts.points) {
     Restore::LightState state = stateOf(scene, l);
-    state.value = movedLight(state.value, edit.matrix);
+    state.value = movedLight(state.value, matrix);
     result.target.lights.push_back(std::move(state));
   }
   return result;
@@ -117,13 +118,32 @@ Plan plan(const Scene& scene, const RemoveObject& edit) {
 
 namespace {
 
+/// Watts of `part` that are one of the scene's in lumens.
+float wattsOf(const Scene& scene, const Scene& part) {
+  return static_cast<float>(part.luminousEfficacy / scene.luminousEfficacy);
+}
+
 /// Materials and textures of `part` behind those of the scene.
 void appendMaterials(Plan& plan, const Scene& scene, const Scene& part) {
   plan.textures = part.textures;
   plan.materials = part.materials;
   for (Material& m : plan.materials)
+    if (m.emission) m.emission->radiance *= wattsOf(scene, part);
+  for (Material& m : plan.materials)
     if (auto* opaque = std::get_if<Opaque>(&m.surface); opaque && opaque->diffuseTexture.valid())
       opaque->diffuseTexture = TextureId(scene.textures.size() + opaque->diffuseTexture.index());
+}
+
+/// A light of `part` where the matrix puts it in the scene, as bright in lumens.
+Light addedLight(const Light& light, const Mat4& matrix, float watts) {
+  Light own = movedLight(light, matrix);
+  std::visit(
+      [&](auto& emitter) {
+        if constexpr (requires { emitter.intensity; }) emitter.intensity *= watts;
+        if constexpr (requires { emitter.photometry; }) emitter.scale *= watts;
+      },
+      own.emitter);
+  return own;
 }
 
 }  // namespace
@@ -136,18 +156,18 @@ Plan plan(const Scene& scene, const AddObject& edit) {
       if (stateOf(scene, p).present) refuse("there is an object '" + edit.object + "' already", "choose another name");
   const Scene& part = *edit.part;
   if (part.primitives.empty()) refuse("there is no surface in " + (edit.file.empty() ? "what is added" : edit.file));
+  const Mat4 matrix = between(edit.matrix, part.origin, scene.origin);
   Plan result;
   appendMaterials(result, scene, part);
   const std::size_t first = scene.primitives.size(), firstMaterial = scene.materials.size();
   for (std::size_t i = 0; i < part.primitives.size(); ++i) {
     const Primitive& p = part.primitives[i];
-    Material& material = result.materials[p.material.index()];
     Restore::PrimitiveState state{PrimitiveId(first + i), MaterialId(firstMaterial + p.material.index()),
-                                  settled(edit.matrix), true};
-    if (hasDirection(material)) {
-      result.materials.push_back(part[p.material]);
+                                  settled(matrix, scene), true};
+    if (hasDirection(part[p.material])) {
+      result.materials.push_back(Material(result.materials[p.material.index()]));
       Vec3& direction = result.materials.back().emission->spot->direction;
-      direction = glm::dmat3(edit.matrix) * direction;
+      direction = glm::dmat3(matrix) * direction;
       state.material = MaterialId(firstMaterial + result.materials.size() - 1);
     }
     result.primitives.push_back({p.shape, state.material, ObjectId()});
@@ -155,7 +175,7 @@ Plan plan(const Scene& scene, const AddObject& edit) {
     result.target.primitives.push_back(state);
   }
   for (const Light& light : part.lights) {
-    Light own = movedLight(light, edit.matrix);
+    Light own = addedLight(light, matrix, wattsOf(scene, part));
     if (auto* area = std::get_if<AreaLight>(&own.emitter))
       area->primitive = PrimitiveId(first + area->primitive.index());
     else if (!std::visit(
