@@ -40,7 +40,7 @@ void addSolveCommand(CLI::App& app) {
   const auto options = std::make_shared<SolveCommandOptions>();
   options->scene.add(*command);
   options->solve.add(*command);
-  command->add_option("--seconds", options->solve.settings.seconds, "End refinement after about this long")
+  command->add_option("--seconds", options->solve.settings.seconds, "End after about this long, with what fits")
       ->type_name("S")
       ->check(CLI::PositiveNumber);
   command->add_option("-o", options->output, "Where the solution goes")->type_name("SOLUTION.dlx")->required();

@@ -29,7 +29,7 @@ TEST(OnSurface, IsAMatterOfMillimetresNotOfTheScenesSize) {
                                   {{5, 5, 0.02}, {0, 0, 1}}});
   EXPECT_NEAR(E[0].irradiance.g, kPi, 0.02 * kPi);
   EXPECT_NEAR(E[1].irradiance.g, kPi, 0.02 * kPi);
-  EXPECT_NEAR(E[2].irradiance.g, 0, 1e-3);
+  EXPECT_LT(E[2].irradiance.g, 0.01 * kPi) << "the sky is seen along the edges alone";
   EXPECT_GT(E[3].irradiance.g, 0.1);
   EXPECT_NEAR(E[4].irradiance.g, 0.5 * kPi, 0.03 * kPi);
   EXPECT_NEAR(E[5].irradiance.g, kPi, 0.03 * kPi);
@@ -37,8 +37,8 @@ TEST(OnSurface, IsAMatterOfMillimetresNotOfTheScenesSize) {
 
 TEST(OnSurface, MillimetresAreMetresOfTheScenesUnit) {
   const Engine engine = solved(tableOutdoors(0.001), 0.2);  // in millimetres
-  const auto E = measure(engine, {{{0.2, 0.3, 0.1}, {0, 0, 1}}, {{5, 5, 2.5}, {0, 0, -1}}});
-  EXPECT_NEAR(E[0].irradiance.g, kPi, 0.05 * kPi) << "on the table, 0.6 mm above";
+  const auto E = measure(engine, {{{0.2, 0.3, 0.5}, {0, 0, 1}}, {{5, 5, 2.5}, {0, 0, -1}}});
+  EXPECT_NEAR(E[0].irradiance.g, kPi, 0.05 * kPi) << "on the table, which is 0.2 mm above it";
   EXPECT_GT(E[1].irradiance.g, 0.4 * kPi) << "2.5 mm above the floor, towards it";
 }
 
