@@ -37,7 +37,11 @@ ImportedScene readFiles(const std::vector<fs::path>& files, const ImportSettings
 
 }  // namespace
 
-ImportedScene loadScene(const std::vector<fs::path>& files, const ImportSettings& settings) {
+}  // namespace deltalux::io
+
+namespace deltalux {
+
+ImportedScene loadScene(const std::vector<std::filesystem::path>& files, const ImportSettings& settings) {
   if (files.empty()) throw InputError("", 0, "no scene is given", "name a .rad, .gltf, .glb or .obj file");
   if (!(settings.metresPerUnit > 0) || !(settings.luminousEfficacy > 0)) {
     throw InputError(files[0].string(), 0, "metres per unit and luminous efficacy must be greater than zero");
@@ -46,9 +50,9 @@ ImportedScene loadScene(const std::vector<fs::path>& files, const ImportSettings
   if (solution != files.end())
     throw InputError(solution->string(), 0, "is a solution, and a scene is asked for",
                      "name the scene it was made from");
-  ImportedScene imported = readFiles(files, settings);
+  ImportedScene imported = io::readFiles(files, settings);
   moveOrigin(imported.scene, fittingOrigin(imported.scene));
   return imported;
 }
 
-}  // namespace deltalux::io
+}  // namespace deltalux

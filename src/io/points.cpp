@@ -30,7 +30,7 @@ std::vector<std::string> fieldsOf(std::string_view line) {
   for (std::size_t i = 0; i <= line.size(); ++i) {
     if (i < line.size() && line[i] == '"') quoted = !quoted;
     if (i < line.size() && (quoted || line[i] != ',')) continue;
-    fields.emplace_back(trimmed(line.substr(begin, i - begin)));
+    fields.emplace_back(io::trimmed(line.substr(begin, i - begin)));
     begin = i + 1;
   }
   return fields;
@@ -63,7 +63,7 @@ class Parser {
   bool nextLine(std::string_view& line) {
     while (!rest_.empty()) {
       const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-      line = trimmed(rest_.substr(0, end));
+      line = io::trimmed(rest_.substr(0, end));
       rest_.remove_prefix(std::min(end + 1, rest_.size()));
       ++line_;
       if (!line.empty() && line.front() != '#') return true;

@@ -97,7 +97,7 @@ Material makeMaterial(const RadObject& object, const Material* alternate) {
   const Arguments a(object);
   const auto reflecting = [&](Surface surface) { return Material{object.name, std::move(surface), std::nullopt}; };
   const auto emitting = [&](std::optional<SpotCone> cone) {
-    return Material{object.name, Opaque{}, Emission{a.nonNegative(0), false, cone, false}};
+    return Material{object.name, Opaque{}, Emission{a.nonNegative(0), false, cone}};
   };
   if (alternate != nullptr) return {object.name, alternate->surface, alternate->emission};
   switch (object.type) {

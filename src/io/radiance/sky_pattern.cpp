@@ -6,7 +6,7 @@ namespace deltalux::io::radiance {
 
 namespace {
 
-[[noreturn]] void fail(const RadObject& object, const std::string& message, const std::string& hint = {}) {
+[[noreturn]] void failSky(const RadObject& object, const std::string& message, const std::string& hint = {}) {
   throw inputError(object.where, "brightfunc '" + object.name + "': " + message, hint);
 }
 
@@ -15,7 +15,7 @@ void become(RadObject& object, Type type, std::vector<double> reals) {
   const std::span<const std::string> options = std::span(object.strings).subspan(2);
   std::size_t used = 0;
   const Transform transform = parseTransform(options, used, object.where);
-  if (used != options.size()) fail(object, "'" + options[used] + "' is no transform option");
+  if (used != options.size()) failSky(object, "'" + options[used] + "' is no transform option");
   RadObject canonical = object;
   canonical.type = type;
   canonical.strings.clear();
@@ -46,7 +46,7 @@ void recogniseGensky(RadObject& object) {
 void recogniseGendaylit(RadObject& object) {
   const std::vector<double>& a = object.reals;
   if (a.size() != 10) {
-    fail(object, "skybright's arguments are not those of gendaylit",
+    failSky(object, "skybright's arguments are not those of gendaylit",
          "diffuse normalisation, ground brightness, five coefficients, sun direction");
   }
   const Vec3 sun(a[7], a[8], a[9]);
