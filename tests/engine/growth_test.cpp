@@ -7,8 +7,6 @@
 #include "support/temp_folder.hpp"
 
 namespace deltalux {
-using namespace engine;
-
 namespace {
 
 constexpr std::size_t kRoom = 0, kTile = 7, kBox = 12;  // floor of the room, top of the tile, bottom of the box

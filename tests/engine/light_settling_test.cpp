@@ -8,8 +8,6 @@
 #include "support/settled.hpp"
 
 namespace deltalux {
-using namespace engine;
-
 namespace {
 
 /// A room with a mirror, a glass ball, a sheet of paper that light shines through, two lamps and a box.

@@ -18,12 +18,13 @@ Mat4 translation(const Vec3& by) {
 }
 
 double meanIrradiance(const SolutionView& solution) {
-  const std::vector<ProbePoint> points = {{{1.5, 1.7, 0.76}, {0, 0, 1}}, {{0.4, 3.2, 0.001}, {0, 0, 1}},
-                                          {{1.5, 2.0, 1.5}, {0, 0, -1}}};
+  const std::vector<ProbePoint> points = {
+      {{1.5, 1.7, 0.76}, {0, 0, 1}}, {{0.4, 3.2, 0.001}, {0, 0, 1}}, {{1.5, 2.0, 1.5}, {0, 0, -1}}};
   ProbeSettings settings;
   settings.error = 0.05;
   double sum = 0;
-  for (const ProbeResult& result : probe(solution, points, settings)) sum += result.irradiance.g / points.size();
+  for (const ProbeResult& result : probe(solution, points, settings))
+    sum += result.irradiance.g / static_cast<double>(points.size());
   return sum;
 }
 

@@ -129,7 +129,8 @@ TEST(SolutionFile, OriginEfficacyAndWhatIsOnlySeenComeBack) {
   Scene scene = test::oneOfEverything();
   scene.origin = {5200000, -4100000, 12}, scene.luminousEfficacy = 683;
   scene.backdrops.push_back(std::get<DomeLight>(scene.lights.back().emitter));
-  const MaterialId screen = test::addMaterial(scene, "screen", test::lambert(0), Emission{Rgb(3.0f), false, {}, true});
+  const MaterialId screen =
+      test::addMaterial(scene, "screen", test::lambert(0), Emission{Rgb(3.0f), false, {}, {}, true});
   test::addPolygon(scene, screen, {{1, 1, 0.5}, {1.2, 1, 0.5}, {1.2, 1.2, 0.5}});
   const SolutionView solution = solved(scene, 0.6);
   const SolutionView loaded = readSolution(bytesOf(solution), "s.dlx");

@@ -116,7 +116,7 @@ TEST(CoarseExitance, KnowsNothingOfScalesAndColours) {
     scene.lights[1].scale = Rgb(scale);
     ParticleSettings settings;
     settings.count = 1000;
-    return planParticles(scene, *tracing::makeEmbreeTracer(scene), settings).nominal;
+    return counted(planParticles(scene, *tracing::makeEmbreeTracer(scene), settings), settings.count).nominal;
   };
   EXPECT_EQ(lit(0.8f, 1.0f), lit(0.1f, 0.0f));
 }
