@@ -141,7 +141,7 @@ TEST_F(ObjFiles, DissolveIsCoverage) {
 TEST_F(ObjFiles, HaloDissolvesAlikeAtEveryAngle) {
   for (const char* line : {"d -halo 0.25\n", "\td  -halo\t0.25\n", "Ni 1\nd -halo 0.25"}) {
     EXPECT_EQ(materialOf(line).coverage, 0.25f) << line;
-    EXPECT_EQ(imported_.report.ignored.at("-halo of d (the same at every angle)"), 1u);
+    EXPECT_EQ(imported_.report.ignored.at("-halo of d (taken the same at every angle)"), 1u);
   }
   materialOf("# not d -halo 0.25\nd 0.5\n");
   EXPECT_TRUE(imported_.report.ignored.empty());
