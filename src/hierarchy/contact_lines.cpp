@@ -115,7 +115,7 @@ class ContactLines::Search {
       // The part of the edge that lies in the slab |h| <= close.
       double from = 0, to = 1;
       if (rise != 0) {
-        const auto [first, last] = std::minmax((-close - ha) / rise, (close - ha) / rise);
+        const auto [first, last] = std::minmax({(-close - ha) / rise, (close - ha) / rise});
         from = std::max(first, 0.0), to = std::min(last, 1.0);
       } else if (std::abs(ha) > close) {
         continue;
