@@ -6,12 +6,12 @@
 // edit meets is the scene as the last has left it. After each phase of edits the solution is held against a fresh solve
 // of the edited scene. Times are wall seconds.
 //   edit    one edit; `edits` counts them
-//   check   after a phase: `solve_s` of the fresh solve, and by how much irradiance at points differs from it
-//   median, p90, worst   over the edits of a kind, of which there are `edits`: each column by itself, and the name of
-//   the
+//   check   after a phase (with `once`: after the last alone): `solve_s` of the fresh solve, and by how much irradiance
+//   at points differs from it median, p90, worst   over the edits of a kind, of which there are `edits`: each column by
+//   itself, and the name of the
 //           edit that takes so long
 // leaves_changed may exceed leaves_of_solve where moved shadows split leaves: old and new ones are counted.
-// Options: metres=M (of a scene unit), error=E, first=N (of each kind, not all), unchecked.
+// Options: metres=M (of a scene unit), error=E, first=N (of each kind, not all), once, unchecked.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct Options {
   ImportSettings import;
   SolveSettings solve;
   std::size_t first = std::numeric_limits<std::size_t>::max();
-  bool checked = true;
+  bool checked = true, once = false;
 
   static Options parse(const std::vector<std::string>& words) {
     Options o;
@@ -49,6 +49,8 @@ struct Options {
         o.solve.error = std::stod(word.substr(6));
       else if (word.starts_with("first="))
         o.first = std::stoul(word.substr(6));
+      else if (word == "once")
+        o.once = true;
       else if (word == "unchecked")
         o.checked = false;
       else
@@ -158,7 +160,8 @@ void run(const std::string& name, const std::string& file, const std::string& li
     std::map<std::string, std::size_t> done;  // by kind
     for (const NamedEdit& edit : phase.edits)
       if (done[edit.kind]++ < o.first) table.edit(edit, measure(solved.engine, edit));
-    if (o.checked && !phase.edits.empty()) table.check(phase.name, check(solved.engine));
+    const bool due = o.once ? &phase == &phases.back() : !phase.edits.empty();
+    if (o.checked && due) table.check(phase.name, check(solved.engine));
   }
   table.summaries();
 }
@@ -186,7 +189,7 @@ int main(int argc, char** argv) {
   std::fputs(
       "usage: edits_bench columns\n"
       "       edits_bench NAME SCENE LIST.txt OPTIONS...\n"
-      "options: metres=M, error=E, first=N, unchecked\n",
+      "options: metres=M, error=E, first=N, once, unchecked\n",
       stderr);
   return 2;
 }
