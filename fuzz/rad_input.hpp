@@ -36,7 +36,7 @@ class TextFiles : public FileAccess {
 inline bool readsCleanly(std::string_view input) {
   TextFiles files(input);
   ExpansionLimits limits;
-  limits.objects = 3000, limits.numbers = 100000, limits.patternCalls = 300000;
+  limits.objects = 3000, limits.numbers = 100000, limits.patternCalls = 5000;
   try {
     const ImportedScene imported = io::readRadiance(files.scene(), files, {}, limits);
     validate(imported.scene);
