@@ -5,11 +5,15 @@
 // once; each edit comes unannounced, and is timed until the solution has followed. Nothing is put back: what the next
 // edit meets is the scene as the last has left it. After each phase of edits the solution is held against a fresh solve
 // of the edited scene. Times are wall seconds.
-//   edit    one edit; `edits` counts them
-//   check   after a phase (with `once`: after the last alone): `solve_s` of the fresh solve, and by how much irradiance
-//   at points differs from it median, p90, worst   over the edits of a kind, of which there are `edits`: each column by
-//   itself, and the name of the
-//           edit that takes so long
+//
+//   edit: one edit; `edits` counts them.
+//
+//   check: after a phase (with `once`, after the last alone); `solve_s` of the fresh solve, and by how much irradiance
+//   at points differs from it.
+//
+//   median, p90, worst: over the edits of a kind, of which there are `edits`; each column by itself, and the name of
+//   the edit that takes so long.
+//
 // leaves_changed may exceed leaves_of_solve where moved shadows split leaves: old and new ones are counted.
 // Options: metres=M (of a scene unit), error=E, first=N (of each kind, not all), once, unchecked.
 #include <fmt/format.h>
