@@ -4,6 +4,7 @@
 #include <deltalux/solution_file.hpp>
 
 #include "io/gltf.hpp"
+#include "io/lower_case.hpp"
 #include "io/obj.hpp"
 #include "io/radiance.hpp"
 
@@ -13,12 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string extensionOf(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension;
-}
+std::string extensionOf(const fs::path& file) { return lowerCase(file.extension().string()); }
 
 bool isOtherFormat(const fs::path& file) {
   const std::string extension = extensionOf(file);

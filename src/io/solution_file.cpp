@@ -1,6 +1,6 @@
 #include "io/solution_file.hpp"
+#include "io/lower_case.hpp"
 
-#include <algorithm>
 #include <deltalux/error.hpp>
 
 #include "io/atomic_file.hpp"
@@ -47,12 +47,7 @@ Solution parse(std::string_view bytes, const std::string& file) {
 
 }  // namespace
 
-bool isSolutionFile(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension == ".dlx";
-}
+bool isSolutionFile(const fs::path& file) { return io::lowerCase(file.extension().string()) == ".dlx"; }
 
 }  // namespace deltalux
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deltalux/error.hpp>
 
+#include "io/lower_case.hpp"
 #include "io/number.hpp"
 #include "io/obj/lines.hpp"
 #include "io/obj/words.hpp"
@@ -16,13 +17,6 @@ namespace deltalux::io {
 namespace {
 
 using Words = std::vector<std::string_view>;
-
-std::string lowerCase(std::string_view word) {
-  std::string lower(word);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
 
 // The words of a line before a comment.
 Words wordsOf(std::string_view line) {
