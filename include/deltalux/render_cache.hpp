@@ -1,0 +1,54 @@
+#pragma once
+// A Render Cache [WDP99; WDG02]: light that rays found is kept at its place in the scene, projected into every frame,
+// and filled up between; where it is thin or old, new rays are asked for. Rays are traced elsewhere
+// (SolutionReader::trace) and come back when they do. Plain CPU code over values; one thread at a time.
+#include <deltalux/pixel_sample.hpp>
+#include <deltalux/view.hpp>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace deltalux {
+
+struct RenderCacheSettings {
+  double samplesPerPixel = 1.5;  // store, relative to the pixels of a frame
+  double prediction = 0.25;      // share of the rays for where the camera is going, while it moves [WDG02]
+};
+
+/// A frame of the cache.
+struct CacheFrame {
+  int width = 0, height = 0;
+  std::vector<glm::vec4> pixels;     // L [W/(sr m2)] and how well it is known: 0 nothing near, below 1 filled from
+                                     // neighbours, 1 a sample of its own. Rows from the top
+  std::size_t wanted = 0, held = 0;  // pixels to fill; of those, the ones with a sample of their own
+};
+
+class RenderCache {
+ public:
+  explicit RenderCache(RenderCacheSettings = {});
+  ~RenderCache();
+  RenderCache(RenderCache&&) noexcept;
+  RenderCache& operator=(RenderCache&&) noexcept;
+
+  /// Takes samples in; the oldest make room.
+  void insert(std::span<const PixelSample>);
+  /// Drops samples for which it is true: what an edit has made wrong.
+  std::size_t drop(const std::function<bool(const PixelSample&)>& stale);
+  /// All samples, for who drops them elsewhere.
+  std::span<const PixelSample> samples() const;
+  void clear();
+
+  /// Projects and fills. `surfaces`: by pixel the primitive that is seen there first, as value + 1, or 0 where the
+  /// cache has nothing to do: samples of other surfaces are not shown there, so edges are the drawing's own.
+  const CacheFrame& frame(const View&, int width, int height, std::span<const std::uint32_t> surfaces);
+  /// Rays for the frame that was made last: at most `count`, where they are wanted most [WDP99, priority image with
+  /// error diffusion]. `next`: where the camera will be by the time they are back.
+  std::vector<PixelRay> wanted(std::size_t count, const View& next);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace deltalux

@@ -1,0 +1,29 @@
+#pragma once
+// What a SolutionReader has ready: the reconstruction of the solution as it is, paths from the eye over it, and the
+// snapshots and changes that it has told of so far.
+#include <deltalux/solution_mesh.hpp>
+#include <deltalux/solution_reader.hpp>
+#include <memory>
+
+#include "render/eye_path.hpp"
+#include "render/reconstruction.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux::rendering {
+
+struct ReaderState {
+  explicit ReaderState(SolutionView v) : view(std::move(v)) {}
+
+  SolutionView view;
+  std::uint64_t version = 0;
+  std::unique_ptr<Reconstruction> reconstruction;  // of the last refresh
+  SolutionMesh snapshot;                           // the one that was asked for last
+  std::shared_ptr<const SampleChanges> changes;
+
+  const Solution& solution() const { return view.get(); }
+};
+
+/// Notes what differs from the solution of the refresh before (sample_changes.cpp).
+std::shared_ptr<const SampleChanges> noteChanges(const ReaderState&, const SampleChanges* before);
+
+}  // namespace deltalux::rendering
