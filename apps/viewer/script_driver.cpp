@@ -9,6 +9,8 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
+#include "window.hpp"
+
 namespace deltalux::viewer {
 
 namespace {
@@ -28,12 +30,20 @@ Json spreadOf(std::vector<double> values) {
 
 Json jsonOf(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
+/// What the window shows in this turn.
+struct Turn {
+  const gl::Renderer& renderer;
+  const DrawReport& drawing;
+  const Window* window;
+};
+
 double radians(double degrees) { return degrees * kPi / 180; }
 
 }  // namespace
 
 struct ScriptDriver::State {
   Script script;
+  const Window* window = nullptr;
   Clock::time_point start;
   std::function<void(const std::string&)> print;
 
@@ -72,9 +82,9 @@ struct ScriptDriver::State {
   }
 
   // Each returns whether the line is done.
-  bool play(const action::Wait& a, Controller& c, const DriverView& v) {
+  bool play(const action::Wait& a, Controller& c, const Turn& v) {
     if (c.status().phase == Phase::Failed) fail("the scene could not be solved: " + c.status().message, "");
-    const bool reached = a.until == action::Until::Ready     ? c.ready() && v.drawn
+    const bool reached = a.until == action::Until::Ready     ? c.ready()
                          : a.until == action::Until::Settled ? c.ready() && c.settled()
                                                              : c.ready() && c.finished();
     if (!reached && since(lineBegan) > a.seconds)
@@ -88,12 +98,8 @@ struct ScriptDriver::State {
           {"settle_s", c.status().settleSeconds}});
     return true;
   }
-  bool play(const action::Frames& a, Controller&, const DriverView& v) {
-    frame = turns == 0 ? 0 : frame + (v.drawn ? 1 : 0);
-    drawing.push_back(v.drawing.milliseconds);
-    return turns > 0 && (frame >= a.count || turns >= 10 * a.count);
-  }
-  bool play(const action::Look& a, Controller& c, const DriverView&) {
+  bool play(const action::Frames& a, Controller&, const Turn&) { return turns >= a.count; }
+  bool play(const action::Look& a, Controller& c, const Turn&) {
     for (const View& view : c.scene().views)
       if (view.name == a.view) return c.setCamera(view), true;
     if (!std::filesystem::is_regular_file(a.view)) {
@@ -105,7 +111,7 @@ struct ScriptDriver::State {
     c.setCamera(inScene(c.scene(), loadView(a.view)));
     return true;
   }
-  bool play(const action::Camera& a, Controller& c, const DriverView&) {
+  bool play(const action::Camera& a, Controller& c, const Turn&) {
     View view = c.camera();
     view.position = a.position - c.scene().origin;
     view.direction = a.direction;
@@ -114,19 +120,19 @@ struct ScriptDriver::State {
     c.setCamera(view);
     return true;
   }
-  bool play(const action::Walk& a, Controller& c, const DriverView&) {
+  bool play(const action::Walk& a, Controller& c, const Turn&) {
     View view = c.camera();
     move(view, a.rightForwardUp, true);
     c.setCamera(view);
     return true;
   }
-  bool play(const action::Turn& a, Controller& c, const DriverView&) {
+  bool play(const action::Turn& a, Controller& c, const Turn&) {
     View view = c.camera();
     turn(view, radians(a.yaw), radians(a.pitch));
     c.setCamera(view);
     return true;
   }
-  bool play(const action::Orbit& a, Controller& c, const DriverView&) {
+  bool play(const action::Orbit& a, Controller& c, const Turn&) {
     const auto hit = c.hitAt(a.x, a.y);
     if (!hit) fail("nothing is seen at that pixel", "a pixel over a surface");
     View view = c.camera();
@@ -134,8 +140,8 @@ struct ScriptDriver::State {
     c.setCamera(view);
     return true;
   }
-  bool play(const action::Select& a, Controller& c, const DriverView&) { return c.select(a.name), true; }
-  bool play(const action::SelectAt& a, Controller& c, const DriverView&) {
+  bool play(const action::Select& a, Controller& c, const Turn&) { return c.select(a.name), true; }
+  bool play(const action::SelectAt& a, Controller& c, const Turn&) {
     c.select(c.nameAt(a.x, a.y));
     tell({{"action", "select"}, {"name", c.selection()}});
     return true;
@@ -154,7 +160,7 @@ struct ScriptDriver::State {
     const Mat4 there = glm::translate(Mat4(1.0), centre);
     return there * glm::rotate(Mat4(1.0), radians(share * a.degrees), *a.axis) * glm::translate(Mat4(1.0), -centre);
   }
-  bool play(const action::Drag& a, Controller& c, const DriverView& v) {
+  bool play(const action::Drag& a, Controller& c, const Turn& v) {
     if (turns == 0) {
       if (c.selection().empty()) fail("nothing is selected", "select NAME, before it is dragged");
       frame = 0;
@@ -162,7 +168,6 @@ struct ScriptDriver::State {
       centre = centreOfSelection(c);
       c.beginDrag();
     } else {
-      if (!v.drawn && since(moved) < 5) return false;  // the frame with it is not drawn yet
       latency.push_back(1e3 * since(moved));
       drawing.push_back(v.drawing.milliseconds);
     }
@@ -182,7 +187,7 @@ struct ScriptDriver::State {
           {"uploaded_bytes", v.drawing.uploadedBytes}});
     return true;
   }
-  bool play(const action::Apply& a, Controller& c, const DriverView&) {
+  bool play(const action::Apply& a, Controller& c, const Turn&) {
     released = Clock::now();
     if (const auto* edit = std::get_if<Edit>(&a.step))
       c.edit(*edit);
@@ -192,23 +197,23 @@ struct ScriptDriver::State {
       c.session().canRedo() ? c.redo() : fail("there is nothing to redo", "an undo before it");
     return true;
   }
-  bool play(const action::Aim& a, Controller& c, const DriverView&) {
+  bool play(const action::Aim& a, Controller& c, const Turn&) {
     released = Clock::now();
     return c.aim(a.light, a.at - c.scene().origin), true;
   }
-  bool play(const action::LookThrough& a, Controller& c, const DriverView&) { return c.lookThrough(a.light), true; }
-  bool play(const action::Store& a, Controller& c, const DriverView&) { return c.store(a.slot), true; }
-  bool play(const action::Compare& a, Controller& c, const DriverView&) { return c.compare(a.slot, a.wipe), true; }
-  bool play(const action::RestoreState& a, Controller& c, const DriverView&) {
+  bool play(const action::LookThrough& a, Controller& c, const Turn&) { return c.lookThrough(a.light), true; }
+  bool play(const action::Store& a, Controller& c, const Turn&) { return c.store(a.slot), true; }
+  bool play(const action::Compare& a, Controller& c, const Turn&) { return c.compare(a.slot, a.wipe), true; }
+  bool play(const action::RestoreState& a, Controller& c, const Turn&) {
     released = Clock::now();
     return c.restore(a.slot), true;
   }
-  bool play(const action::Pin& a, Controller& c, const DriverView&) {
+  bool play(const action::Pin& a, Controller& c, const Turn&) {
     ProbePoint point = a.point;
     point.position -= c.scene().origin;
     return c.pinProbe(a.name, point), true;
   }
-  bool play(const action::Read& a, Controller& c, const DriverView&) {
+  bool play(const action::Read& a, Controller& c, const Turn&) {
     const auto& probes = c.probes();
     const auto probe = std::find_if(probes.begin(), probes.end(), [&](const Probe& p) { return p.name == a.name; });
     if (probe == probes.end()) fail(fmt::format("there is no probe '{}'", a.name), "probe NAME x y z nx ny nz");
@@ -223,12 +228,12 @@ struct ScriptDriver::State {
     if (since(lineBegan) > 120) fail("no reading came", "is the scene solved by then?");
     return false;
   }
-  bool play(const action::Field& a, Controller& c, const DriverView&) {
+  bool play(const action::Field& a, Controller& c, const Turn&) {
     std::optional<MeterField> field = a.field;
     if (field) field->corner -= c.scene().origin;
     return c.setField(field), true;
   }
-  bool play(const action::ReadField&, Controller& c, const DriverView&) {
+  bool play(const action::ReadField&, Controller& c, const Turn&) {
     if (!c.field()) fail("there is no field of meters", "field, with a corner and its sides");
     if (c.field()->mean == 0 || (c.settled() && !c.field()->exact)) return waitForReading(c);
     const MeterField& f = *c.field();
@@ -236,7 +241,7 @@ struct ScriptDriver::State {
         {{"action", "read"}, {"field", {{"Em", f.mean}, {"Emin", f.least}, {"U0", f.uniformity}}}, {"exact", f.exact}});
     return true;
   }
-  bool play(const action::PointAt& a, Controller& c, const DriverView&) {
+  bool play(const action::PointAt& a, Controller& c, const Turn&) {
     if (turns == 0) c.pointAt(a.x, a.y);
     const UnderCursor& under = c.underCursor();
     if (!under.known) {
@@ -256,7 +261,7 @@ struct ScriptDriver::State {
           {"lamps_lux", lamps}});
     return true;
   }
-  bool play(const action::Explain& a, Controller& c, const DriverView&) {
+  bool play(const action::Explain& a, Controller& c, const Turn&) {
     if (turns == 0) {
       ProbePoint point = a.point;
       point.position -= c.scene().origin;
@@ -281,24 +286,24 @@ struct ScriptDriver::State {
           {"paths", paths}});
     return true;
   }
-  bool play(const action::Exposure& a, Controller& c, const DriverView& v) {
+  bool play(const action::Exposure& a, Controller& c, const Turn& v) {
     if (a.ev)
       c.draw().tone.ev = *a.ev;
     else if (turns == 0)
       return false;
     else
-      c.wantExposureFrom(v.radiance());
+      c.wantExposureFrom(v.renderer.radiance());
     return true;
   }
-  bool play(const action::Tone& a, Controller& c, const DriverView&) {
+  bool play(const action::Tone& a, Controller& c, const Turn&) {
     c.draw().tone.toneOperator = a.tone;
     return true;
   }
-  bool play(const action::False& a, Controller& c, const DriverView&) {
+  bool play(const action::False& a, Controller& c, const Turn&) {
     c.draw().falseColour = a.falseColour;
     return true;
   }
-  bool play(const action::Overlay& a, Controller& c, const DriverView&) {
+  bool play(const action::Overlay& a, Controller& c, const Turn&) {
     Overlays& o = c.draw().overlays;
     (a.name == "mesh"        ? o.mesh
      : a.name == "particles" ? o.particles
@@ -306,7 +311,7 @@ struct ScriptDriver::State {
                              : o.statistics) = a.on;
     return true;
   }
-  bool play(const action::Section& a, Controller& c, const DriverView&) {
+  bool play(const action::Section& a, Controller& c, const Turn&) {
     c.draw().section = a.box;
     if (a.box) {
       c.draw().section->lower -= c.scene().origin;
@@ -314,27 +319,27 @@ struct ScriptDriver::State {
     }
     return true;
   }
-  bool play(const action::Bookmark& a, Controller& c, const DriverView&) {
+  bool play(const action::Bookmark& a, Controller& c, const Turn&) {
     if (!a.go) return c.bookmark(a.slot), true;
     if (!c.goToBookmark(a.slot)) fail(fmt::format("bookmark {} is empty", a.slot), "bookmark N keeps a view");
     return true;
   }
-  bool play(const action::Layer& a, Controller& c, const DriverView&) {
+  bool play(const action::Layer& a, Controller& c, const Turn&) {
     (a.name == "cache" ? c.draw().cache : c.draw().picture) = a.on;
     return true;
   }
-  bool play(const action::Screenshot& a, Controller&, const DriverView& v) {
+  bool play(const action::Screenshot& a, Controller&, const Turn& v) {
     if (turns < 2) return false;  // what was done before is drawn then
-    saveImage(a.file, a.window ? v.window() : v.screenshot());
+    saveImage(a.file, a.window && v.window ? v.window->capture() : v.renderer.screenshot());
     tell({{"action", "screenshot"}, {"file", a.file.string()}});
     return true;
   }
-  bool play(const action::SaveRadiance& a, Controller&, const DriverView& v) {
+  bool play(const action::SaveRadiance& a, Controller&, const Turn& v) {
     if (turns < 2) return false;
-    saveImage(a.file, v.radiance());
+    saveImage(a.file, v.renderer.radiance());
     return true;
   }
-  bool play(const action::SaveSolution& a, Controller& c, const DriverView&) {
+  bool play(const action::SaveSolution& a, Controller& c, const Turn&) {
     if (!saving) {
       saving = std::make_shared<Saving>();
       c.solver().save(a.file.string(), [to = saving](const std::string& error) {
@@ -350,7 +355,7 @@ struct ScriptDriver::State {
     if (!now->error.empty()) throw OutputError(now->error);
     return true;
   }
-  bool play(const action::Quit&, Controller&, const DriverView&) {
+  bool play(const action::Quit&, Controller&, const Turn&) {
     at = script.lines.size() - 1;
     return true;
   }
@@ -360,8 +365,16 @@ ScriptDriver::ScriptDriver(Script script, Clock::time_point start, std::function
     : state_(std::make_unique<State>(std::move(script), start, std::move(print))) {}
 ScriptDriver::~ScriptDriver() = default;
 
-bool ScriptDriver::tick(Controller& controller, const DriverView& view) {
+void ScriptDriver::attach(Window& window) { state_->window = &window; }
+
+bool ScriptDriver::wantsFrame() const {
+  const State& s = *state_;
+  return s.at >= s.script.lines.size() || s.turns < 3 || !std::holds_alternative<action::Wait>(s.line().action);
+}
+
+bool ScriptDriver::tick(Controller& controller, gl::Renderer& renderer, const DrawReport& drawing) {
   State& s = *state_;
+  const Turn view{renderer, drawing, s.window};
   while (s.at < s.script.lines.size()) {
     const ScriptLine& line = s.line();
     // There is nothing to look at, or to edit, before there is a scene.

@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
-#include "driver.hpp"
 #include "script.hpp"
+#include "viewer.hpp"
 
 namespace deltalux::viewer {
 
@@ -20,7 +20,10 @@ class ScriptDriver : public Driver {
 
   /// Throws InputError with the script's file and line when an action cannot be done, a reading is not what the script
   /// says, or a wait takes too long; OutputError when a file cannot be written.
-  bool tick(Controller&, const DriverView&) override;
+  bool tick(Controller&, gl::Renderer&, const DrawReport&) override;
+  void attach(Window&) override;
+  /// While it only waits, what the solver finds is enough to draw for.
+  bool wantsFrame() const override;
 
  private:
   struct State;
