@@ -4,13 +4,11 @@
 #include <deltalux/edit_io.hpp>
 #include <deltalux/output.hpp>
 #include <deltalux/solution_file.hpp>
-#include <script_driver.hpp>
-#include <viewer.hpp>
 
 #include "commands.hpp"
-#include "picture_options.hpp"
+#include "script_driver.hpp"
 #include "solution_source.hpp"
-#include "view_choice.hpp"
+#include "viewer.hpp"
 
 namespace deltalux::cli {
 
