@@ -7,6 +7,7 @@
 
 #include "render/eye_path.hpp"
 #include "render/reconstruction.hpp"
+#include "render/sample_changes.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::rendering {
@@ -19,11 +20,12 @@ struct ReaderState {
   std::unique_ptr<Reconstruction> reconstruction;  // of the last refresh
   SolutionMesh snapshot;                           // the one that was asked for last
   std::shared_ptr<const SampleChanges> changes;
+  NotedSolution noted;  // what `changes` are differences from
 
   const Solution& solution() const { return view.get(); }
 };
 
-/// Notes what differs from the solution of the refresh before (sample_changes.cpp).
-std::shared_ptr<const SampleChanges> noteChanges(const ReaderState&, const SampleChanges* before);
+/// Notes what differs from what was noted before (sample_changes.cpp).
+std::shared_ptr<const SampleChanges> noteChanges(ReaderState&, const SampleChanges* before);
 
 }  // namespace deltalux::rendering
