@@ -12,7 +12,7 @@ namespace deltalux::viewer {
 
 namespace {
 
-void require(bool condition, const char* message) {
+void requireSession(bool condition, const char* message) {
   if (!condition) throw std::logic_error(message);
 }
 
@@ -63,7 +63,7 @@ Edit Session::dragEdit(const Mat4& fromStart) const {
 }
 
 std::vector<Edit> Session::dragTo(const Mat4& fromStart) {
-  require(drag_.has_value(), "nothing is dragged");
+  requireSession(drag_.has_value(), "nothing is dragged");
   if (!drag_->before) {
     drag_->materials = scene_.materials.size();
     const Edit edit = dragEdit(fromStart);
@@ -143,7 +143,7 @@ Edit Session::stepForth() {
 
 Edit Session::undo() {
   if (drag_) endDrag();
-  require(canUndo(), "there is nothing to undo");
+  requireSession(canUndo(), "there is nothing to undo");
   const Edit edit = stepBack();
   write();
   return edit;
@@ -151,7 +151,7 @@ Edit Session::undo() {
 
 Edit Session::redo() {
   if (drag_) endDrag();
-  require(canRedo(), "there is nothing to redo");
+  requireSession(canRedo(), "there is nothing to redo");
   const Edit edit = stepForth();
   write();
   return edit;
@@ -166,7 +166,7 @@ void Session::store(std::size_t slot, std::string name, std::shared_ptr<const So
 }
 
 std::vector<Edit> Session::restore(std::size_t slot) {
-  require(slot < stored_.size() && stored_[slot], "nothing is stored there");
+  requireSession(slot < stored_.size() && stored_[slot], "nothing is stored there");
   if (drag_) endDrag();
   const std::vector<Step>& wanted = stored_[slot]->steps;
   std::size_t common = 0;
