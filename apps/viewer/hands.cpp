@@ -35,10 +35,12 @@ void Hands::update(Controller& controller, Tools& tools, const Frame& frame, con
                    double seconds) {
   const ImGuiIO& io = ImGui::GetIO();
   before_ = cursor_;
-  cursor_ = {double(io.MousePos.x * io.DisplayFramebufferScale.x),
-             double(io.MousePos.y * io.DisplayFramebufferScale.y)};
-  onPicture_ =
-      !io.WantCaptureMouse && cursor_.x >= 0 && cursor_.y >= 0 && cursor_.x < frame.width && cursor_.y < frame.height;
+  const bool here = ImGui::IsMousePosValid();
+  if (here)
+    cursor_ = {double(io.MousePos.x * io.DisplayFramebufferScale.x),
+               double(io.MousePos.y * io.DisplayFramebufferScale.y)};
+  onPicture_ = here && !io.WantCaptureMouse && cursor_.x >= 0 && cursor_.y >= 0 && cursor_.x < frame.width &&
+               cursor_.y < frame.height;
   if (drag_ == Drag::None) gizmo_.hover(controller, frame, tools, cursor_, onPicture_);
   KeyContext context{controller, tools, cursor_.x, cursor_.y, onPicture_};
   for (const KeyPress& key : keys) {

@@ -16,21 +16,10 @@ TEST(Legend, HasATickWhereTheLogarithmicScaleHasTheValue) {
   for (const LegendTick& t : ticks) EXPECT_NEAR(t.value, 1000 * std::pow(10, 3 * (t.position - 1)), 1e-6 * t.value);
 }
 
-TEST(Legend, HasNoTicksBeyondTheScale) {
-  FalseColour f;
-  f.top = 700, f.decades = 1.5;
-  for (const LegendTick& t : legendTicks(f)) {
-    EXPECT_GE(t.position, -1e-6);
-    EXPECT_LE(t.position, 1 + 1e-6);
-  }
-}
-
 TEST(Legend, TellsLinearScalesAndStepsApart) {
   FalseColour f;
   f.top = 500, f.logarithmic = false;
-  const auto linear = legendTicks(f);
-  EXPECT_DOUBLE_EQ(linear[5].value, 250);
-  EXPECT_DOUBLE_EQ(linear[5].position, 0.5);
+  for (const LegendTick& t : legendTicks(f)) EXPECT_NEAR(t.value, 500 * t.position, 1e-9);
   f.useBands = true, f.bands = {300, 500, 750};
   const auto steps = legendTicks(f);
   ASSERT_EQ(steps.size(), 3u);

@@ -2,58 +2,25 @@
 
 #include <imgui.h>
 
-#include "panels/style.hpp"
+#include <algorithm>
+
+#include "false_colour.hpp"
 
 namespace deltalux::viewer {
 
 namespace {
-constexpr int kSteps = 64;                             // of the drawn ramp
-constexpr int kLinearParts = 10;                       // of a linear scale
+constexpr int kSteps = 64;                             // of a ramp as it is drawn
 constexpr float kBar = 18, kWidth = 92, kMargin = 14;  // [pixels at scale 1]
 
-/// The colours of falseColor(), from the lowest to the highest.
-std::vector<ImU32> ramp() {
-  constexpr double kDecades = 3, kTop = 1000;
-  Image gradient;
-  gradient.width = kSteps, gradient.height = 1;
-  for (int i = 0; i < kSteps; ++i) {
-    const double lux = kTop * std::pow(10.0, kDecades * (double(i) / (kSteps - 1) - 1));
-    gradient.pixels.emplace_back(float(lux / gradient.luminousEfficacy));
-  }
-  const DisplayImage shown = falseColor(gradient, {kTop, kDecades});
-  std::vector<ImU32> colours;
-  for (int i = 0; i < kSteps; ++i) {  // the picture is the right part of it, beside its own legend
-    const auto c = shown.at(shown.width - kSteps + i, 0);
-    colours.push_back(IM_COL32(c[0], c[1], c[2], 255));
-  }
-  return colours;
-}
-
-std::vector<LegendTick> logarithmicTicks(double top, double decades) {
-  std::vector<LegendTick> ticks;
-  const double lowest = top / std::pow(10.0, decades);
-  const int first = int(std::floor(std::log10(lowest))), last = int(std::ceil(std::log10(top)));
-  constexpr double kRounding = 1e-9;
-  for (int exponent = first; exponent <= last; ++exponent)
-    for (const double step : {1.0, 2.0, 5.0}) {
-      const double value = step * std::pow(10.0, exponent);
-      const double position = 1 + std::log10(value / top) / decades;
-      if (position >= -kRounding && position <= 1 + kRounding) ticks.push_back({position, value});
-    }
-  return ticks;
-}
+ImU32 screenColour(const glm::vec3& c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1}); }
 }  // namespace
 
 std::vector<LegendTick> legendTicks(const FalseColour& f) {
+  const std::vector<double> levels = scaleLevels(f);
   std::vector<LegendTick> ticks;
-  if (f.useBands) {
-    for (std::size_t i = 0; i < f.bands.size(); ++i)
-      ticks.push_back({double(i + 1) / double(f.bands.size() + 1), f.bands[i]});
-  } else if (f.logarithmic) {
-    ticks = logarithmicTicks(f.top, f.decades);
-  } else {
-    for (int i = 0; i <= kLinearParts; ++i)
-      ticks.push_back({double(i) / kLinearParts, f.top * double(i) / kLinearParts});
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const double between = double(i + 1) / double(levels.size() + 1);  // steps are of one height
+    ticks.push_back({hasBands(f) ? between : scalePosition(f, levels[i]), levels[i]});
   }
   return ticks;
 }
@@ -70,16 +37,13 @@ void drawLegend(const FalseColour& f, float pictureHeight, float bottom) {
                f.quantity == Quantity::Luminance ? "cd/m\xc2\xb2" : "lx");
   const float left = corner.x + 8 * scale, low = corner.y + height + 1.9f * text;
   const auto up = [&](double position) { return low - height * float(position); };
-  const std::vector<ImU32> colours = ramp();
-  // In steps as the renderer has them: the colour of step i of n at i / n of the ramp.
-  const int parts = f.useBands ? int(f.bands.size()) + 1 : kSteps;
-  for (int i = 0; i < parts; ++i) {
-    const double along = parts > 1 ? double(i) / (parts - 1) : 0;
+  const std::vector<LegendTick> ticks = legendTicks(f);
+  const int parts = hasBands(f) ? int(ticks.size()) + 1 : kSteps;
+  for (int i = 0; i < parts; ++i)
     list.AddRectFilled({left, up(double(i + 1) / parts)}, {left + kBar * scale, up(double(i) / parts)},
-                       colours[std::size_t(std::lround(along * (kSteps - 1)))]);
-  }
+                       screenColour(rampColour(double(i) / std::max(parts - 1, 1))));
   float lastAt = low + 2 * text;
-  for (const LegendTick& tick : legendTicks(f)) {
+  for (const LegendTick& tick : ticks) {
     const float y = up(tick.position);
     if (lastAt - y < text) continue;  // no room for it
     lastAt = y;

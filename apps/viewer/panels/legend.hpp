@@ -1,5 +1,5 @@
 #pragma once
-// The scale of false colour: what its colours stand for, in the colours of the library's own false-colour pictures.
+// The scale of false colour beside the picture: what its colours stand for.
 #include "drawing.hpp"
 
 namespace deltalux::viewer {
@@ -8,7 +8,7 @@ struct LegendTick {
   double position = 0;  // along the scale, [0, 1]
   double value = 0;     // [lx or cd/m2]
 };
-/// Ticks of a scale: its steps; else 1, 2 and 5 and their multiples by ten, or ten equal parts where it is linear.
+/// Of each level of the scale; steps are all of one height.
 std::vector<LegendTick> legendTicks(const FalseColour&);
 
 /// Over the left edge of the picture, always when there is false colour and never otherwise. Sizes in ImGui's units.

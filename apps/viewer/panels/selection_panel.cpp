@@ -53,7 +53,7 @@ void materials(Controller& controller, Pending& pending, const SelectionPlace& p
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   for (const MaterialId id : ids) {
-    const Material& material = scene[id];
+    const Material material = scene[id];  // a copy: edits may add some
     const Mirror* mirror = std::get_if<Mirror>(&material.surface);
     const Opaque* opaque = std::get_if<Opaque>(&material.surface);
     if (!mirror && !opaque) {
