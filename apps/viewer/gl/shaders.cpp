@@ -152,7 +152,7 @@ void main() {
 
 const char* const kScreenVertex = R"glsl(
 void main() {
-  gl_Position = vec4(float(gl_VertexID & 1) * 4.0 - 1.0, float(gl_VertexID >> 1) * 4.0 - 1.0, 1.0, 1.0);
+  gl_Position = vec4(float(gl_VertexID >> 1) * 4.0 - 1.0, float(gl_VertexID & 1) * 4.0 - 1.0, 1.0, 1.0);
 }
 )glsl";
 
