@@ -443,7 +443,7 @@ TEST_F(RendererTest, OutlinesTheSelectionAndDrawsLines) {
   bool blueBeside = false, blueOver = false;
   for (int y = 0; y < kHeight; ++y) {
     green += with.at(10, y)[1] == 255 && with.at(10, y)[0] == 0;
-    blueBeside = blueBeside || with.at(4, y)[2] == 255;
+    blueBeside = blueBeside || with.at(12, y)[2] == 255;
     blueOver = blueOver || with.at(32, y)[2] == 255;
   }
   EXPECT_EQ(green, 1);

@@ -75,9 +75,9 @@ std::uint64_t LinePass::drawLines(const SurfaceView& v, const std::vector<Line>&
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
+  glEnable(GL_DEPTH_CLAMP);  // depths are fitted to the surfaces: those of lines may lie outside
   glDrawArrays(GL_LINES, 0, hideable);
   glDisable(GL_DEPTH_TEST);
-  glEnable(GL_DEPTH_CLAMP);  // depths are fitted to the surfaces: those of lines may lie outside
   glDrawArrays(GL_LINES, hideable, static_cast<GLsizei>(vertices.size()) - hideable);
   glDisable(GL_DEPTH_CLAMP);
   glEnable(GL_DEPTH_TEST);

@@ -41,6 +41,7 @@ void addTo(const SurfaceView& v, bool irradianceToo) {
 
 void blendNoMore() {
   glDisable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ZERO);  // a second source is refused with more targets than one, even where it is off
   glDepthMask(GL_TRUE);
 }
 
