@@ -20,6 +20,8 @@
 // fits that jump as leaves enter them).
 // Cost: about 15 neighbours a leaf to build (a ray for pairs that disagree), 0.2-0.5 microseconds a query (a ray per
 // neighbour where leaves are torn), no memory.
+#include <span>
+
 #include "hierarchy/side_locator.hpp"
 #include "render/leaf_irradiance.hpp"
 #include "render/patch_support.hpp"
@@ -49,6 +51,25 @@ class IrradianceField {
     const std::uint32_t i = siteOf_[leaf.index()];
     return torn_[i] < begin_[i + 1];
   }
+
+  // What a leaf's points read, for who watches it change.
+
+  std::size_t sites() const { return sites_.size(); }
+  hierarchy::ElementId leafOf(std::size_t site) const { return sites_[site].leaf; }
+  /// Irradiance as a site has it, to first order: at its centre, and by unit of length along the axes.
+  struct Trend {
+    Rgb value{0.0f}, slope[3] = {Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};
+  };
+  Trend trend(std::size_t site) const {
+    Trend t{direct_[site].value + indirect_[site].value};
+    for (int k = 0; k < 3; ++k) t.slope[k] = direct_[site].slope[k] + indirect_[site].slope[k];
+    return t;
+  }
+  /// The sites that blend at points of one, itself first; those with something in between come last.
+  std::span<const std::uint32_t> blended(std::size_t site) const {
+    return std::span(neighbours_).subspan(begin_[site], begin_[site + 1] - begin_[site]);
+  }
+  std::size_t blendedFreely(std::size_t site) const { return torn_[site] - begin_[site]; }
 
  private:
   /// A leaf's linear function, kept within `low` and `high`.

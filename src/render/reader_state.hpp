@@ -9,6 +9,7 @@
 #include "render/eye_path.hpp"
 #include "render/light_meter.hpp"
 #include "render/reconstruction.hpp"
+#include "render/sample_changes.hpp"
 #include "render/solution_mesh/mesher.hpp"
 #include "solution/solution.hpp"
 
@@ -25,11 +26,12 @@ struct ReaderState {
   std::mutex meterMaking;
   std::unique_ptr<const LightMeter> meter;  // made when first asked for
   std::shared_ptr<const SampleChanges> changes;
+  NotedSolution noted;  // what `changes` are differences from
 
   const Solution& solution() const { return view.get(); }
 };
 
-/// Notes what differs from the solution of the refresh before (sample_changes.cpp).
-std::shared_ptr<const SampleChanges> noteChanges(const ReaderState&, const SampleChanges* before);
+/// Notes what differs from what was noted before (sample_changes.cpp).
+std::shared_ptr<const SampleChanges> noteChanges(ReaderState&, const SampleChanges* before);
 
 }  // namespace deltalux::rendering
