@@ -80,6 +80,8 @@ void Controller::takeMesh(std::shared_ptr<const SolutionMesh> mesh) {
   if (!session_) begin();
   // What was answered is of the light before.
   cursorQuestion_.answered = explainQuestion_.answered = false;
+  for (Probe& p : probes_) p.exact = false;
+  if (field_) field_->exact = false;
   if (cursorAt_) lookUnderCursor();
 }
 

@@ -177,6 +177,7 @@ class Controller {
   std::vector<Probe> probes_;
   std::optional<MeterField> field_;
   std::uint64_t pinned_ = 0;
+  bool historyIsOfMesh_ = false;  // the newest of every probe: an exact one takes its place
   std::optional<Contributions> explanation_;
   std::unique_ptr<Solver> solver_;  // last: its thread ends first
 };

@@ -91,6 +91,7 @@ void Controller::pinMeters() {
             {field_->corner + (i + 0.5) / field_->columns * field_->across + (j + 0.5) / field_->rows * field_->along,
              field_->normal});
   pinned_ = solver_->pin(std::move(points));
+  historyIsOfMesh_ = false;
 }
 
 void Controller::pinProbe(const std::string& name, const ProbePoint& point) {
@@ -127,17 +128,19 @@ void Controller::setField(std::optional<MeterField> field) {
 void Controller::takeReadings(const Readings& readings) {
   if (readings.pinned != pinned_ || !ready()) return;  // of points that are no longer meant
   constexpr std::size_t kHistory = 256;
+  const bool exact = readings.exact && mesh_ && readings.version >= mesh_->version;
   const auto lux = [&](std::size_t i) { return photometric(readings.results[i].irradiance, scene().luminousEfficacy); };
   for (std::size_t i = 0; i < probes_.size(); ++i) {
     Probe& probe = probes_[i];
     // An exact reading takes the place of what the mesh said of the same light.
-    if (readings.exact && !probe.exact && !probe.history.empty()) probe.history.pop_back();
-    probe.lux = lux(i), probe.exact = readings.exact;
+    if (readings.exact && !probe.history.empty() && historyIsOfMesh_) probe.history.pop_back();
+    probe.lux = lux(i), probe.exact = exact;
     probe.history.push_back(static_cast<float>(probe.lux));
     if (probe.history.size() > kHistory) probe.history.pop_front();
   }
+  historyIsOfMesh_ = !readings.exact;
   if (!field_) return;
-  field_->exact = readings.exact;
+  field_->exact = exact;
   field_->mean = 0, field_->least = kInfinity;
   const std::size_t count = readings.results.size() - probes_.size();
   for (std::size_t i = 0; i < count; ++i) {

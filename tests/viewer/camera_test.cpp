@@ -80,7 +80,9 @@ TEST(ViewerCamera, DollyHalvesTheDistanceAndKeepsThePointInPlace) {
     const Vec3 after = project(view, kWidth, kHeight, point);
     EXPECT_NEAR(after.x, before.x, 1e-8);
     EXPECT_NEAR(after.y, before.y, 1e-8);
-    if (kind == View::Kind::Perspective) EXPECT_NEAR(after.z, before.z / 2, 1e-9);
+    if (kind == View::Kind::Perspective) {
+      EXPECT_NEAR(after.z, before.z / 2, 1e-9);
+    }
   }
 }
 

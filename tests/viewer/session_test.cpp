@@ -41,16 +41,22 @@ Recording startIn(const test::TempFolder& folder) {
 void expectSame(const Scene& a, const Scene& b, bool ids) {
   ASSERT_EQ(a.primitives.size(), b.primitives.size());
   ASSERT_EQ(a.lights.size(), b.lights.size());
-  if (ids) ASSERT_EQ(a.materials.size(), b.materials.size());
+  if (ids) {
+    ASSERT_EQ(a.materials.size(), b.materials.size());
+  }
   for (std::size_t i = 0; i < a.primitives.size(); ++i) {
     const PrimitiveId id(i);
+    ASSERT_EQ(area(a[id].shape), area(b[id].shape)) << i;
+    if (!(area(a[id].shape) > 0)) continue;  // removed
     for (const Vec2 uv : {Vec2(0.1, 0.2), Vec2(0.9, 0.4), Vec2(0.3, 0.8)}) {
       EXPECT_EQ(pointAt(a[id].shape, uv).position, pointAt(b[id].shape, uv).position) << i;
       EXPECT_EQ(pointAt(a[id].shape, uv).normal, pointAt(b[id].shape, uv).normal) << i;
     }
     const Material &m = a.materialOf(id), &n = b.materialOf(id);
     EXPECT_TRUE(m.surface == n.surface && m.emission == n.emission && m.name == n.name) << i;
-    if (ids) EXPECT_EQ(a[id].material, b[id].material) << i;
+    if (ids) {
+      EXPECT_EQ(a[id].material, b[id].material) << i;
+    }
   }
   for (std::size_t i = 0; i < a.lights.size(); ++i) {
     EXPECT_EQ(a.lights[i].emitter, b.lights[i].emitter) << i;
