@@ -82,7 +82,7 @@ struct ScriptDriver::State {
   }
 
   // Each returns whether the line is done.
-  bool play(const action::Wait& a, Controller& c, const Turn& v) {
+  bool play(const action::Wait& a, Controller& c, const Turn&) {
     if (c.status().phase == Phase::Failed) fail("the scene could not be solved: " + c.status().message, "");
     const bool reached = a.until == action::Until::Ready     ? c.ready()
                          : a.until == action::Until::Settled ? c.ready() && c.settled()
