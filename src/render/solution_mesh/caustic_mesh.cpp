@@ -197,6 +197,15 @@ SurfaceCausticMesh causticMeshOf(const SurfaceCaustics& s, const Shape& shape, c
   return result;
 }
 
+bool sameTextures(const SurfaceCaustics& a, const SurfaceCaustics& b) {
+  return std::equal(a.textures.begin(), a.textures.end(), b.textures.begin(), b.textures.end(),
+                    [](const CausticTexture& s, const CausticTexture& t) {
+                      return s.chart == t.chart && s.region.lower == t.region.lower &&
+                             s.region.upper == t.region.upper && s.width == t.width && s.height == t.height &&
+                             s.texels == t.texels && s.areas == t.areas;
+                    });
+}
+
 bool sameTextures(const SurfaceCausticMesh& a, const SurfaceCausticMesh& b) {
   const auto sameVertex = [](const CausticMesh::Vertex& v, const CausticMesh::Vertex& w) {
     return v.position == w.position && v.texcoord == w.texcoord;
