@@ -134,8 +134,8 @@ void LeafSites::findNear(const LeafSites* before) {
               all_[j].support.reaches(elements_, scene_, all_[i].leaf))
             list.push_back(j);
         });
+        std::sort(list.begin() + static_cast<std::ptrdiff_t>(first), list.end());
       }
-      std::sort(list.begin() + static_cast<std::ptrdiff_t>(first), list.end());
       nearBegin_[i + 1] = static_cast<std::uint32_t>(list.size() - first);
     }
   });
