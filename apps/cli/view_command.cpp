@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <deltalux/edit_io.hpp>
+#include <deltalux/error.hpp>
 #include <deltalux/output.hpp>
 #include <deltalux/solution_file.hpp>
 

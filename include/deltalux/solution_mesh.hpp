@@ -60,7 +60,8 @@ struct SurfaceCausticMesh {
 struct SolutionMesh {
   std::uint64_t version = 0;  // 0: nothing yet
   std::shared_ptr<const Scene> scene;
-  /// By 2 * primitive + (front ? 0 : 1); null where a side has no extent. One that was there and is gone is empty.
+  /// By 2 * primitive + (front ? 0 : 1); null where a side has no extent, or nobody can see it. One that was there
+  /// and is gone is empty.
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces;
   /// The same order; null, or without textures: the mesh shows all light.
   std::vector<std::shared_ptr<const SurfaceCausticMesh>> caustics;

@@ -14,15 +14,11 @@ namespace deltalux::rendering {
 namespace {
 
 constexpr std::size_t kBlock = 512;
-constexpr float kSamePlane = 0.9998f;          // cosine between polygons that make one wall
-constexpr float kSmoothMesh = 0.766f;          // cosine between triangles that a mesh means to be round: 40 degrees
-constexpr float kOffPlane = 1e-3f;             // of the smaller leaf's size: still one plane
 constexpr float kDisagree = 0.3f;              // relative difference that asks whether something stands between
 constexpr float kLift = 0.1f;                  // of the smaller leaf's size: height at which that is looked for
 constexpr int kExposureRays = 16;              // that tell how much of a torn leaf is in sight of its centre
 constexpr std::uint32_t kFewestWitnesses = 4;  // joined leaves that tell what is out of the way
 constexpr float kLittleExposed = 0.2f;         // share of a leaf that tells too little of what is around it
-constexpr int kQuietPasses = 4;                // of averaging: it reaches about as many leaves
 constexpr float kLeeway = 2.0f;                // predictions stay within so many times what the neighbours differ
 
 bool disagree(const Rgb& a, const Rgb& b) {
@@ -30,92 +26,90 @@ bool disagree(const Rgb& a, const Rgb& b) {
   return std::abs(x - y) > kDisagree * std::max(x, y);
 }
 
-bool isLittleExposed(const hierarchy::Elements& elements, hierarchy::ElementId leaf) {
-  return elements.shape(leaf).exposed < kLittleExposed;
-}
-
 }  // namespace
 
 IrradianceField::IrradianceField(const hierarchy::Elements& elements, const Scene& scene,
                                  const tracing::RayTracer& tracer, const std::vector<LeafIrradiance>& values,
-                                 float noise)
-    : elements_(elements), scene_(scene), tracer_(tracer), siteOf_(elements.size(), Id<void>::kNone) {
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (!elements.isReceivingLeaf(hierarchy::ElementId(i))) continue;
-    siteOf_[i] = static_cast<std::uint32_t>(sites_.size());
-    sites_.push_back({hierarchy::ElementId(i), {}, 0, {}});
+                                 float noise, const IrradianceField* before)
+    : elements_(elements),
+      scene_(scene),
+      tracer_(tracer),
+      noise_(noise),
+      sites_(elements, scene, before ? &before->sites_ : nullptr) {
+  if (before) generation_ = before->generation_ + 1;
+  if (before && before->noise_ != noise) before = nullptr;
+  stages_[Gathered].resize(sites_.size());
+  differs_[Gathered].assign(sites_.size(), 1);
+  coverage_.resize(sites_.size());
+  for (std::size_t i = 0; i < sites_.size(); ++i) {
+    const hierarchy::ElementId leaf = sites_[i].leaf;
+    stages_[Gathered][i] = values[leaf.index()];
+    coverage_[i] = elements.shape(leaf).exposed;
+    const std::uint32_t was = before ? sites_.before(i) : LeafSites::kNone;
+    if (was != LeafSites::kNone)
+      differs_[Gathered][i] =
+          stages_[Gathered][i] != before->stages_[Gathered][was] || coverage_[i] != before->coverage_[was];
   }
-  parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
-    Site& site = sites_[i];
-    const hierarchy::ElementGeometry& g = elements.shape(site.leaf);
-    site.center = g.center;
-    site.fineness = 1.0f / std::max(g.area, 1e-30f);
-    site.support = PatchSupport(elements, scene, site.leaf);
-  });
-  findNeighbours(values);
-  const std::vector<LeafIrradiance> whole = quiet(mended(filled(values)), noise);
-  fit(direct_, &LeafIrradiance::direct, whole);
-  fit(indirect_, &LeafIrradiance::indirect, whole);
-  if (std::any_of(whole.begin(), whole.end(), [](const LeafIrradiance& v) { return !isBlack(v.particle); }))
-    fit(particle_, &LeafIrradiance::particle, whole);
+  relate(before);
+  fill(Filled, before, [&](std::size_t i) { return filled(i); });
+  fill(Mended, before, [&](std::size_t i) { return mended(i); });
+  if (noise > 0) {
+    fill(WithoutOutliers, before, [&](std::size_t i) { return withoutOutliers(i); });
+    for (int pass = 0; pass < kQuietPasses; ++pass)
+      fill(static_cast<Stage>(Quiet + pass), before,
+           [&](std::size_t i) { return quiet(i, stages_[static_cast<std::size_t>(Quiet + pass - 1)]); });
+  } else {
+    stages_.back() = stages_[Mended], differs_.back() = differs_[Mended];
+  }
+  fitAll(before);
 }
 
-void IrradianceField::findNeighbours(const std::vector<LeafIrradiance>& values) {
-  std::vector<BoxF> boxes(sites_.size());
-  parallelFor(sites_.size(), kBlock,
-              [&](std::size_t i) { boxes[i] = sites_[i].support.bounds(elements_, sites_[i].leaf); });
-  const BoxTree tree(std::move(boxes));
+bool IrradianceField::disagreeing(std::size_t home, std::size_t other) const {
+  const LeafIrradiance &a = stages_[Gathered][home], &b = stages_[Gathered][other];
+  return disagree(a.indirect, b.indirect) || disagree(a.direct, b.direct);
+}
 
-  std::vector<std::vector<std::uint32_t>> lists((sites_.size() + kBlock - 1) / kBlock);
+void IrradianceField::relate(const IrradianceField* before) {
   begin_.assign(sites_.size() + 1, 0);
   torn_.assign(sites_.size(), 0);
-  parallelBlocks(sites_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-    auto& list = lists[begin / kBlock];
-    for (std::size_t i = begin; i < end; ++i) {
-      std::vector<std::uint32_t> joined, torn;
-      const hierarchy::ElementGeometry& g = elements_.shape(sites_[i].leaf);
-      tree.overlapping({g.lower, g.upper}, [&](std::uint32_t j) {
-        if (j == i) return;
-        const Relation relation = relate(sites_[i], sites_[j], values);
-        if (relation != Relation::None) (relation == Relation::Joined ? joined : torn).push_back(j);
-      });
-      std::sort(joined.begin(), joined.end());
-      std::sort(torn.begin(), torn.end());
-      list.push_back(static_cast<std::uint32_t>(i));
-      list.insert(list.end(), joined.begin(), joined.end());
-      list.insert(list.end(), torn.begin(), torn.end());
-      torn_[i] = static_cast<std::uint32_t>(1 + joined.size());
-      begin_[i + 1] = static_cast<std::uint32_t>(1 + joined.size() + torn.size());
+  exposed_.assign(sites_.size(), -1.0f);
+  related_.assign(sites_.size(), 1);
+  sights_.assign(sites_.nearCount(), Sight::Unknown);
+  neighbours_.resize(sites_.nearCount() + sites_.size());
+  for (std::size_t i = 0; i < sites_.size(); ++i)
+    begin_[i + 1] = static_cast<std::uint32_t>(sites_.nearBegin(i + 1) + i + 1);
+  parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
+    const auto near = sites_.near(i);
+    Sight* const sights = sights_.data() + sites_.nearBegin(i);
+    const std::uint32_t was = before ? sites_.before(i) : LeafSites::kNone;
+    const bool known = was != LeafSites::kNone && !sites_.disturbed(i);
+    if (known) {
+      std::copy_n(before->sights_.data() + before->sites_.nearBegin(was), near.size(), sights);
+      exposed_[i] = before->exposed_[was];
     }
+    std::uint32_t* joined = neighbours_.data() + begin_[i];
+    *joined++ = static_cast<std::uint32_t>(i);
+    std::vector<std::uint32_t> torn;
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      const bool asks = sites_[i].support.flat() && disagreeing(i, near[k]);
+      if (asks && sights[k] == Sight::Unknown)
+        sights[k] = inSight(sites_[i].center, sites_[i].leaf, sites_[near[k]].leaf) ? Sight::Clear : Sight::Blocked;
+      if (asks && sights[k] == Sight::Blocked)
+        torn.push_back(near[k]);
+      else
+        *joined++ = near[k];
+    }
+    torn_[i] = static_cast<std::uint32_t>(joined - neighbours_.data());
+    std::copy(torn.begin(), torn.end(), joined);
+    // Numbers may have moved, their order has not.
+    const bool sameOrder =
+        was != LeafSites::kNone && torn_[i] - begin_[i] == before->torn_[was] - before->begin_[was] &&
+        std::equal(neighbours_.begin() + begin_[i], neighbours_.begin() + begin_[i + 1],
+                   before->neighbours_.begin() + before->begin_[was],
+                   before->neighbours_.begin() + before->begin_[was + 1],
+                   [&](std::uint32_t a, std::uint32_t b) { return sites_[a].leaf == before->sites_[b].leaf; });
+    related_[i] = !sameOrder || (!torn.empty() && !known);
   });
-  for (std::size_t i = 0; i < sites_.size(); ++i) {
-    begin_[i + 1] += begin_[i];
-    torn_[i] += begin_[i];
-  }
-  neighbours_.reserve(begin_.back());
-  for (const auto& list : lists) neighbours_.insert(neighbours_.end(), list.begin(), list.end());
-}
-
-bool IrradianceField::sameSurface(hierarchy::ElementId a, hierarchy::ElementId b) const {
-  const hierarchy::PatchDomain &da = elements_.domain[a.index()], &db = elements_.domain[b.index()];
-  const bool samePrimitive = da.primitive == db.primitive;
-  if (!elements_.at(a).flat || !elements_.at(b).flat)
-    return samePrimitive && elements_.at(a).front == elements_.at(b).front;
-  const hierarchy::ElementGeometry &ga = elements_.shape(a), &gb = elements_.shape(b);
-  const float cosine = glm::dot(ga.normal, gb.normal);
-  if (samePrimitive) return cosine > kSmoothMesh;
-  const float size = std::sqrt(std::min(ga.area, gb.area));
-  return cosine > kSamePlane && std::abs(glm::dot(gb.center - ga.center, ga.normal)) < kOffPlane * size;
-}
-
-IrradianceField::Relation IrradianceField::relate(const Site& home, const Site& other,
-                                                  const std::vector<LeafIrradiance>& values) const {
-  if (!sameSurface(home.leaf, other.leaf) || !other.support.reaches(elements_, scene_, home.leaf))
-    return Relation::None;
-  const LeafIrradiance &a = values[home.leaf.index()], &b = values[other.leaf.index()];
-  if (!home.support.flat() || (!disagree(a.indirect, b.indirect) && !disagree(a.direct, b.direct)))
-    return Relation::Joined;
-  return inSight(home.center, home.leaf, other.leaf) ? Relation::Joined : Relation::Torn;
 }
 
 bool IrradianceField::inSight(const Vec3f& p, hierarchy::ElementId home, hierarchy::ElementId other) const {
@@ -138,86 +132,87 @@ float IrradianceField::exposed(hierarchy::ElementId leaf) const {
   return static_cast<float>(std::max(seen, 1)) / float(kExposureRays);
 }
 
-std::vector<LeafIrradiance> IrradianceField::filled(const std::vector<LeafIrradiance>& values) const {
-  std::vector<LeafIrradiance> result = values;
+bool IrradianceField::isLittleExposed(std::size_t site) const { return coverage_[site] < kLittleExposed; }
+
+template <class Value>
+void IrradianceField::fill(Stage stage, const IrradianceField* before, const Value& value) {
+  std::vector<LeafIrradiance>& result = stages_[stage];
+  const std::vector<char>& changed = differs_[static_cast<std::size_t>(stage) - 1];
+  result.resize(sites_.size());
+  differs_[stage].assign(sites_.size(), 1);
   parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
-    if (!isLittleExposed(elements_, sites_[i].leaf)) return;
-    RgbSum direct(0.0), indirect(0.0), particle(0.0);
-    double area = 0;
-    for (std::uint32_t k = begin_[i]; k < begin_[i + 1]; ++k) {
-      const hierarchy::ElementId leaf = sites_[neighbours_[k]].leaf;
-      if (isLittleExposed(elements_, leaf)) continue;
-      const double lit = elements_.shape(leaf).litArea();
-      direct += lit * RgbSum(values[leaf.index()].direct), indirect += lit * RgbSum(values[leaf.index()].indirect);
-      particle += lit * RgbSum(values[leaf.index()].particle);
-      area += lit;
-    }
-    if (area > 0) result[sites_[i].leaf.index()] = {Rgb(direct / area), Rgb(indirect / area), 0, Rgb(particle / area)};
+    const std::uint32_t was = before ? sites_.before(i) : LeafSites::kNone;
+    const bool stands = was != LeafSites::kNone && !related_[i] &&
+                        std::none_of(neighbours_.begin() + begin_[i], neighbours_.begin() + begin_[i + 1],
+                                     [&](std::uint32_t j) { return changed[j]; });
+    result[i] = stands ? before->stages_[stage][was] : value(i);
+    if (was != LeafSites::kNone) differs_[stage][i] = result[i] != before->stages_[stage][was];
   });
-  return result;
 }
 
-std::vector<LeafIrradiance> IrradianceField::mended(const std::vector<LeafIrradiance>& values) const {
-  std::vector<LeafIrradiance> result = values;
-  parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
-    if (torn_[i] == begin_[i + 1]) return;
-    const hierarchy::ElementId leaf = sites_[i].leaf;
-    LeafIrradiance most;
-    for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
-      const LeafIrradiance& other = values[sites_[neighbours_[k]].leaf.index()];
-      most.direct = glm::max(most.direct, other.direct), most.indirect = glm::max(most.indirect, other.indirect);
-      most.particle = glm::max(most.particle, other.particle);
-    }
-    const float share = exposed(leaf);
-    // What is hidden is taken to be dark, as far as the neighbours in sight bear that out.
-    const auto mend = [&](const Rgb& E, const Rgb& limit) { return glm::max(E, glm::min(E / share, limit)); };
-    LeafIrradiance& own = result[leaf.index()];
-    own.direct = mend(own.direct, most.direct), own.indirect = mend(own.indirect, most.indirect);
-    own.particle = mend(own.particle, most.particle);
-  });
-  return result;
-}
-
-std::vector<LeafIrradiance> IrradianceField::withoutOutliers(const std::vector<LeafIrradiance>& values) const {
-  std::vector<LeafIrradiance> result = values;
-  parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
-    if (torn_[i] - begin_[i] < 1 + kFewestWitnesses) return;
-    Rgb least(std::numeric_limits<float>::infinity()), most(0.0f);
-    for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
-      const Rgb& E = values[sites_[neighbours_[k]].leaf.index()].indirect;
-      least = glm::min(least, E), most = glm::max(most, E);
-    }
-    Rgb& own = result[sites_[i].leaf.index()].indirect;
-    own = glm::clamp(own, least, most);
-  });
-  return result;
-}
-
-std::vector<LeafIrradiance> IrradianceField::quiet(const std::vector<LeafIrradiance>& values, float noise) const {
-  if (!(noise > 0)) return values;
-  std::vector<LeafIrradiance> result = withoutOutliers(values);
-  for (int pass = 0; pass < kQuietPasses; ++pass) {
-    const std::vector<LeafIrradiance> before = result;
-    parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
-      const hierarchy::ElementId leaf = sites_[i].leaf;
-      const LeafIrradiance& own = before[leaf.index()];
-      const float total = gray(own.direct + own.indirect), asked = noise * total;
-      if (!(total > 0)) return;
-      RgbSum sum(0.0), particle(0.0);
-      double weights = 0;
-      for (std::uint32_t k = begin_[i]; k < torn_[i]; ++k) {
-        const Site& other = sites_[neighbours_[k]];
-        const LeafIrradiance& value = before[other.leaf.index()];
-        const float both = std::sqrt(0.5f * (own.noise * own.noise + value.noise * value.noise));
-        const float apart = maxChannel(glm::abs(value.indirect - own.indirect)) / std::max(asked, both);
-        const double w = std::exp(-0.5 * apart * apart) / other.fineness;
-        sum += w * RgbSum(value.indirect), particle += w * RgbSum(value.particle), weights += w;
-      }
-      result[leaf.index()].indirect = Rgb(sum / weights);
-      result[leaf.index()].particle = Rgb(particle / weights);
-    });
+LeafIrradiance IrradianceField::filled(std::size_t i) const {
+  const std::vector<LeafIrradiance>& values = stages_[Gathered];
+  if (!isLittleExposed(i)) return values[i];
+  RgbSum direct(0.0), indirect(0.0), particle(0.0);
+  double area = 0;
+  for (std::uint32_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+    const std::uint32_t j = neighbours_[k];
+    if (isLittleExposed(j)) continue;
+    const double lit = elements_.shape(sites_[j].leaf).litArea();
+    direct += lit * RgbSum(values[j].direct), indirect += lit * RgbSum(values[j].indirect);
+    particle += lit * RgbSum(values[j].particle);
+    area += lit;
   }
-  return result;
+  return area > 0 ? LeafIrradiance{Rgb(direct / area), Rgb(indirect / area), 0, Rgb(particle / area)} : values[i];
+}
+
+LeafIrradiance IrradianceField::mended(std::size_t i) {
+  const std::vector<LeafIrradiance>& values = stages_[Filled];
+  if (torn_[i] == begin_[i + 1]) return values[i];
+  LeafIrradiance most;
+  for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
+    const LeafIrradiance& other = values[neighbours_[k]];
+    most.direct = glm::max(most.direct, other.direct), most.indirect = glm::max(most.indirect, other.indirect);
+    most.particle = glm::max(most.particle, other.particle);
+  }
+  if (exposed_[i] < 0) exposed_[i] = exposed(sites_[i].leaf);
+  const float share = exposed_[i];
+  // What is hidden is taken to be dark, as far as the neighbours in sight bear that out.
+  const auto mend = [&](const Rgb& E, const Rgb& limit) { return glm::max(E, glm::min(E / share, limit)); };
+  LeafIrradiance own = values[i];
+  own.direct = mend(own.direct, most.direct), own.indirect = mend(own.indirect, most.indirect);
+  own.particle = mend(own.particle, most.particle);
+  return own;
+}
+
+LeafIrradiance IrradianceField::withoutOutliers(std::size_t i) const {
+  const std::vector<LeafIrradiance>& values = stages_[Mended];
+  if (torn_[i] - begin_[i] < 1 + kFewestWitnesses) return values[i];
+  Rgb least(std::numeric_limits<float>::infinity()), most(0.0f);
+  for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
+    const Rgb& E = values[neighbours_[k]].indirect;
+    least = glm::min(least, E), most = glm::max(most, E);
+  }
+  LeafIrradiance own = values[i];
+  own.indirect = glm::clamp(own.indirect, least, most);
+  return own;
+}
+
+LeafIrradiance IrradianceField::quiet(std::size_t i, const std::vector<LeafIrradiance>& before) const {
+  LeafIrradiance own = before[i];
+  const float total = gray(own.direct + own.indirect), asked = noise_ * total;
+  if (!(total > 0)) return own;
+  RgbSum sum(0.0), particle(0.0);
+  double weights = 0;
+  for (std::uint32_t k = begin_[i]; k < torn_[i]; ++k) {
+    const LeafIrradiance& value = before[neighbours_[k]];
+    const float both = std::sqrt(0.5f * (own.noise * own.noise + value.noise * value.noise));
+    const float apart = maxChannel(glm::abs(value.indirect - own.indirect)) / std::max(asked, both);
+    const double w = std::exp(-0.5 * apart * apart) / sites_[neighbours_[k]].fineness;
+    sum += w * RgbSum(value.indirect), particle += w * RgbSum(value.particle), weights += w;
+  }
+  own.indirect = Rgb(sum / weights), own.particle = Rgb(particle / weights);
+  return own;
 }
 
 /// visit(p) for the corners of a flat leaf, for a grid of points of a curved one.
@@ -233,42 +228,69 @@ void IrradianceField::forEachCorner(hierarchy::ElementId leaf, const Visit& visi
       visit(hierarchy::pointOn(elements_, scene_, leaf, glm::mix(d.u0, d.u1, u), glm::mix(d.v0, d.v1, v)).position);
 }
 
-void IrradianceField::fit(std::vector<Linear>& result, Rgb LeafIrradiance::*quantity,
-                          const std::vector<LeafIrradiance>& values) const {
-  result.resize(sites_.size());
-  parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
-    const Site& site = sites_[i];
-    Linear& linear = result[i];
-    const Rgb own = values[site.leaf.index()].*quantity;
-    linear.value = own;
-    const Vec3f normal = elements_.shape(site.leaf).normal;
-    LinearFit fit(normal);
-    Rgb largest(0.0f);
-    for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
-      const Site& other = sites_[neighbours_[k]];
-      const Rgb difference = values[other.leaf.index()].*quantity - own;
-      fit.add(other.center - site.center, difference);
-      largest = glm::max(largest, glm::abs(difference));
-    }
-    linear.low = glm::max(own - kLeeway * largest, Rgb(0.0f));
-    linear.high = own + kLeeway * largest;
-    fit.slopes(linear.slope);
-    // Within the leaf itself the slope must not go further than to its neighbours.
-    Rgb reach(0.0f);
-    forEachCorner(site.leaf, [&](const Vec3f& p) {
-      const Vec3f d = p - site.center;
-      reach = glm::max(reach, glm::abs(d.x * linear.slope[0] + d.y * linear.slope[1] + d.z * linear.slope[2]));
-    });
-    for (int c = 0; c < 3; ++c) {
-      if (reach[c] <= 1.1f * largest[c]) continue;
-      for (Rgb& s : linear.slope) s[c] *= 1.1f * largest[c] / reach[c];
-    }
+IrradianceField::Linear IrradianceField::fit(std::size_t i, Quantity quantity) const {
+  const std::vector<LeafIrradiance>& values = stages_.back();
+  const LeafSite& site = sites_[i];
+  Linear linear;
+  const Rgb own = values[i].*quantity;
+  linear.value = own;
+  LinearFit fit(elements_.shape(site.leaf).normal);
+  Rgb largest(0.0f);
+  for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
+    const Rgb difference = values[neighbours_[k]].*quantity - own;
+    fit.add(sites_[neighbours_[k]].center - site.center, difference);
+    largest = glm::max(largest, glm::abs(difference));
+  }
+  linear.low = glm::max(own - kLeeway * largest, Rgb(0.0f));
+  linear.high = own + kLeeway * largest;
+  fit.slopes(linear.slope);
+  // Within the leaf itself the slope must not go further than to its neighbours.
+  Rgb reach(0.0f);
+  forEachCorner(site.leaf, [&](const Vec3f& p) {
+    const Vec3f d = p - site.center;
+    reach = glm::max(reach, glm::abs(d.x * linear.slope[0] + d.y * linear.slope[1] + d.z * linear.slope[2]));
   });
+  for (int c = 0; c < 3; ++c) {
+    if (reach[c] <= 1.1f * largest[c]) continue;
+    for (Rgb& s : linear.slope) s[c] *= 1.1f * largest[c] / reach[c];
+  }
+  return linear;
+}
+
+void IrradianceField::fitAll(const IrradianceField* before) {
+  const std::vector<LeafIrradiance>& values = stages_.back();
+  std::vector<std::pair<Quantity, std::vector<Linear> IrradianceField::*>> all{
+      {&LeafIrradiance::direct, &IrradianceField::direct_}, {&LeafIrradiance::indirect, &IrradianceField::indirect_}};
+  if (std::any_of(values.begin(), values.end(), [](const LeafIrradiance& v) { return !isBlack(v.particle); }))
+    all.push_back({&LeafIrradiance::particle, &IrradianceField::particle_});
+  if (before && before->particle_.empty() != (all.size() < 3)) before = nullptr;
+  for (const auto& [quantity, linears] : all) (this->*linears).resize(sites_.size());
+  std::vector<char> changed(sites_.size(), 1);
+  parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
+    const std::uint32_t was = before ? sites_.before(i) : LeafSites::kNone;
+    const bool stands = was != LeafSites::kNone && !related_[i] &&
+                        std::none_of(neighbours_.begin() + begin_[i], neighbours_.begin() + torn_[i],
+                                     [&](std::uint32_t j) { return differs_.back()[j]; });
+    bool same = was != LeafSites::kNone;
+    for (const auto& [quantity, linears] : all) {
+      (this->*linears)[i] = stands ? (before->*linears)[was] : fit(i, quantity);
+      same = same && (this->*linears)[i] == (before->*linears)[was];
+    }
+    changed[i] = !same;
+  });
+  changedIn_.assign(sites_.size(), generation_);
+  for (std::size_t i = 0; i < sites_.size(); ++i) {
+    const std::uint32_t was = before ? sites_.before(i) : LeafSites::kNone;
+    if (was != LeafSites::kNone && !related_[i] &&
+        std::none_of(neighbours_.begin() + begin_[i], neighbours_.begin() + begin_[i + 1],
+                     [&](std::uint32_t j) { return changed[j]; }))
+      changedIn_[i] = before->changedIn_[was];
+  }
 }
 
 template <class Visit>
 float IrradianceField::forEachWeight(const hierarchy::LeafPoint& at, const Vec3f& p, const Visit& visit) const {
-  const std::uint32_t home = siteOf_[at.leaf.index()];
+  const std::uint32_t home = sites_.of(at.leaf);
   SupportPoint point;
   point.position = p;
   if (!sites_[home].support.flat()) {
@@ -279,7 +301,7 @@ float IrradianceField::forEachWeight(const hierarchy::LeafPoint& at, const Vec3f
   float weights = 0;
   for (std::uint32_t k = begin_[home]; k < begin_[home + 1]; ++k) {
     const std::uint32_t i = neighbours_[k];
-    const Site& site = sites_[i];
+    const LeafSite& site = sites_[i];
     const float w = site.fineness * site.support.weight(point);
     if (w <= 0.0f || (cut && !inSight(p, at.leaf, site.leaf))) continue;
     visit(i, w);
@@ -288,7 +310,7 @@ float IrradianceField::forEachWeight(const hierarchy::LeafPoint& at, const Vec3f
   return weights;
 }
 
-Rgb IrradianceField::at(const Linear& l, const Site& site, const Vec3f& p) const {
+Rgb IrradianceField::at(const Linear& l, const LeafSite& site, const Vec3f& p) const {
   const Vec3f d = p - site.center;
   return glm::clamp(l.value + d.x * l.slope[0] + d.y * l.slope[1] + d.z * l.slope[2], l.low, l.high);
 }
@@ -297,7 +319,7 @@ Rgb IrradianceField::blend(const std::vector<Linear>& linears, const hierarchy::
   Rgb sum(0.0f);
   const float weights =
       forEachWeight(at, p, [&](std::uint32_t i, float w) { sum += w * IrradianceField::at(linears[i], sites_[i], p); });
-  return weights > 0.0f ? sum / weights : linears[siteOf_[at.leaf.index()]].value;
+  return weights > 0.0f ? sum / weights : linears[sites_.of(at.leaf)].value;
 }
 
 PointIrradiance IrradianceField::all(const hierarchy::LeafPoint& point, const Vec3f& p) const {
@@ -310,7 +332,7 @@ PointIrradiance IrradianceField::all(const hierarchy::LeafPoint& point, const Ve
   if (weights > 0.0f) {
     E = {E.direct / weights, E.indirect / weights, E.particle / weights};
   } else {
-    const std::uint32_t home = siteOf_[point.leaf.index()];
+    const std::uint32_t home = sites_.of(point.leaf);
     E = {direct_[home].value, indirect_[home].value, particles ? particle_[home].value : Rgb(0.0f)};
   }
   E.particle = glm::min(E.particle, E.indirect);

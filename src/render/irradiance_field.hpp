@@ -16,15 +16,20 @@
 // rows vary, is taken for noise and averaged (bilateral filter [Tomasi98]); larger differences stay. The lower the
 // error, the less is averaged.
 //
+// A field takes over from the one of the solution before what is the same: neighbours where no leaf came or went, rays
+// where nothing moved, averages and fits where no light changed around. It is the field that would be made from
+// nothing.
+//
 // Rejected: vertex interpolation (needs a conforming mesh), one moving least-squares fit per query (a solve each, and
 // fits that jump as leaves enter them).
 // Cost: about 15 neighbours a leaf to build (a ray for pairs that disagree), 0.2-0.5 microseconds a query (a ray per
 // neighbour where leaves are torn), no memory.
+#include <array>
 #include <span>
 
 #include "hierarchy/side_locator.hpp"
 #include "render/leaf_irradiance.hpp"
-#include "render/patch_support.hpp"
+#include "render/leaf_sites.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux::rendering {
@@ -37,9 +42,10 @@ struct PointIrradiance {
 class IrradianceField {
  public:
   /// `values` by element; those of receiving leaves are used. `noise`: of their indirect light, relative to all light.
-  /// The others must outlive this.
+  /// The others must outlive this. `before`: of the same elements and scene, as they were; it is not needed afterwards.
   IrradianceField(const hierarchy::Elements&, const Scene&, const tracing::RayTracer&,
-                  const std::vector<LeafIrradiance>& values, float noise = 0.0f);
+                  const std::vector<LeafIrradiance>& values, float noise = 0.0f,
+                  const IrradianceField* before = nullptr);
 
   /// At the surface point `p`, which `at` locates [W/m2].
   Rgb direct(const hierarchy::LeafPoint& at, const Vec3f& p) const { return blend(direct_, at, p); }
@@ -48,9 +54,13 @@ class IrradianceField {
   PointIrradiance all(const hierarchy::LeafPoint& at, const Vec3f& p) const;
   /// Whether something stands on or cuts through the leaf, or between it and its neighbours.
   bool torn(hierarchy::ElementId leaf) const {
-    const std::uint32_t i = siteOf_[leaf.index()];
+    const std::uint32_t i = sites_.of(leaf);
     return torn_[i] < begin_[i + 1];
   }
+  /// How many fields this one took over from, one after the other; and in which of them what is read in a leaf last
+  /// changed, or could have.
+  std::uint64_t generation() const { return generation_; }
+  std::uint64_t changedIn(hierarchy::ElementId leaf) const { return changedIn_[sites_.of(leaf)]; }
 
   // What a leaf's points read, for who watches it change.
 
@@ -75,51 +85,65 @@ class IrradianceField {
   /// A leaf's linear function, kept within `low` and `high`.
   struct Linear {
     Rgb value{0.0f}, low{0.0f}, high{0.0f};
-    Rgb slope[3] = {Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};  // along x, y, z
-  };
-  struct Site {
-    hierarchy::ElementId leaf;
-    Vec3f center{0.0f};
-    float fineness = 0;  // 1 / area
-    PatchSupport support;
-  };
+    std::array<Rgb, 3> slope{Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};  // along x, y, z
 
-  enum class Relation { None, Joined, Torn };
+    bool operator==(const Linear&) const = default;
+  };
+  /// Whether the middle of one leaf can be seen from that of another, where it was asked.
+  enum class Sight : char { Unknown, Clear, Blocked };
+  static constexpr int kQuietPasses = 4;  // of averaging: it reaches about as many leaves
+  /// Values of the leaves, by site, on their way from what they gathered to what is fitted.
+  enum Stage { Gathered, Filled, Mended, WithoutOutliers, Quiet, kStages = Quiet + kQuietPasses };
 
-  void findNeighbours(const std::vector<LeafIrradiance>&);
-  Relation relate(const Site& home, const Site& other, const std::vector<LeafIrradiance>&) const;
-  bool sameSurface(hierarchy::ElementId a, hierarchy::ElementId b) const;
+  void relate(const IrradianceField* before);
+  bool disagreeing(std::size_t home, std::size_t other) const;
   /// Whether `center` of a leaf can be seen from `p` of the same surface, a little above it.
   bool inSight(const Vec3f& p, hierarchy::ElementId home, hierarchy::ElementId other) const;
+
+  /// Fills a stage: value(i) where anything that it is made of has changed, and as it was elsewhere.
+  template <class Value>
+  void fill(Stage, const IrradianceField* before, const Value&);
   /// With means of what is around leaves that are all but covered: what peeps out is lit as that is, and its own value,
   /// of few rays, would tilt the slopes of all that is beside it.
-  std::vector<LeafIrradiance> filled(const std::vector<LeafIrradiance>&) const;
+  LeafIrradiance filled(std::size_t site) const;
   /// Mended values of leaves that are cut in two.
-  std::vector<LeafIrradiance> mended(const std::vector<LeafIrradiance>&) const;
+  LeafIrradiance mended(std::size_t site);
   /// With indirect light kept within what the joined leaves have.
-  std::vector<LeafIrradiance> withoutOutliers(const std::vector<LeafIrradiance>&) const;
+  LeafIrradiance withoutOutliers(std::size_t site) const;
   /// With indirect light averaged as far as it differs by no more than noise.
-  std::vector<LeafIrradiance> quiet(const std::vector<LeafIrradiance>&, float noise) const;
+  LeafIrradiance quiet(std::size_t site, const std::vector<LeafIrradiance>& before) const;
   float exposed(hierarchy::ElementId leaf) const;
+  bool isLittleExposed(std::size_t site) const;
+
   template <class Visit>
   void forEachCorner(hierarchy::ElementId leaf, const Visit&) const;
-  void fit(std::vector<Linear>&, Rgb LeafIrradiance::*quantity, const std::vector<LeafIrradiance>&) const;
+  using Quantity = Rgb LeafIrradiance::*;
+  Linear fit(std::size_t site, Quantity) const;
+  void fitAll(const IrradianceField* before);
   /// visit(site, weight) for all that take part at a point; the sum of the weights.
   template <class Visit>
   float forEachWeight(const hierarchy::LeafPoint&, const Vec3f& p, const Visit&) const;
-  Rgb at(const Linear&, const Site&, const Vec3f& p) const;
+  Rgb at(const Linear&, const LeafSite&, const Vec3f& p) const;
   Rgb blend(const std::vector<Linear>&, const hierarchy::LeafPoint&, const Vec3f& p) const;
 
   const hierarchy::Elements& elements_;
   const Scene& scene_;
   const tracing::RayTracer& tracer_;
-  std::vector<std::uint32_t> siteOf_;  // per element
-  std::vector<Site> sites_;
+  float noise_;
+  LeafSites sites_;
+  std::vector<float> coverage_;  // by site: how much of the leaf light can reach (ElementGeometry::exposed)
   // Per site, those that may take part at its points: itself, the joined ones, then from torn_ on those with something
   // in between.
   std::vector<std::uint32_t> begin_, torn_, neighbours_;
+  std::vector<Sight> sights_;   // of pairs that are near
+  std::vector<float> exposed_;  // by site, of torn leaves; negative: not asked
+  std::vector<char> related_;   // by site: whether other neighbours take part than before, or rays may differ
+  std::array<std::vector<LeafIrradiance>, kStages> stages_;
+  std::array<std::vector<char>, kStages> differs_;  // by site: whether the value is another one than before
   std::vector<Linear> direct_, indirect_;
   std::vector<Linear> particle_;  // of indirect_; empty: none anywhere
+  std::uint64_t generation_ = 0;
+  std::vector<std::uint64_t> changedIn_;  // by site
 };
 
 }  // namespace deltalux::rendering

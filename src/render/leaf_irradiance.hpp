@@ -11,6 +11,8 @@ struct LeafIrradiance {
   Rgb indirect{0.0f};  // from other surfaces, particles included [W/m2]
   float noise = 0;     // standard deviation of indirect, gray: that of the rays of its row [W/m2]
   Rgb particle{0.0f};  // of indirect, what particles brought [W/m2]
+
+  bool operator==(const LeafIrradiance&) const = default;
 };
 
 /// What push-pull left at every element; without the particles' light where caustic textures show that.

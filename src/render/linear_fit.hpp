@@ -1,6 +1,7 @@
 #pragma once
 // Weighted least squares for the slope of a function at a point, from differences to points around it. Directions in
 // which those points hardly spread get no slope, so a fit from few points is never wild.
+#include <array>
 #include <cmath>
 #include <deltalux/math.hpp>
 #include <deltalux/units.hpp>
@@ -28,7 +29,7 @@ class LinearFit {
   }
 
   /// Slopes along the world's x, y and z, per unit of length.
-  void slopes(Rgb (&result)[3]) const {
+  void slopes(std::array<Rgb, 3>& result) const {
     for (Rgb& r : result) r = Rgb(0.0f);
     const double half = 0.5 * (xx_ + yy_);
     if (!flat_ || !(half > 0)) return;
@@ -40,7 +41,7 @@ class LinearFit {
     const RgbSum along = (c * x_ + s * y_) / large;
     const RgbSum across = small > kDegenerate * large ? (c * y_ - s * x_) / small : RgbSum(0.0);
     const RgbSum gx = c * along - s * across, gy = s * along + c * across;
-    for (int i = 0; i < 3; ++i) result[i] = Rgb(t_[i] * gx + b_[i] * gy);
+    for (int i = 0; i < 3; ++i) result[static_cast<std::size_t>(i)] = Rgb(t_[i] * gx + b_[i] * gy);
   }
 
  private:

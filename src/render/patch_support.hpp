@@ -37,6 +37,8 @@ class PatchSupport {
   /// Bounds of all points with a weight.
   BoxF bounds(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
 
+  bool operator==(const PatchSupport&) const = default;
+
  private:
   static constexpr float kReach = 2.5f;  // in half sizes: weights vanish there
 

@@ -8,10 +8,10 @@ namespace {
 constexpr float kNoise = 2.0f;  // of leaves, times the error that was asked for
 }  // namespace
 
-Reconstruction::Reconstruction(const Solution& s)
+Reconstruction::Reconstruction(const Solution& s, const Reconstruction* before)
     : locator(s.elements, s.scene),
       field(s.elements, s.scene, *s.tracer, meshIrradiance(s.elements, s.caustics, s.transfers),
-            kNoise * static_cast<float>(s.settings.error)),
+            kNoise * static_cast<float>(s.settings.error), before ? &before->field : nullptr),
       direct(s.scene, s.elements, s.links, *s.tracer),
       choices(direct, s.elements.size()) {}
 

@@ -43,8 +43,8 @@ class ChoiceCache {
 };
 
 struct Reconstruction {
-  /// The solution must outlive this.
-  explicit Reconstruction(const Solution&);
+  /// The solution must outlive this. `before`: of the same solution, as it was; what has not changed is taken over.
+  explicit Reconstruction(const Solution&, const Reconstruction* before = nullptr);
 
   hierarchy::SideLocator locator;
   IrradianceField field;

@@ -16,7 +16,7 @@ void SolutionReader::refresh() {
   rendering::ReaderState& s = *state_;
   ++s.version;
   s.meter.reset();
-  s.reconstruction = std::make_unique<rendering::Reconstruction>(s.solution());
+  s.reconstruction = std::make_unique<rendering::Reconstruction>(s.solution(), s.reconstruction.get());
   s.changes = rendering::noteChanges(s, s.changes.get());
 }
 

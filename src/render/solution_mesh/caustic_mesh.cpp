@@ -102,9 +102,38 @@ void clipCorners(std::vector<ChartCorner>& polygon, int axis, double limit, bool
   polygon = std::move(kept);
 }
 
+/// Regions of finer textures of the same chart over which texels of this one lie that show the surface, too: there the
+/// finer one is what is seen. What was taken out of a finer one in turn is not cut by it.
+std::vector<caustics::Region> coveredRegions(const SurfaceCaustics& s, const CausticTexture& t) {
+  const Chart& chart = s.charts.all[t.chart];
+  const Vec2 texel = t.region.size() / Vec2(t.width, t.height), slack = 1e-6 * texel;
+  std::vector<caustics::Region> regions;
+  for (const CausticTexture* finer = s.textures.data(); finer != &t; ++finer)
+    for (const double turns : {0.0, 1.0, -1.0}) {
+      if (finer->chart != t.chart || (turns != 0 && !chart.closed())) continue;
+      const Vec2 shift(turns * chart.size.x, 0);
+      const caustics::Region r{finer->region.lower + shift, finer->region.upper + shift};
+      if (r.contains(t.region.lower) && r.contains(t.region.upper)) continue;
+      const glm::ivec2 from =
+          glm::max(glm::ivec2(glm::floor((r.lower + slack - t.region.lower) / texel)), glm::ivec2(0));
+      const glm::ivec2 to = glm::min(glm::ivec2(glm::floor((r.upper - slack - t.region.lower) / texel)),
+                                     glm::ivec2(t.width - 1, t.height - 1));
+      bool shown = false;
+      for (int y = from.y; y <= to.y; ++y)
+        for (int x = from.x; x <= to.x; ++x)
+          shown =
+              shown ||
+              t.areas[static_cast<std::size_t>(y) * static_cast<std::size_t>(t.width) + static_cast<std::size_t>(x)] >
+                  0;
+      if (shown) regions.push_back(r);
+    }
+  return regions;
+}
+
 class CausticTriangles {
  public:
-  CausticTriangles(const CausticTexture& texture, CausticMesh& to) : texture_(texture), to_(to) {}
+  CausticTriangles(const CausticTexture& texture, std::vector<caustics::Region> covered, CausticMesh& to)
+      : texture_(texture), covered_(std::move(covered)), to_(to) {}
 
   void add(const std::array<ChartCorner, 3>& triangle, double shift) {
     polygon_.assign(triangle.begin(), triangle.end());
@@ -113,22 +142,43 @@ class CausticTriangles {
       clipCorners(polygon_, axis, texture_.region.lower[axis], true);
       clipCorners(polygon_, axis, texture_.region.upper[axis], false);
     }
-    if (!(areaInChart() > 0)) return;
-    const auto first = static_cast<std::uint32_t>(to_.vertices.size());
-    for (const ChartCorner& c : polygon_) to_.vertices.push_back({Vec3f(c.position), texcoordOf(c.st)});
-    for (std::uint32_t i = 1; i + 1 < polygon_.size(); ++i)
-      to_.triangles.insert(to_.triangles.end(), {first, first + i, first + i + 1});
+    addUncovered(std::move(polygon_), 0);
   }
 
  private:
-  double areaInChart() const {
+  /// What of a polygon no region covers, from the one with this number on.
+  void addUncovered(std::vector<ChartCorner> polygon, std::size_t first) {
+    if (!(areaInChart(polygon) > 0)) return;
+    if (first == covered_.size()) {
+      addFan(polygon);
+      return;
+    }
+    for (int axis = 0; axis < 2; ++axis)
+      for (const bool above : {true, false}) {
+        const double limit = above ? covered_[first].upper[axis] : covered_[first].lower[axis];
+        std::vector<ChartCorner> outside = polygon;
+        clipCorners(outside, axis, limit, above);
+        addUncovered(std::move(outside), first + 1);
+        clipCorners(polygon, axis, limit, !above);
+      }
+  }
+
+  void addFan(const std::vector<ChartCorner>& polygon) {
+    const auto first = static_cast<std::uint32_t>(to_.vertices.size());
+    for (const ChartCorner& c : polygon) to_.vertices.push_back({Vec3f(c.position), texcoordOf(c.st)});
+    for (std::uint32_t i = 1; i + 1 < polygon.size(); ++i)
+      to_.triangles.insert(to_.triangles.end(), {first, first + i, first + i + 1});
+  }
+
+  static double areaInChart(const std::vector<ChartCorner>& polygon) {
     double sum = 0;
-    for (std::size_t i = 1; i + 1 < polygon_.size(); ++i) {
-      const Vec2 a = polygon_[i].st - polygon_[0].st, b = polygon_[i + 1].st - polygon_[0].st;
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+      const Vec2 a = polygon[i].st - polygon[0].st, b = polygon[i + 1].st - polygon[0].st;
       sum += a.x * b.y - a.y * b.x;
     }
     return std::abs(sum);
   }
+
   glm::vec2 texcoordOf(const Vec2& st) const {
     const double border = borderOf(texture_);
     const Vec2 size(texture_.width, texture_.height);
@@ -137,6 +187,7 @@ class CausticTriangles {
   }
 
   const CausticTexture& texture_;
+  const std::vector<caustics::Region> covered_;
   CausticMesh& to_;
   std::vector<ChartCorner> polygon_;
 };
@@ -184,7 +235,7 @@ SurfaceCausticMesh causticMeshOf(const SurfaceCaustics& s, const Shape& shape, c
     mesh.width = texture.width + 2 * borderOf(texture), mesh.height = texture.height + 2 * borderOf(texture);
     mesh.texels = texelsOf(s, texture);
     const Chart& chart = s.charts.all[texture.chart];
-    CausticTriangles triangles(texture, mesh);
+    CausticTriangles triangles(texture, coveredRegions(s, texture), mesh);
     forEachChartTriangle(s, texture.chart, shape, side, [&](const std::array<ChartCorner, 3>& triangle) {
       triangles.add(triangle, 0);
       if (!chart.closed()) return;
@@ -195,6 +246,15 @@ SurfaceCausticMesh causticMeshOf(const SurfaceCaustics& s, const Shape& shape, c
     if (!mesh.triangles.empty()) result.textures.push_back(std::move(mesh));
   }
   return result;
+}
+
+bool sameTextures(const SurfaceCaustics& a, const SurfaceCaustics& b) {
+  return std::equal(a.textures.begin(), a.textures.end(), b.textures.begin(), b.textures.end(),
+                    [](const CausticTexture& s, const CausticTexture& t) {
+                      return s.chart == t.chart && s.region.lower == t.region.lower &&
+                             s.region.upper == t.region.upper && s.width == t.width && s.height == t.height &&
+                             s.texels == t.texels && s.areas == t.areas;
+                    });
 }
 
 bool sameTextures(const SurfaceCausticMesh& a, const SurfaceCausticMesh& b) {

@@ -15,6 +15,8 @@ namespace deltalux::rendering {
 /// triangle and texture.
 SurfaceCausticMesh causticMeshOf(const caustics::SurfaceCaustics&, const Shape&, const SurfaceMesh& side);
 
+/// Of the same surface.
+bool sameTextures(const caustics::SurfaceCaustics&, const caustics::SurfaceCaustics&);
 bool sameTextures(const SurfaceCausticMesh&, const SurfaceCausticMesh&);
 
 }  // namespace deltalux::rendering

@@ -43,54 +43,91 @@ SurfaceMesh nothingOn(std::size_t side) {
 
 }  // namespace
 
-void SolutionMesher::findGroups(const Scene& scene) {
-  groups_ = planeGroups(scene);
-  pieces_.resize(2 * scene.primitives.size());
-  shapes_.resize(pieces_.size());
+std::vector<char> SolutionMesher::findChanged(const Solution& s) {
+  Standing now(s.scene);
+  const std::vector<char> moved = now.changedSince(standing_);
+  standing_ = std::move(now);
+  const std::size_t sides = 2 * s.scene.primitives.size();
+  cuts_.resize(sides), pieces_.resize(sides), shapes_.resize(sides), sources_.resize(sides);
+  std::vector<char> changed(sides, 0);
+  const double size = s.elements.sceneBox.diagonal();
+  parallelFor(sides, kSidesBlock, [&](std::size_t i) {
+    const PrimitiveId primitive(i / 2);
+    Cut cut{leavesOf(s.elements, s.scene, primitive, i % 2 == 0), stepsRound(s.scene[primitive].shape, size)};
+    changed[i] = moved[i / 2] || cut != cuts_[i];
+    cuts_[i] = std::move(cut);
+  });
+  if (std::find(moved.begin(), moved.end(), char{1}) == moved.end()) return changed;
+  // Who moved may have left a group, or come to another.
+  auto groups = planeGroups(s.scene);
+  std::vector<const std::vector<std::uint32_t>*> groupOf(sides, nullptr);
+  for (const auto& group : groups_)
+    for (const std::uint32_t side : group) groupOf[side] = &group;
+  for (const auto& group : groups)
+    if (!groupOf[group.front()] || *groupOf[group.front()] != group)
+      for (const std::uint32_t side : group) changed[side] = 1;
+  groups_ = std::move(groups);
+  return changed;
 }
 
-void SolutionMesher::findShapes(const Solution& s) {
-  std::vector<char> changed(pieces_.size(), 0);
+void SolutionMesher::findShapes(const Solution& s, const std::vector<char>& changed) {
   parallelFor(pieces_.size(), kSidesBlock, [&](std::size_t i) {
-    SurfacePieces now = piecesOf(s.elements, s.scene, PrimitiveId(i / 2), i % 2 == 0);
-    if (shapes_[i] && samePieces(pieces_[i], now)) return;
-    changed[i] = 1;
-    pieces_[i] = std::move(now);
+    if (!changed[i]) return;
+    pieces_[i] = piecesOf(s.elements, s.scene, PrimitiveId(i / 2), i % 2 == 0);
+    shapes_[i] = nullptr;
   });
+  reshaped_ = changed;
   parallelFor(groups_.size(), 1, [&](std::size_t g) {
     const std::vector<std::uint32_t>& group = groups_[g];
     if (std::none_of(group.begin(), group.end(), [&](std::uint32_t side) { return changed[side]; })) return;
     std::vector<const SurfacePieces*> sides;
     for (const std::uint32_t side : group) sides.push_back(&pieces_[side]);
     auto shapes = shapesOf(sides, s.scene, touchingDistance(s.scene, group));
-    for (std::size_t i = 0; i < group.size(); ++i) shapes_[group[i]] = std::move(shapes[i]);
+    for (std::size_t i = 0; i < group.size(); ++i) shapes_[group[i]] = std::move(shapes[i]), reshaped_[group[i]] = 1;
   });
+}
+
+std::shared_ptr<const SurfaceMesh> SolutionMesher::surfaceAt(std::size_t side, const Solution& s,
+                                                             const Reconstruction& reconstruction,
+                                                             const SolutionMesh& before, std::uint64_t version) const {
+  const auto was = side < before.surfaces.size() ? before.surfaces[side] : nullptr;
+  const bool there = shapes_[side] && !shapes_[side]->triangles.empty();
+  if (!there) return was ? withVersions(nothingOn(side), was, version) : nullptr;
+  if (was && !reshaped_[side] && isStillLit(*shapes_[side], s.scene, reconstruction, *was, generation_)) return was;
+  return withVersions(litSide(*shapes_[side], s.scene, reconstruction, was.get(), generation_), was, version);
+}
+
+std::shared_ptr<const SurfaceCausticMesh> SolutionMesher::causticsAt(std::size_t side, const Solution& s,
+                                                                     const SurfaceMesh* surface,
+                                                                     const SolutionMesh& before,
+                                                                     std::uint64_t version) {
+  const auto was = side < before.caustics.size() ? before.caustics[side] : nullptr;
+  const PrimitiveId primitive(side / 2);
+  const bool front = side % 2 == 0;
+  const auto* textures = surface && !surface->triangles.empty() ? s.caustics.of(primitive, front) : nullptr;
+  if (!textures) {
+    sources_[side] = nullptr;
+    return was ? withVersions(SurfaceCausticMesh{primitive, front, 0, {}}, was, version) : nullptr;
+  }
+  if (was && !reshaped_[side] && sources_[side] && sameTextures(*sources_[side], *textures)) return was;
+  sources_[side] = std::make_shared<const caustics::SurfaceCaustics>(*textures);
+  return withVersions(causticMeshOf(*textures, s.scene[primitive].shape, *surface), was, version);
 }
 
 SolutionMesh SolutionMesher::snapshot(const Solution& s, const Reconstruction& reconstruction,
                                       const SolutionMesh& before, std::uint64_t version) {
-  if (!scene_ || !hasSameShapes(*scene_, s.scene)) findGroups(s.scene);
+  findShapes(s, findChanged(s));
   if (!scene_ || !isUpToDate(*scene_, s.scene)) scene_ = std::make_shared<const Scene>(s.scene);
-  findShapes(s);
   SolutionMesh now;
   now.version = version;
   now.scene = scene_;
   now.surfaces.resize(shapes_.size());
   now.caustics.resize(shapes_.size());
   parallelFor(shapes_.size(), 1, [&](std::size_t i) {
-    const auto surface = i < before.surfaces.size() ? before.surfaces[i] : nullptr;
-    const auto caustic = i < before.caustics.size() ? before.caustics[i] : nullptr;
-    const bool there = shapes_[i] && !shapes_[i]->triangles.empty();
-    if (there || surface)
-      now.surfaces[i] =
-          withVersions(there ? litSide(*shapes_[i], s.scene, reconstruction) : nothingOn(i), surface, version);
-    const caustics::SurfaceCaustics* textures = there ? s.caustics.of(PrimitiveId(i / 2), i % 2 == 0) : nullptr;
-    if (textures || caustic)
-      now.caustics[i] =
-          withVersions(textures ? causticMeshOf(*textures, s.scene.primitives[i / 2].shape, *now.surfaces[i])
-                                : SurfaceCausticMesh{PrimitiveId(i / 2), i % 2 == 0, 0, {}},
-                       caustic, version);
+    now.surfaces[i] = surfaceAt(i, s, reconstruction, before, version);
+    now.caustics[i] = causticsAt(i, s, now.surfaces[i].get(), before, version);
   });
+  generation_ = reconstruction.field.generation();
   return now;
 }
 

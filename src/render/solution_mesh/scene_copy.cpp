@@ -20,8 +20,6 @@ bool allAlike(const std::vector<T>& a, const std::vector<T>& b, const Alike& ali
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), alike);
 }
 
-}  // namespace
-
 bool hasSameShapes(const Scene& copy, const Scene& now) {
   // Shapes change by way of their placements alone.
   return copy.primitives.size() == now.primitives.size() && copy.origin == now.origin &&
@@ -29,6 +27,8 @@ bool hasSameShapes(const Scene& copy, const Scene& now) {
            return a.primitive == b.primitive && a.matrix == b.matrix && a.present == b.present;
          });
 }
+
+}  // namespace
 
 bool isUpToDate(const Scene& copy, const Scene& now) {
   return hasSameShapes(copy, now) && copy.objects.size() == now.objects.size() &&

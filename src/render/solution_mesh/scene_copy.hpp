@@ -6,7 +6,5 @@ namespace deltalux::rendering {
 
 /// `copy` is of the same scene at some time before.
 bool isUpToDate(const Scene& copy, const Scene& now);
-/// The same of the shapes alone.
-bool hasSameShapes(const Scene& copy, const Scene& now);
 
 }  // namespace deltalux::rendering

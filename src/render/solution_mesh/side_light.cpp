@@ -92,21 +92,46 @@ Rgb radianceAlongNormal(const Scene& scene, const scene::LightSampler& lights, c
 
 }  // namespace
 
-SurfaceMesh litSide(const SideShape& shape, const Scene& scene, const Reconstruction& reconstruction) {
+namespace {
+
+/// What does not depend on the place.
+SurfaceMesh unlitSide(const SideShape& shape, const Scene& scene, const Reconstruction& reconstruction) {
   SurfaceMesh side;
   side.primitive = shape.primitive, side.front = shape.front;
   const Material& material = scene.materialOf(shape.primitive);
   side.albedo = diffuseReflectance(material, shape.front);
   side.transmittance = diffuseTransmittance(material);
   side.radiance = radianceAlongNormal(scene, reconstruction.direct.lights(), shape);
+  return side;
+}
+
+}  // namespace
+
+SurfaceMesh litSide(const SideShape& shape, const Scene& scene, const Reconstruction& reconstruction,
+                    const SurfaceMesh* before, std::uint64_t generation) {
+  SurfaceMesh side = unlitSide(shape, scene, reconstruction);
   const std::vector<ReadingPlace> places = SideLayout(shape, reconstruction, side).layOut();
+  if (before && !sameShape(side, *before)) before = nullptr;
   parallelFor(places.size(), kReadBlock, [&](std::size_t i) {
     if (!places[i].leaf.valid()) return;
     MeshVertex& v = side.vertices[i];
+    if (before && reconstruction.field.changedIn(places[i].leaf) <= generation) {
+      v = before->vertices[i];
+      return;
+    }
     const PointIrradiance E = reconstruction.field.all({places[i].leaf, Vec2(v.uv)}, places[i].position);
     v.direct = E.direct, v.indirect = E.indirect, v.particle = E.particle;
   });
   return side;
+}
+
+bool isStillLit(const SideShape& shape, const Scene& scene, const Reconstruction& reconstruction,
+                const SurfaceMesh& before, std::uint64_t generation) {
+  const SurfaceMesh now = unlitSide(shape, scene, reconstruction);
+  return now.albedo == before.albedo && now.transmittance == before.transmittance && now.radiance == before.radiance &&
+         std::none_of(shape.parts.begin(), shape.parts.end(), [&](const SideShape::Part& part) {
+           return part.leaf.valid() && reconstruction.field.changedIn(part.leaf) > generation;
+         });
 }
 
 bool sameShape(const SurfaceMesh& a, const SurfaceMesh& b) {

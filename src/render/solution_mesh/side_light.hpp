@@ -9,8 +9,13 @@
 
 namespace deltalux::rendering {
 
-/// With versions of 0.
-SurfaceMesh litSide(const SideShape&, const Scene&, const Reconstruction&);
+/// With versions of 0. `before`: the same side (or null) as it was read from field number `generation`: light is taken
+/// from there where it has not changed.
+SurfaceMesh litSide(const SideShape&, const Scene&, const Reconstruction&, const SurfaceMesh* before,
+                    std::uint64_t generation);
+/// Whether that would give `before`, which is of the same shape; does not look further than it must.
+bool isStillLit(const SideShape&, const Scene&, const Reconstruction&, const SurfaceMesh& before,
+                std::uint64_t generation);
 
 bool sameShape(const SurfaceMesh&, const SurfaceMesh&);
 /// Of sides of the same shape.

@@ -9,9 +9,10 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr int kFewestSteps = 64, kMostSteps = 256;  // round a curved surface: powers of two, as leaves are
-constexpr double kSagitta = 1e-4;                   // of the scene: how far flat pieces may be off a curved surface
-constexpr double kApart = 1e-5;                     // of the parameters: cuts nearer to a leaf's border are left out
+constexpr int kFewestSteps = 32, kSteps = 64, kMostSteps = 256;  // round: powers of two, as leaves are
+constexpr double kSmall = 2e-3;                                  // of the scene: radius below which the fewest do
+constexpr double kSagitta = 1e-4;  // of the scene: how far flat pieces may be off a curved surface
+constexpr double kApart = 1e-5;    // of the parameters: cuts nearer to a leaf's border are left out
 
 double largestRadius(const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
@@ -19,12 +20,6 @@ double largestRadius(const Shape& shape) {
   if (const auto* cone = std::get_if<Cone>(&shape)) return std::max(cone->radius0, cone->radius1);
   if (const auto* ring = std::get_if<Ring>(&shape)) return ring->outerRadius;
   return 0;
-}
-
-int stepsRound(const Shape& shape, double sceneSize) {
-  int steps = kFewestSteps;
-  while (steps < kMostSteps && largestRadius(shape) * (1 - std::cos(kPi / steps)) > kSagitta * sceneSize) steps *= 2;
-  return steps;
 }
 
 /// Cuts of a curved surface, by parameter.
@@ -95,7 +90,31 @@ void addFlatSide(SurfacePieces& to, const hierarchy::Elements& elements, hierarc
   });
 }
 
+/// Whether a side is the inside of a ball.
+bool isInside(const Shape& shape, bool front) {
+  const auto* sphere = std::get_if<Sphere>(&shape);
+  return sphere && front == sphere->inward;
+}
+
 }  // namespace
+
+int stepsRound(const Shape& shape, double sceneSize) {
+  const double radius = largestRadius(shape);
+  if (!(radius > 0)) return 0;
+  int steps = radius < kSmall * sceneSize ? kFewestSteps : kSteps;
+  while (steps < kMostSteps && radius * (1 - std::cos(kPi / steps)) > kSagitta * sceneSize) steps *= 2;
+  return steps;
+}
+
+std::vector<hierarchy::ElementId> leavesOf(const hierarchy::Elements& elements, const Scene& scene,
+                                           PrimitiveId primitive, bool front) {
+  std::vector<hierarchy::ElementId> leaves;
+  const auto* mesh = std::get_if<Mesh>(&scene[primitive].shape);
+  for (std::uint32_t t = 0; t < (mesh ? mesh->triangles.size() : 1); ++t)
+    if (const hierarchy::ElementId side = elements.side(primitive, t, front); side.valid())
+      hierarchy::forEachLeafBelow(elements, side, [&](hierarchy::ElementId e) { leaves.push_back(e); });
+  return leaves;
+}
 
 SurfacePieces piecesOf(const hierarchy::Elements& elements, const Scene& scene, PrimitiveId primitive, bool front) {
   SurfacePieces result;
@@ -119,6 +138,7 @@ SurfacePieces piecesOf(const hierarchy::Elements& elements, const Scene& scene, 
     result.flat = false;
     const RoundCuts cuts = roundCuts(shape, elements.sceneBox.diagonal());
     const hierarchy::ElementId side = elements.side(primitive, 0, front);
+    if (!side.valid() && isInside(shape, front)) return result;
     if (!side.valid()) {
       addRound(result, cuts, side, Vec2(0), Vec2(1));
       return result;
@@ -129,15 +149,6 @@ SurfacePieces piecesOf(const hierarchy::Elements& elements, const Scene& scene, 
     });
   }
   return result;
-}
-
-bool samePieces(const SurfacePieces& a, const SurfacePieces& b) {
-  const auto samePlane = [](const hierarchy::PlaneFrame& p, const hierarchy::PlaneFrame& q) {
-    return p.origin == q.origin && p.edgeU == q.edgeU && p.edgeV == q.edgeV && p.normal == q.normal;
-  };
-  return a.primitive == b.primitive && a.front == b.front && a.flat == b.flat && a.all == b.all &&
-         a.corners == b.corners &&
-         std::equal(a.planes.begin(), a.planes.end(), b.planes.begin(), b.planes.end(), samePlane);
 }
 
 }  // namespace deltalux::rendering

@@ -18,8 +18,6 @@ struct SurfacePiece {
   Vec2 center{0};
   bool cut = false;                 // a part of its leaf ...
   Vec2 leafLower{0}, leafUpper{1};  // ... which has these parameters (curved)
-
-  bool operator==(const SurfacePiece&) const = default;
 };
 
 struct SurfacePieces {
@@ -34,10 +32,15 @@ struct SurfacePieces {
   Vec3 place(const SurfacePiece& p, const Vec2& uv) const { return flat ? planes[p.plane].at(uv) : Vec3(uv, 0); }
 };
 
-/// Cost: a visit per leaf.
-SurfacePieces piecesOf(const hierarchy::Elements&, const Scene&, PrimitiveId, bool front);
+/// Into how many parts a curved surface is cut all the way round, for it to look round in a scene of that size; 0 for
+/// flat ones.
+int stepsRound(const Shape&, double sceneSize);
 
-/// Whether both have the same pieces in the same places.
-bool samePieces(const SurfacePieces&, const SurfacePieces&);
+/// The leaves of a side, in the order of its pieces.
+std::vector<hierarchy::ElementId> leavesOf(const hierarchy::Elements&, const Scene&, PrimitiveId, bool front);
+
+/// None where a side has no extent, or nobody can see it: the inside of a ball that no light reaches. Follows from the
+/// shape, the steps and the leaves. Cost: a visit per leaf.
+SurfacePieces piecesOf(const hierarchy::Elements&, const Scene&, PrimitiveId, bool front);
 
 }  // namespace deltalux::rendering
