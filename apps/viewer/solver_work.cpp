@@ -130,9 +130,10 @@ void SolverWork::openAndSolve(const Solver::Open& open) {
 void SolverWork::serve() {
   while (!in_.stopped()) {
     const bool busy =
-        !edits_.empty() || (unsettled_ && !moving_) || movesOn() || !rays_.empty() || question_ ||
+        !edits_.empty() || select_ || (unsettled_ && !moving_) || movesOn() || !rays_.empty() || question_ ||
         (!lightIsOld() && (!metersAreExact_ || pictureWaits() || !saves_.empty() || !measurements_.empty()));
     receive(!busy);
+    prepareSelected();
     takeEdits();
     if (unsettled_) moving_ ? frame() : settle();
     if (!rays_.empty()) trace();
@@ -158,8 +159,7 @@ void SolverWork::receive(bool wait) {
   editCount_ = orders.editCount;
   if (orders.moving) moving_ = *orders.moving;
   if (orders.settings) settings_ = *orders.settings, picture_.reset(), pictureDone_ = false;
-  if (orders.select && engine_ && status_.phase != Phase::Solving && status_.phase != Phase::Failed)
-    engine_->select(*orders.select);
+  if (orders.select) select_ = std::move(orders.select);
   if (orders.rays) rays_ = std::move(*orders.rays);
   if (orders.meters) {
     meters_ = std::move(*orders.meters), pinned_ = orders.pinned;
@@ -178,6 +178,10 @@ void SolverWork::receive(bool wait) {
 
 /// A drag held still: frames go on until they have nothing left to do.
 bool SolverWork::movesOn() const { return moving_ && unsettled_ && deferred_; }
+
+void SolverWork::prepareSelected() {
+  if (select_) engine_->select(*std::exchange(select_, std::nullopt));
+}
 
 void SolverWork::takeEdits() {
   if (edits_.empty()) return;

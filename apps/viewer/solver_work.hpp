@@ -23,6 +23,7 @@ class SolverWork {
 
   bool lightIsOld() const { return !edits_.empty() || unsettled_; }
   bool movesOn() const;
+  void prepareSelected();
   void takeEdits();
   void frame();
   void settle();
@@ -44,6 +45,7 @@ class SolverWork {
   std::optional<SolutionReader> reader_;
   Status status_;
 
+  std::optional<std::string> select_;
   std::vector<Edit> edits_;
   std::uint64_t editCount_ = 0;  // with those that wait here
   bool moving_ = false;          // more edits will follow
