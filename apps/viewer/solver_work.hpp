@@ -8,6 +8,11 @@
 
 namespace deltalux::viewer {
 
+using SteadyClock = std::chrono::steady_clock;
+inline double secondsSince(SteadyClock::time_point start) {
+  return std::chrono::duration<double>(SteadyClock::now() - start).count();
+}
+
 class SolverWork {
  public:
   SolverWork(SolverInbox& in, SolverOutbox& out, Solver::Settings settings)
@@ -62,7 +67,7 @@ class SolverWork {
   std::optional<Look> look_;
   std::optional<ProgressiveRender> picture_;
   bool pictureDone_ = false;
-  std::chrono::steady_clock::time_point pictureShown_;
+  SteadyClock::time_point pictureShown_;
 };
 
 }  // namespace deltalux::viewer
