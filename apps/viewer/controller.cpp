@@ -56,6 +56,7 @@ bool Controller::takeNews() {
     cache_.drop([&](const PixelSample& s) { return changes_->stale(s); }), news = true;
   if (otherMesh) takeMesh(std::move(mesh)), news = true;
   const std::vector<PixelSample> samples = solver_->takeSamples();
+  raysOut_ -= std::min(raysOut_, samples.size());
   if (!samples.empty()) {
     std::vector<PixelSample> good;
     std::copy_if(samples.begin(), samples.end(), std::back_inserter(good),
@@ -80,8 +81,10 @@ void Controller::takeMesh(std::shared_ptr<const SolutionMesh> mesh) {
   if (!session_) begin();
   // What was answered is of the light before.
   cursorQuestion_.answered = explainQuestion_.answered = false;
-  for (Probe& p : probes_) p.exact = false;
-  if (field_) field_->exact = false;
+  const bool exact =
+      readings_ && readings_->pinned == pinned_ && readings_->exact && readings_->version >= mesh_->version;
+  for (Probe& p : probes_) p.exact = exact;
+  if (field_) field_->exact = exact;
   if (cursorAt_) lookUnderCursor();
 }
 
@@ -208,21 +211,23 @@ View Controller::predicted() const {
 
 void Controller::drawn(const std::vector<char>& specular) {
   if (!ready() || width_ <= 0 || height_ <= 0) return;
-  if (!sameView(camera_, drawnCamera_)) stillRequests_ = 0;
+  const bool moves = !sameView(camera_, drawnCamera_);
+  if (moves) stillRequests_ = 0;
   // Once nothing moves, the picture takes over after the cache has had its rays.
   constexpr int kStillRequests = 12;
   constexpr std::size_t kShare = 8;  // of the pixels get a ray a frame, one in so many
   const bool specularSeen = std::find(specular.begin(), specular.end(), 1) != specular.end();
-  if (draw_.cache && specularSeen && stillRequests_ < kStillRequests && !(pictureFits() && picture_->done)) {
+  const bool mayAsk = moves || (raysOut_ == 0 && stillRequests_ < kStillRequests);
+  if (draw_.cache && specularSeen && mayAsk && !(pictureFits() && picture_->done)) {
     ++stillRequests_;
     const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     std::vector<PixelRay> rays = cache_.wanted(pixels / kShare, predicted());
+    raysOut_ = rays.size();
     if (!rays.empty()) solver_->want(std::move(rays));
   }
-  const bool otherLook = !sameView(camera_, drawnCamera_) || !pictureFits();
   if (!draw_.picture)
     solver_->look(std::nullopt, 0, 0, {});
-  else if (otherLook)
+  else if (moves || !pictureFits())
     solver_->look(camera_, width_, height_, specular);
   drawnCamera_ = camera_;
 }

@@ -160,8 +160,9 @@ class Controller {
   std::vector<PrimitiveId> handMoved_;  // by the last edit or drag: they are drawn where the session has them
 
   View camera_;
-  View drawnCamera_;       // of the frame before
-  int stillRequests_ = 0;  // for rays of the cache, since anything changed
+  View drawnCamera_;         // of the frame before
+  int stillRequests_ = 0;    // for rays of the cache, since anything changed
+  std::size_t raysOut_ = 0;  // that have not come back
   int width_ = 0, height_ = 0;
   DrawSettings draw_;
   bool exposureWanted_ = false;

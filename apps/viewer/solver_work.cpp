@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <deltalux/error.hpp>
-#include <deltalux/solution_file.hpp>
 
 #include "scene_state.hpp"
 
@@ -12,16 +11,7 @@ namespace deltalux::viewer {
 
 namespace {
 
-using SteadyClock = std::chrono::steady_clock;
-
-double secondsSince(SteadyClock::time_point start) {
-  return std::chrono::duration<double>(SteadyClock::now() - start).count();
-}
-
-constexpr double kSlice = 30;            // ms of the picture at rest between two looks into the inbox
-constexpr double kPictureEvery = 0.2;    // s between two pictures that are shown, while they become better
-constexpr std::size_t kRayBatch = 4096;  // rays between two looks into the inbox
-constexpr double kUsualRounds = 3;       // of a solve: what is shown as done is of these
+constexpr double kUsualRounds = 3;  // of a solve: what is shown as done is of these
 
 /// Tells how far long work is, and ends it when the solver is stopped.
 class LongWork : public Progress {
@@ -39,17 +29,6 @@ class LongWork : public Progress {
   const SolverInbox& in_;
   std::function<void(double)> tell_;
   SteadyClock::time_point told_ = SteadyClock::now();
-};
-
-/// Ends a slice of work as soon as there is something more urgent.
-class Interruptible : public Progress {
- public:
-  explicit Interruptible(const SolverInbox& in) : in_(in) {}
-  void report(std::string_view, double) override {}
-  bool stopRequested() const override { return in_.filled() || in_.stopped(); }
-
- private:
-  const SolverInbox& in_;
 };
 
 /// Whether solving has come to its end: the ledger is drawn up then.
@@ -130,9 +109,10 @@ void SolverWork::openAndSolve(const Solver::Open& open) {
 void SolverWork::serve() {
   while (!in_.stopped()) {
     const bool busy =
-        !edits_.empty() || (unsettled_ && !moving_) || movesOn() || !rays_.empty() || question_ ||
+        !edits_.empty() || select_ || (unsettled_ && !moving_) || movesOn() || !rays_.empty() || question_ ||
         (!lightIsOld() && (!metersAreExact_ || pictureWaits() || !saves_.empty() || !measurements_.empty()));
     receive(!busy);
+    prepareSelected();
     takeEdits();
     if (unsettled_) moving_ ? frame() : settle();
     if (!rays_.empty()) trace();
@@ -158,8 +138,7 @@ void SolverWork::receive(bool wait) {
   editCount_ = orders.editCount;
   if (orders.moving) moving_ = *orders.moving;
   if (orders.settings) settings_ = *orders.settings, picture_.reset(), pictureDone_ = false;
-  if (orders.select && engine_ && status_.phase != Phase::Solving && status_.phase != Phase::Failed)
-    engine_->select(*orders.select);
+  if (orders.select) select_ = std::move(orders.select);
   if (orders.rays) rays_ = std::move(*orders.rays);
   if (orders.meters) {
     meters_ = std::move(*orders.meters), pinned_ = orders.pinned;
@@ -178,6 +157,10 @@ void SolverWork::receive(bool wait) {
 
 /// A drag held still: frames go on until they have nothing left to do.
 bool SolverWork::movesOn() const { return moving_ && unsettled_ && deferred_; }
+
+void SolverWork::prepareSelected() {
+  if (select_) engine_->select(*std::exchange(select_, std::nullopt));
+}
 
 void SolverWork::takeEdits() {
   if (edits_.empty()) return;
@@ -238,85 +221,6 @@ void SolverWork::publish() {
     f.changes = reader_->changes();
   });
   readMeters(false);
-}
-
-// Questions about it.
-
-void SolverWork::trace() {
-  const auto start = SteadyClock::now();
-  do {
-    const std::size_t count = std::min(kRayBatch, rays_.size());
-    const std::vector<PixelSample> found = reader_->trace(std::span(rays_).first(count));
-    rays_.erase(rays_.begin(), rays_.begin() + static_cast<std::ptrdiff_t>(count));
-    out_.publish([&](Findings& f) { f.samples.insert(f.samples.end(), found.begin(), found.end()); });
-  } while (!rays_.empty() && !in_.filled() && 1e3 * secondsSince(start) < settings_.frameMs);
-}
-
-void SolverWork::answer() {
-  const Orders::Question asked = *std::exchange(question_, std::nullopt);
-  Answer answer{asked.number, reader_->version(), {}, {}, {}};
-  answer.reading = reader_->probe(std::vector{asked.point}).front();
-  if (asked.eye) {
-    const PixelRay ray{Vec3f(*asked.eye), Vec3f(glm::normalize(asked.point.position - *asked.eye)), 0, 0};
-    answer.radiance = reader_->trace(std::span(&ray, 1)).front().radiance;
-  }
-  answer.contributions = reader_->contributions(asked.point);
-  out_.publish([&](Findings& f) { f.answer = std::make_shared<const Answer>(std::move(answer)); });
-}
-
-void SolverWork::readMeters(bool exact) {
-  metersAreExact_ = exact || meters_.empty();
-  if (meters_.empty()) return;
-  ProbeSettings settings;
-  settings.mesh = !exact;
-  auto readings =
-      std::make_shared<const Readings>(Readings{reader_->version(), pinned_, exact, reader_->probe(meters_, settings)});
-  out_.publish([&](Findings& f) { f.readings = std::move(readings); });
-}
-
-void SolverWork::measure() {
-  Orders::Measurement m = std::move(measurements_.front());
-  measurements_.erase(measurements_.begin());
-  m.results.set_value(reader_->probe(m.points));
-}
-
-void SolverWork::save() {
-  const Orders::Save order = std::move(saves_.front());
-  saves_.erase(saves_.begin());
-  std::string problem;
-  try {
-    saveSolution(order.file, engine_->solution());
-  } catch (const OutputError& error) {
-    problem = error.what();
-  }
-  order.written(problem);
-}
-
-// The picture at rest.
-
-bool SolverWork::pictureWaits() const {
-  return look_ && look_->width > 0 && look_->height > 0 && !lightIsOld() && !pictureDone_;
-}
-
-void SolverWork::improvePicture() {
-  if (!picture_) {
-    RenderSettings settings = settings_.picture;
-    settings.width = look_->width, settings.height = look_->height;
-    picture_.emplace(*reader_, look_->view, settings, look_->first);
-    pictureShown_ = SteadyClock::now();
-  }
-  const Interruptible until(in_);
-  pictureDone_ = picture_->step(kSlice, &until);
-  if (!pictureDone_ && secondsSince(pictureShown_) < kPictureEvery) return;
-  pictureShown_ = SteadyClock::now();
-  auto shown = std::make_shared<Picture>();
-  shown->view = look_->view;
-  shown->version = reader_->version();
-  shown->image = picture_->image();
-  shown->rays.assign(picture_->rays().begin(), picture_->rays().end());
-  shown->done = pictureDone_;
-  if (pictureDone_) picture_.reset();
-  out_.publish([&](Findings& f) { f.picture = std::move(shown); });
 }
 
 }  // namespace deltalux::viewer

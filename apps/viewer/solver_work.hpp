@@ -8,6 +8,11 @@
 
 namespace deltalux::viewer {
 
+using SteadyClock = std::chrono::steady_clock;
+inline double secondsSince(SteadyClock::time_point start) {
+  return std::chrono::duration<double>(SteadyClock::now() - start).count();
+}
+
 class SolverWork {
  public:
   SolverWork(SolverInbox& in, SolverOutbox& out, Solver::Settings settings)
@@ -23,6 +28,7 @@ class SolverWork {
 
   bool lightIsOld() const { return !edits_.empty() || unsettled_; }
   bool movesOn() const;
+  void prepareSelected();
   void takeEdits();
   void frame();
   void settle();
@@ -44,6 +50,7 @@ class SolverWork {
   std::optional<SolutionReader> reader_;
   Status status_;
 
+  std::optional<std::string> select_;
   std::vector<Edit> edits_;
   std::uint64_t editCount_ = 0;  // with those that wait here
   bool moving_ = false;          // more edits will follow
@@ -60,7 +67,7 @@ class SolverWork {
   std::optional<Look> look_;
   std::optional<ProgressiveRender> picture_;
   bool pictureDone_ = false;
-  std::chrono::steady_clock::time_point pictureShown_;
+  SteadyClock::time_point pictureShown_;
 };
 
 }  // namespace deltalux::viewer
