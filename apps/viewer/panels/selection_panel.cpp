@@ -87,7 +87,10 @@ void selectionPanel(Controller& controller, Tools& tools, Pending& pending, Type
   ImGui::TextWrapped("%s", name.c_str());
   const auto place = placeOf(controller.scene(), name);
   const std::vector<LightId> lights = findLights(controller.scene(), name);
-  if (!lights.empty()) lampControls(controller, tools, pending, name, lights.front());
+  if (!lights.empty()) {
+    lampControls(controller, pending, name, lights.front());
+    lampAim(controller, tools, name, lights.front());
+  }
   if (place && !place->primitives.empty()) {
     position(controller, pending, *place);
     turnBy(controller, tools, *place, turn);
