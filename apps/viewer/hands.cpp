@@ -67,15 +67,19 @@ void Hands::beginDrag(Controller& controller, Tools& tools, const Frame& frame) 
   } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
     drag_ = Drag::Look;
   } else if (left && keyHeld(GLFW_KEY_G)) {
-    const std::string name = controller.nameAt(cursor_.x, cursor_.y);
-    if (controller.selection().empty() && !name.empty()) {
-      attempt(controller, [&] { controller.select(name); });
-      gizmo_.hover(controller, frame, tools, cursor_, false);
-    }
+    selectUnderCursor(controller);
+    gizmo_.hover(controller, frame, tools, cursor_, false);
     if (gizmo_.takeToSlide(controller, frame, cursor_)) drag_ = Drag::Object;
   } else if (left) {
     drag_ = gizmo_.take(controller, frame, cursor_) ? Drag::Object : Drag::Press;
   }
+}
+
+/// What is slid is what the cursor is on: the part that is selected, or the whole thing.
+void Hands::selectUnderCursor(Controller& controller) const {
+  const std::string whole = controller.nameAt(cursor_.x, cursor_.y);
+  if (whole.empty() || controller.selection() == controller.nameAt(cursor_.x, cursor_.y, true)) return;
+  attempt(controller, [&] { controller.select(whole); });
 }
 
 void Hands::goOn(Controller& controller, const Frame& frame) {

@@ -21,6 +21,7 @@ class Hands {
   enum class Drag { None, Press, Look, Orbit, Object };
 
   void beginDrag(Controller&, Tools&, const Frame&);
+  void selectUnderCursor(Controller&) const;
   void goOn(Controller&, const Frame&);
   void end(Controller&, Tools&);
   void click(Controller&, Tools&);

@@ -10,24 +10,24 @@ namespace deltalux::viewer {
 namespace {
 constexpr float kMostLevel = 4;  // of the sliders; more can be typed
 
+constexpr const char* kAim = "Aim at";
+constexpr const char* kLook = "Look through";
+
+bool aims(const Scene& scene, LightId light) { return placeOf(scene, light) && aimOf(scene, light); }
+
+/// Width of lampAim's buttons.
+float aimWidth() {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  return ImGui::CalcTextSize(kAim).x + ImGui::CalcTextSize(kLook).x + 4 * style.FramePadding.x +
+         2 * style.ItemSpacing.x;
+}
+
 void dimTo(Controller& controller, const std::string& name, const LampLevel& now, float level) {
   if (!now.on) controller.switchLight(name, true);
   if (now.level > 0)
     controller.dim(name, double(level / now.level));
   else
     controller.colour(name, Rgb(level));  // from 0 no factor leads anywhere
-}
-
-void aimAndLook(Controller& controller, Tools& tools, const std::string& name, LightId light) {
-  if (!aimOf(controller.scene(), light)) return;
-  const bool aiming = tools.click == ClickFor::Aim && tools.lamp == name;
-  if (ImGui::SmallButton(aiming ? "click on a surface" : "Aim at")) {
-    tools.click = aiming ? ClickFor::Selection : ClickFor::Aim;
-    tools.lamp = name;
-  }
-  if (!placeOf(controller.scene(), light)) return;
-  ImGui::SameLine();
-  if (ImGui::SmallButton("Look through")) attempt(controller, [&] { controller.lookThrough(name); });
 }
 }  // namespace
 
@@ -56,7 +56,20 @@ LampLevel lampLevel(const Scene& scene, LightId id) {
   return level;
 }
 
-void lampControls(Controller& controller, Tools& tools, Pending& pending, const std::string& name, LightId first) {
+void lampAim(Controller& controller, Tools& tools, const std::string& name, LightId first) {
+  if (!aims(controller.scene(), first)) return;
+  ImGui::PushID(name.c_str());
+  const bool aiming = tools.click == ClickFor::Aim && tools.lamp == name;
+  if (aiming) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+  const bool pressed = ImGui::SmallButton(kAim);
+  if (aiming) ImGui::PopStyleColor();
+  if (pressed) tools.click = aiming ? ClickFor::Selection : ClickFor::Aim, tools.lamp = name;
+  ImGui::SameLine();
+  if (ImGui::SmallButton(kLook)) attempt(controller, [&] { controller.lookThrough(name); });
+  ImGui::PopID();
+}
+
+void lampControls(Controller& controller, Pending& pending, const std::string& name, LightId first) {
   const LampLevel now = lampLevel(controller.scene(), first);
   ImGui::PushID(name.c_str());
   bool on = now.on;
@@ -71,7 +84,6 @@ void lampControls(Controller& controller, Tools& tools, Pending& pending, const 
   float level = now.level;
   if (heldSlider(pending, "##level", level, 0, kMostLevel, "x %.3g", ImGuiSliderFlags_Logarithmic))
     attempt(controller, [&] { dimTo(controller, name, now, std::max(level, 0.0f)); });
-  aimAndLook(controller, tools, name, first);
   ImGui::PopID();
 }
 
@@ -79,13 +91,20 @@ void lampPanel(Controller& controller, Tools& tools, Pending& pending) {
   for (const LampGroup& group : lampGroups(controller.scene())) {
     const bool chosen = controller.selection() == group.name;
     ImGui::PushID(group.name.c_str());
-    if (ImGui::Selectable(group.name.c_str(), chosen)) attempt(controller, [&] { controller.select(group.name); });
-    lampControls(controller, tools, pending, group.name, group.lights.front());
+    const LightId first = group.lights.front();
+    const bool aimed = aims(controller.scene(), first);
+    const float width = ImGui::GetContentRegionAvail().x - (aimed ? aimWidth() : 0);
+    if (ImGui::Selectable(group.name.c_str(), chosen, 0, {width, 0}))
+      attempt(controller, [&] { controller.select(group.name); });
+    if (aimed) ImGui::SameLine();
+    lampAim(controller, tools, group.name, first);
+    lampControls(controller, pending, group.name, first);
     if (group.lights.size() > 1 && ImGui::TreeNode("parts", "%d parts", int(group.lights.size()))) {
       for (const LightId id : group.lights) {
         const std::string name = controller.scene()[id].name;
         quietText(name);
-        lampControls(controller, tools, pending, name, id);
+        lampControls(controller, pending, name, id);
+        lampAim(controller, tools, name, id);
       }
       ImGui::TreePop();
     }

@@ -22,7 +22,9 @@ struct LampLevel {
 LampLevel lampLevel(const Scene&, LightId);
 
 void lampPanel(Controller&, Tools&, Pending&);
-/// Level, colour, switch, aim and look through, of all lights that a name means.
-void lampControls(Controller&, Tools&, Pending&, const std::string& name, LightId first);
+/// Buttons for what has a place and a direction: what it shall shine at, and the view from it.
+void lampAim(Controller&, Tools&, const std::string& name, LightId first);
+/// Switch, colour and level of all lights that a name means.
+void lampControls(Controller&, Pending&, const std::string& name, LightId first);
 
 }  // namespace deltalux::viewer

@@ -27,6 +27,11 @@ void position(Controller& controller, Pending& pending, const SelectionPlace& pl
   quietText(fmt::format("{:.3g} x {:.3g} x {:.3g} m", size.x, size.y, size.z));
 }
 
+int uprightAxis(const Scene& scene) {
+  const Vec3 up = glm::abs(scene.up);
+  return up.x > up.y && up.x > up.z ? 0 : up.y > up.z ? 1 : 2;
+}
+
 void turnBy(Controller& controller, const Tools& tools, const SelectionPlace& place, TypedTurn& turn) {
   constexpr const char* kAxes[] = {"x", "y", "z"};
   const float unit = ImGui::GetFontSize();
@@ -34,7 +39,8 @@ void turnBy(Controller& controller, const Tools& tools, const SelectionPlace& pl
   ImGui::TextUnformatted("Turn about");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(3 * unit);
-  ImGui::Combo("##axis", &turn.axis, kAxes, 3);
+  int axis = turn.axis.value_or(uprightAxis(controller.scene()));
+  if (ImGui::Combo("##axis", &axis, kAxes, 3)) turn.axis = axis;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(4.5f * unit);
   ImGui::InputFloat("##degrees", &turn.degrees, 0, 0, "%.1f\xc2\xb0");
@@ -42,7 +48,7 @@ void turnBy(Controller& controller, const Tools& tools, const SelectionPlace& pl
   if (!ImGui::Button("Turn")) return;
   const Scene& scene = controller.scene();
   const glm::dmat3 axes = tools.localAxes ? place.axes : glm::dmat3(1.0);
-  const Mat4 map = rotationAbout(place.box.center(), axes[turn.axis], double(turn.degrees));
+  const Mat4 map = rotationAbout(place.box.center(), axes[axis], double(turn.degrees));
   attempt(controller, [&] { controller.edit(TransformObject{controller.selection(), inFiles(map, scene.origin)}); });
 }
 
@@ -87,7 +93,10 @@ void selectionPanel(Controller& controller, Tools& tools, Pending& pending, Type
   ImGui::TextWrapped("%s", name.c_str());
   const auto place = placeOf(controller.scene(), name);
   const std::vector<LightId> lights = findLights(controller.scene(), name);
-  if (!lights.empty()) lampControls(controller, tools, pending, name, lights.front());
+  if (!lights.empty()) {
+    lampControls(controller, pending, name, lights.front());
+    lampAim(controller, tools, name, lights.front());
+  }
   if (place && !place->primitives.empty()) {
     position(controller, pending, *place);
     turnBy(controller, tools, *place, turn);

@@ -7,7 +7,7 @@ namespace deltalux::viewer {
 
 /// A turn that is being typed.
 struct TypedTurn {
-  int axis = 2;
+  std::optional<int> axis;  // none chosen yet: the one that is most upright
   float degrees = 90;
 };
 

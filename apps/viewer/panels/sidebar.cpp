@@ -41,8 +41,8 @@ void Sidebar::draw(Controller& controller, Tools& tools, const gl::Renderer& ren
   explained_ = explained;
   const bool newProbe = controller.probes().size() > std::exchange(pinned_, controller.probes().size());
   panel("Selection", true, false, [&] { selectionPanel(controller, tools, pending_, turn_); });
-  panel("Lamps", true, false, [&] { lampPanel(controller, tools, pending_); });
   panel("Exposure", true, false, [&] { exposurePanel(controller); });
+  panel("Lamps", true, false, [&] { lampPanel(controller, tools, pending_); });
   panel("False colour", false, false, [&] { falseColourPanel(controller); });
   panel("Under the cursor", false, false, [&] { underCursorPanel(controller); });
   panel("Probes", false, newProbe, [&] { probePanel(controller); });

@@ -35,6 +35,7 @@ void applyStyle(float scale) {
   const ImVec4 accent{0.36f, 0.47f, 0.60f, 1};
   c[ImGuiCol_WindowBg] = {0.105f, 0.11f, 0.12f, 1};
   c[ImGuiCol_PopupBg] = {0.13f, 0.135f, 0.15f, 0.98f};
+  c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = {0.155f, 0.165f, 0.18f, 1};
   c[ImGuiCol_Text] = {0.87f, 0.88f, 0.89f, 1};
   c[ImGuiCol_TextDisabled] = {0.50f, 0.51f, 0.53f, 1};
   c[ImGuiCol_FrameBg] = {0.17f, 0.18f, 0.195f, 1};
