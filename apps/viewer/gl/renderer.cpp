@@ -103,6 +103,7 @@ struct Renderer::State {
   void drawScene(const Frame&, std::vector<Part>&, DrawReport&);
   void askCache(const Frame&, RenderCache*, DrawReport&);
   void choosePicture(const Frame&, DrawReport&);
+  void outlineSelection(const Frame&, const std::vector<Part>&);
   void drawOverlays(const Frame&, std::vector<Part>&, DrawReport&);
   void show(GLuint framebuffer) const;
   const std::vector<std::uint32_t>& readPrimitives();
@@ -230,6 +231,29 @@ void Renderer::State::choosePicture(const Frame& f, DrawReport& report) {
     layers.dropPicture();
 }
 
+/// Looks at the pixels where the selection may be, and no others.
+void Renderer::State::outlineSelection(const Frame& f, const std::vector<Part>& parts) {
+  glm::vec2 lower(static_cast<float>(f.width), static_cast<float>(f.height)), upper(0.0f);
+  for (const Part& part : parts) {
+    const std::vector<MeshStore::Side>& sides = part.store->surfaces.sides();
+    const glm::mat4 clip(toClip(part.eye, part.list.depths));
+    for (const PrimitiveId p : f.selection)
+      for (const std::size_t i : {SolutionMesh::side(p, true), SolutionMesh::side(p, false)}) {
+        if (i >= sides.size() || sides[i].indices == 0) continue;
+        const Extent& e = sides[i].extent;
+        const ScreenBox box = screenBox(part.list.isAhead(i) ? moved(e, f.ahead->matrix) : e, clip, f.width, f.height);
+        lower = glm::min(lower, box.lower), upper = glm::max(upper, box.upper);
+      }
+  }
+  constexpr float kMargin = 3;  // pixels, of the outline
+  const glm::ivec2 from(glm::max(lower - kMargin, glm::vec2(0.0f))), to(upper + kMargin);
+  if (from.x >= to.x || from.y >= to.y) return;
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(from.x, from.y, to.x - from.x, to.y - from.y);
+  screen.outline(targets);
+  glDisable(GL_SCISSOR_TEST);
+}
+
 void Renderer::State::drawOverlays(const Frame& f, std::vector<Part>& parts, DrawReport& report) {
   glBindFramebuffer(GL_FRAMEBUFFER, targets.screen.name());
   const Overlays& overlays = f.settings.overlays;
@@ -238,8 +262,7 @@ void Renderer::State::drawOverlays(const Frame& f, std::vector<Part>& parts, Dra
       if (overlays.textureRegions) passes.tintCaustics(v);
       if (overlays.mesh) report.uploadedBytes += lines.drawOutlines(v);
     });
-  if (!f.lines.empty())
-    report.uploadedBytes += lines.drawLines(viewOf(parts.front(), f), f.lines);
+  if (!f.lines.empty()) report.uploadedBytes += lines.drawLines(viewOf(parts.front(), f), f.lines);
 }
 
 void Renderer::State::show(GLuint framebuffer) const {
@@ -283,6 +306,7 @@ DrawReport Renderer::draw(const Frame& f, RenderCache* cache) {
   s.choosePicture(f, report);
   report.uploadedBytes += s.screen.select(f.selection, s.scene->primitives.size());
   report.uploadedBytes += s.screen.draw(s.targets, s.layers, f.settings, s.luminousEfficacy, s.wipe);
+  s.outlineSelection(f, parts);
   s.drawOverlays(f, parts, report);
   s.show(state.framebuffer());
   if (f.settings.overlays.statistics) glFinish();
