@@ -216,11 +216,15 @@ TEST_F(RendererTest, MultipliesByTheTextureOfTheMaterial) {
   shape.cumulativeArea = {8, 16};
   b.scene->primitives[p.index()].shape = shape;
   b.light(p, true, Rgb(2), Rgb(2));
+  b.mesh.caustics[SolutionMesh::side(p, true)] =
+      causticOf(p, true, squareTexture(4, [](int, int) { return glm::vec4(6, 6, 6, 1); }));
   renderer->draw(frameOf(b.snapshot()), nullptr);
-  const float factor = 0.5f * 2 / static_cast<float>(kPi);
+  const Image L = renderer->radiance();
+  const auto at = [&](int x) { return L.at(x, x == 30 ? 24 : 4); };  // within the caustic texture, or above it
+  const auto factorAt = [](int x) { return 0.5f * (x == 30 ? 8 : 2) / static_cast<float>(kPi); };
   for (const int x : {3, 16, 30, 47, 60}) {
     const Rgb tint = b.scene->textures[0].sample({(x + 0.5) / 64, 0.5});
-    expectNear(renderer->radiance().at(x, 24), factor * tint, 4e-3);  // weights of 8 bits
+    expectNear(at(x), factorAt(x) * tint, 4e-3);  // weights of 8 bits
   }
 }
 
@@ -244,7 +248,7 @@ TEST_F(RendererTest, UploadsWhatHasChangedAndNothingElse) {
   b.mesh.caustics[SolutionMesh::side(p, true)] =
       causticOf(p, true, squareTexture(4, [](int, int) { return glm::vec4(2, 2, 2, 1); }), 3);
   f.mesh = b.snapshot();
-  EXPECT_EQ(renderer->draw(f, nullptr).uploadedBytes, 16 * 16 + 4 * 24 + 6 * 4u);
+  EXPECT_EQ(renderer->draw(f, nullptr).uploadedBytes, 16 * 16 + 4 * 32 + 6 * 4u);
   b.mesh.surfaces[SolutionMesh::side(q, true)] = nullptr;
   f.mesh = b.snapshot();
   renderer->draw(f, nullptr);

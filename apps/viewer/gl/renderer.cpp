@@ -194,7 +194,7 @@ void Renderer::State::drawScene(const Frame& f, std::vector<Part>& parts, DrawRe
   background.draw(parts.front().eye, f.width, f.height);
   forParts(f, parts, [&](const SurfaceView& v) {
     passes.addOtherSides(v);
-    passes.addCaustics(v);
+    passes.addCaustics(v, report.uploadedBytes);
   });
   if (!anyPane) return;
   forParts(f, parts, [&](const SurfaceView& v) { passes.drawPanes(v, report.uploadedBytes); });
@@ -259,7 +259,7 @@ void Renderer::State::drawOverlays(const Frame& f, std::vector<Part>& parts, Dra
   const Overlays& overlays = f.settings.overlays;
   if (overlays.textureRegions || overlays.mesh)
     forParts(f, parts, [&](const SurfaceView& v) {
-      if (overlays.textureRegions) passes.tintCaustics(v);
+      if (overlays.textureRegions) passes.tintCaustics(v, report.uploadedBytes);
       if (overlays.mesh) report.uploadedBytes += lines.drawOutlines(v);
     });
   if (!f.lines.empty()) report.uploadedBytes += lines.drawLines(viewOf(parts.front(), f), f.lines);

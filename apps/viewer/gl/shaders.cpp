@@ -29,6 +29,10 @@ out vec3 E;
 #endif
 #ifdef CAUSTIC
 flat out vec3 factor;
+#ifdef TEXTURED
+layout(location = 4) in vec2 materialTexcoord;
+out vec2 materialUv;
+#endif
 #else
 out vec3 radiance;
 #endif
@@ -71,6 +75,9 @@ void main() {
 #endif
 #ifdef CAUSTIC
   factor = reflects;
+#ifdef TEXTURED
+  materialUv = materialTexcoord;
+#endif
 #elif defined(TEXTURED) || defined(OTHER_SIDE)
   radiance = reflects * irradiance;
 #else
@@ -92,6 +99,10 @@ out vec4 irradianceOut;
 #endif
 #ifdef CAUSTIC
 flat in vec3 factor;
+#ifdef TEXTURED
+in vec2 materialUv;
+uniform sampler2D tint;  // the material's texture
+#endif
 #else
 in vec3 radiance;
 #endif
@@ -120,6 +131,9 @@ void main() {
 #else
   vec3 found = texture(image, uv).rgb;
   colour = vec4(factor * found, 0.0);
+#ifdef TEXTURED
+  colour.rgb *= texture(tint, materialUv).rgb;
+#endif
 #ifdef ILLUMINANCE
   irradianceOut = vec4(found, 0.0);
 #endif
