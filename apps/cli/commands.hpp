@@ -13,6 +13,9 @@ void addReplayCommand(CLI::App&);
 void addProbeCommand(CLI::App&);
 void addRenderCommand(CLI::App&);
 void addReferenceCommand(CLI::App&);
+#ifdef DELTALUX_VIEWER
+void addViewCommand(CLI::App&);
+#endif
 
 /// All of them, in the order of --help.
 inline void addCommands(CLI::App& app) {
@@ -23,6 +26,9 @@ inline void addCommands(CLI::App& app) {
   addProbeCommand(app);
   addRenderCommand(app);
   addReferenceCommand(app);
+#ifdef DELTALUX_VIEWER
+  addViewCommand(app);
+#endif
 }
 
 }  // namespace deltalux::cli

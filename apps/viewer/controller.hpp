@@ -7,6 +7,7 @@
 
 #include "camera.hpp"
 #include "drawing.hpp"
+#include "mesh_pick.hpp"
 #include "session.hpp"
 #include "solver.hpp"
 
@@ -46,10 +47,9 @@ class Controller {
     Solver::Open open;
     std::function<Recording()> recording;  // of what was opened: files and settings, for the record. After `open`
     std::filesystem::path record;          // where the session is written
-    std::optional<View> view;              // to begin with
+    std::optional<View> view;              // to begin with, in the coordinates of the scene's files
   };
   Controller(Source, Solver::Settings);
-  ~Controller();
 
   // Every frame of the window.
   /// Takes over what is new. True when something has to be drawn again.
@@ -61,14 +61,16 @@ class Controller {
   RenderCache& cache() { return cache_; }
 
   // Looking.
-  View camera() const { return camera_; }
+  const View& camera() const { return camera_; }  // its angles fit the window
   void setCamera(const View&);
   void setSize(int width, int height);
   void bookmark(int slot);      // keeps the camera, 1 to 9
   bool goToBookmark(int slot);  // views of the scene fill the first of them
   void focusOnSelection();
   DrawSettings& draw() { return draw_; }  // exposure, false colour, overlays, section box: no solving follows
-  void automaticExposure();               // once, from what is drawn; it stays locked then
+  void automaticExposure() { exposureWanted_ = true; }  // once, from what is drawn; it stays locked then
+  /// Whether the next drawing's radiance is to be handed to wantExposureFrom().
+  bool exposureWanted() const { return exposureWanted_ && ready(); }
   void wantExposureFrom(const Image& radiance);
 
   // Choosing. Names are those of edits files.
@@ -83,7 +85,7 @@ class Controller {
   void beginDrag();  // of the selection
   void dragTo(const Mat4& fromStart);
   void endDrag();
-  bool dragging() const;
+  bool dragging() const { return session_ && session_->dragging(); }
   void undo();
   void redo();
   void dim(const std::string& light, double factor);  // of its present scale
@@ -93,10 +95,10 @@ class Controller {
   void lookThrough(const std::string& light);
   void paint(const std::string& material, const Rgb& reflectance);
 
-  // States, A and B.
+  // States, A and B. Throw InputError where nothing is stored.
   void store(int slot);                 // 0: A, 1: B
   void compare(int slot, double wipe);  // beside what is now; wipe 1: off
-  void restore(int slot);
+  void restore(int slot);               // exactly, as undo and redo do
 
   // Measuring.
   void pointAt(double x, double y);  // the cursor: asks what is there
@@ -110,39 +112,74 @@ class Controller {
   const std::optional<Contributions>& explanation() const { return explanation_; }
 
   const Status& status() const { return status_; }
-  bool ready() const;          // there is something to look at
-  bool settled() const;        // no edit waits, the light is that of the scene
-  bool finished() const;       // settled, and the picture has all of its rays
-  const Scene& scene() const;  // as the session has it; precondition ready()
-  Session& session() { return *session_; }
+  bool ready() const { return session_ != nullptr; }        // there is something to look at
+  bool settled() const;                                     // no edit waits, the light is that of the scene
+  bool finished() const;                                    // settled, and the picture has all of its rays
+  const Scene& scene() const { return session_->scene(); }  // as the session has it; precondition ready()
+  Session& session() { return *session_; }                  // precondition ready()
   Solver& solver() { return *solver_; }
-  std::string lastError;  // of a refused edit; panels show and clear it
+  std::string
+      lastError;  // of an edit that the solver refused or a record that was not written; panels show and clear it
 
  private:
+  // Questions to the solver wait for one another: it takes one at a time.
+  struct Question {
+    std::optional<ProbePoint> point;
+    std::uint64_t number = 0;  // 0: not asked yet
+    bool answered = false;
+  };
+
+  void begin();
+  void takeMesh(std::shared_ptr<const SolutionMesh>);
+  void takeReadings(const Readings&);
+  void takeAnswer(const Answer&);
+  void send(std::vector<Edit>, bool moving);
+  void askNext();
+  void lookUnderCursor();
+  void pinMeters();
+  std::optional<MeshHit> meshHit(double x, double y) const;
   std::vector<PrimitiveId> selectedPrimitives() const;
+  std::optional<Ahead> ahead() const;
+  LightId firstLight(const std::string& name) const;
+  const std::optional<Session::Stored>& storedAt(int slot) const;
+  View predicted() const;
+  bool pictureFits() const;
 
   Source source_;
-  std::unique_ptr<Solver> solver_;
   std::unique_ptr<Session> session_;
   RenderCache cache_;
   Status status_;
   std::shared_ptr<const SolutionMesh> mesh_;
+  MeshPick pick_;
+  std::shared_ptr<const SampleChanges> changes_;
   std::shared_ptr<const Picture> picture_;
+  std::shared_ptr<const Readings> readings_;
+  std::shared_ptr<const Answer> answer_;
+  std::uint64_t editsSent_ = 0;
+  bool resting_ = true;                 // the solver knows that no edit of a drag will follow
+  std::vector<PrimitiveId> handMoved_;  // by the last edit or drag: they are drawn where the session has them
+
   View camera_;
-  bool cameraSet_ = false;
+  View drawnCamera_;       // of the frame before
+  int stillRequests_ = 0;  // for rays of the cache, since anything changed
   int width_ = 0, height_ = 0;
   DrawSettings draw_;
+  bool exposureWanted_ = false;
   std::string selection_;
   std::array<std::optional<View>, 10> bookmarks_;
   int compared_ = -1;
   double wipe_ = 1;
+  std::array<bool, 2> storedEarly_{};  // before the light had settled: the light follows
+
+  std::optional<glm::dvec2> cursorAt_;  // pixels
   UnderCursor cursor_;
+  Question cursorQuestion_, explainQuestion_;
   std::vector<Probe> probes_;
   std::optional<MeterField> field_;
+  std::uint64_t pinned_ = 0;
+  bool historyIsOfMesh_ = false;  // the newest of every probe: an exact one takes its place
   std::optional<Contributions> explanation_;
-  // Where the hand has things, and what the mesh has seen of it.
-  struct Hand;
-  std::unique_ptr<Hand> hand_;
+  std::unique_ptr<Solver> solver_;  // last: its thread ends first
 };
 
 }  // namespace deltalux::viewer

@@ -27,7 +27,7 @@ struct Status {
   Phase phase = Phase::Opening;
   double fraction = 0;       // of Opening and Solving that is done
   double staleShare = 0;     // light that is not yet where it would be, of all that lamps emit: 0 to 1
-  std::string message;       // Failed: what is wrong. Else of an edit that was refused, until the next
+  std::string message;       // Failed: what is wrong. Else of an edit that was refused, until the next; or that waits
   double settleSeconds = 0;  // of the last Settling
   StepReport step;           // the last frame's or update's
   std::uint64_t edits = 0;   // taken in so far: the number that Solver::apply has returned for the last of them
@@ -45,6 +45,7 @@ struct Picture {
 /// Illuminance meters: what was pinned, and what it reads at a version.
 struct Readings {
   std::uint64_t version = 0;
+  std::uint64_t pinned = 0;          // what Solver::pin has returned for these points
   bool exact = false;                // as `deltalux probe` has it; otherwise the mesh's own values, as in motion
   std::vector<ProbeResult> results;  // of the points that were asked for
 };
@@ -53,7 +54,8 @@ struct Readings {
 struct Answer {
   std::uint64_t question = 0;
   std::uint64_t version = 0;
-  ProbeResult reading;  // as `deltalux probe` has it
+  ProbeResult reading;          // as `deltalux probe` has it
+  std::optional<Rgb> radiance;  // L towards the eye [W/(sr m2)], when there is one
   Contributions contributions;
 };
 
@@ -71,7 +73,8 @@ class Solver {
 
   // From the window's thread. All return at once.
   void setSettings(const Settings&);
-  /// Edits to take in. `moving`: more will follow; otherwise it settles after them. Returns the number of edits so far.
+  /// Edits to take in; those that come while the scene is being solved wait for that to end. `moving`: more will
+  /// follow; otherwise it settles after them. Returns the number of edits so far.
   std::uint64_t apply(std::vector<Edit>, bool moving);
   /// The hand rests: settle.
   void rest();
@@ -80,15 +83,17 @@ class Solver {
   /// What is looked at; `first`: pixels that want their rays first (ProgressiveRender). nullopt: nothing to make
   /// better.
   void look(std::optional<View>, int width, int height, std::vector<char> first);
+  /// Rays to trace, in place of those asked for before that are not traced yet.
   void want(std::vector<PixelRay>);
-  /// Meters whose readings are to follow every change.
-  void pin(std::vector<ProbePoint>);
-  /// Takes the place of a question that is not answered yet. Returns its number.
-  std::uint64_t ask(const ProbePoint&);
+  /// Meters whose readings are to follow every change, in place of those before. Returns the number of calls so far.
+  std::uint64_t pin(std::vector<ProbePoint>);
+  /// Takes the place of a question that is not answered yet. `eye`: who looks there. Returns its number.
+  std::uint64_t ask(const ProbePoint&, std::optional<Vec3> eye = std::nullopt);
   /// Writes the solution once what is going on is settled; `written` is called on the solver's thread, with an empty
   /// text or what went wrong.
   void save(const std::string& file, std::function<void(std::string)> written);
-  /// Light meter by meter, exactly; waits. For scripts and tests: it must be settled.
+  /// Light meter by meter, exactly; waits until it is settled. For scripts and tests. Throws std::runtime_error when it
+  /// has failed.
   std::vector<ProbeResult> measure(std::vector<ProbePoint>);
 
   // What it has found: the newest of each. Null: none yet.

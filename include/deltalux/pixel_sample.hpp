@@ -19,20 +19,24 @@ struct PixelRay {
 struct PixelSample {
   Rgb radiance{0.0f};     // L towards the eye [W/(sr m2)]
   Vec3f position{0.0f};   // of the first surface; far along the ray where there is none
-  Vec3f apparent{0.0f};   // where what is seen in it seems to be: the mirrored point of flat mirrors, and panes;
-                          // `position` of all else
+  Vec3f apparent{0.0f};   // where what is seen in it seems to be: behind flat mirrors and panes the image of what they
+                          // show; `position` of all else
   PrimitiveId primitive;  // the first surface; invalid: none
   std::uint32_t pixel = 0;
   std::uint64_t version = 0;  // of the reader that traced it
 
-  /// Where the path went, from the eye on: its corners, the surfaces there, and the patch that light was read from.
+  /// Where the path went, from the eye on: its corners, the surfaces there, and the patch that light was read from. A
+  /// path may part at panes; a corner that reads two patches is there twice.
   static constexpr int kMost = 6;
+  static constexpr std::uint8_t kEye = 0xff;
   struct Corner {
     Vec3f position{0.0f};
-    PrimitiveId primitive;
+    PrimitiveId primitive;              // invalid: the path left the scene, on the way there
     std::uint32_t patch = 0xffffffffu;  // none
+    std::uint8_t before = kEye;         // the corner that the path came from
   };
   std::uint8_t corners = 0;
+  bool noisy = false;    // chance has had a say in where the path went: more rays of the pixel tell more
   bool complete = true;  // all of the path is in `path`; otherwise any change makes the sample stale
   Vec3f eye{0.0f};
   std::array<Corner, kMost> path{};
@@ -47,8 +51,10 @@ struct SampleChanges {
     Box box;
     std::uint64_t version = 0;  // when something came to be there
   };
-  std::vector<Place> places;
-  std::uint64_t since = 0;  // samples older than this are stale: what changed before is no longer known
+  std::vector<Place> places;     // ascending by version, few: old ones that lie together are merged
+  std::uint64_t background = 0;  // when the light from infinity last changed
+  std::uint64_t latest = 0;      // when anything last did
+  std::uint64_t since = 0;       // samples older than this are stale: what changed before is no longer known
 
   /// Whether anything that the sample was read from has changed since.
   bool stale(const PixelSample&) const;

@@ -9,14 +9,15 @@ namespace deltalux {
 
 class ProgressiveRender {
  public:
-  /// The reader must outlive this and must not be refreshed before it. `first`: by pixel, those that want their rays
-  /// before others get any (mirrors, gloss, glass); empty: none.
+  /// The reader must outlive this and must not be refreshed before it. `first`: by pixel, those that get their first
+  /// ray before others do (mirrors, gloss, glass); empty: none.
   ProgressiveRender(const SolutionReader&, const View&, const RenderSettings&, std::vector<char> first = {});
   ~ProgressiveRender();
   ProgressiveRender(ProgressiveRender&&) noexcept;
   ProgressiveRender& operator=(ProgressiveRender&&) noexcept;
 
-  /// Goes on for about so long, or until `progress` asks to stop. True once every pixel has all of its rays.
+  /// Goes on for about so long, or until `progress` asks to stop; some pixels get a ray each time. True once every
+  /// pixel has all of its rays.
   bool step(double milliseconds, const Progress* progress = nullptr);
   bool done() const;
   /// Means of the rays so far; where a pixel has none yet, 0.

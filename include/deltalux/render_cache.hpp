@@ -2,6 +2,12 @@
 // A Render Cache [WDP99; WDG02]: light that rays found is kept at its place in the scene, projected into every frame,
 // and filled up between; where it is thin or old, new rays are asked for. Rays are traced elsewhere
 // (SolutionReader::trace) and come back when they do. Plain CPU code over values; one thread at a time.
+//
+// Rays go through the middles of pixels. While the camera stands still a pixel keeps what its own ray found, and asks
+// for no more; where chance chose the way (gloss, glass) rays are averaged, up to 64. Departures: samples are projected
+// by where their image seems to be, so that what a flat mirror shows moves as it should; a sample is taken for hidden
+// by how many of its neighbours are nearer, since their mean depth would also take the far side of every edge; what an
+// edit made wrong is known, and need not be found by looking again.
 #include <deltalux/pixel_sample.hpp>
 #include <deltalux/view.hpp>
 #include <functional>
@@ -31,11 +37,13 @@ class RenderCache {
   RenderCache(RenderCache&&) noexcept;
   RenderCache& operator=(RenderCache&&) noexcept;
 
-  /// Takes samples in; the oldest make room.
+  /// Takes samples in; the oldest make room. Those that met no surface are not kept.
   void insert(std::span<const PixelSample>);
-  /// Drops samples for which it is true: what an edit has made wrong.
+  /// Drops samples for which it is true: what an edit has made wrong. Returns how many.
   std::size_t drop(const std::function<bool(const PixelSample&)>& stale);
-  /// All samples, for who drops them elsewhere.
+  /// The same for those that are stale; the others count as traced now, so that no change is looked at twice.
+  std::size_t drop(const SampleChanges&);
+  /// All samples, for who drops them elsewhere. Means of several rays are not `complete`: only one's path is there.
   std::span<const PixelSample> samples() const;
   void clear();
 
@@ -43,7 +51,8 @@ class RenderCache {
   /// cache has nothing to do: samples of other surfaces are not shown there, so edges are the drawing's own.
   const CacheFrame& frame(const View&, int width, int height, std::span<const std::uint32_t> surfaces);
   /// Rays for the frame that was made last: at most `count`, where they are wanted most [WDP99, priority image with
-  /// error diffusion]. `next`: where the camera will be by the time they are back.
+  /// error diffusion]; none once every pixel has what it can have. What was asked for is not asked for again for some
+  /// frames. `next`: where the camera will be by the time they are back.
   std::vector<PixelRay> wanted(std::size_t count, const View& next);
 
  private:

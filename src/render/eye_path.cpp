@@ -12,6 +12,13 @@ namespace deltalux::rendering {
 namespace {
 constexpr float kFaint = 1e-3f;  // a path that carries less ends
 constexpr std::uint64_t kShadowKey = 1 << 8, kOtherSideKey = 1 << 9, kScatterKey = 1 << 10;
+
+/// Whether a surface without its diffuse part sends light more than one way.
+bool isLeftToChance(const scene::Bsdf& specular) {
+  const int ways = !isBlack(specular.reflection.reflectance) + !isBlack(specular.transmission.reflectance) +
+                   !isBlack(specular.passage);
+  return specular.hasFinitePart() || specular.pane || specular.refractingIor || ways > 1;
+}
 }  // namespace
 
 struct EyePaths::Vertex {
@@ -44,6 +51,7 @@ Rgb EyePaths::follow(Way w, const EyeRay& eye, Sights& sights) const {
   Rgb L(0.0f);
   while (w.depth <= settings_.maxDepth) {
     const tracing::Hit hit = tracer_.closestHit(w.ray);
+    if (eye.trail) w.corner = eye.trail->add(w.ray, hit, w.corner);
     if (!hit) return w.emitters ? L + w.beta * background(w) : L;
     const Vec3 n = hit.front ? Vec3(hit.normal) : -Vec3(hit.normal);
     const Vertex v{hit, Vec3(hit.position), Vec3(w.ray.direction), n};
@@ -93,7 +101,9 @@ bool EyePaths::goOn(Way& w, const Vertex& v, const scene::Bsdf& scattering, cons
     }
   const UnitPair a = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * w.depth));
   const UnitPair b = scrambledSobol(eye.index, combineKeys(eye.key, kScatterKey + 2 * w.depth + 1));
-  const auto s = scene::sample(scene::specularPart(scattering), wo, {a.x, b.x, b.y});
+  const scene::Bsdf specular = scene::specularPart(scattering);
+  if (eye.trail && isLeftToChance(specular)) eye.trail->chooses();
+  const auto s = scene::sample(specular, wo, {a.x, b.x, b.y});
   return s && go(w, v, scattering, *s, lightsMet);
 }
 
@@ -174,6 +184,7 @@ Rgb EyePaths::irradiance(const Vertex& v, bool front, const scene::Bsdf* lobes, 
   const hierarchy::ElementId side = reconstruction_.locator.side(v.hit.primitive, v.hit.triangle, front);
   if (!side.valid()) return Rgb(0.0f);
   const hierarchy::LeafPoint at = reconstruction_.locator.locate(side, v.position);
+  if (eye.trail) eye.trail->read(at.leaf);
   Rgb E = reconstruction_.field.indirect(at, Vec3f(v.position));
   if (const auto caustic = causticLight(caustics_, scene_, v.hit.primitive, v.hit.triangle, front, v.position))
     E += *caustic;

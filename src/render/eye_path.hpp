@@ -7,6 +7,7 @@
 // Lights in a rough lobe: those that look smaller than the lobe is wide are met by the shadow rays of the surface,
 // larger ones by the lobe's own rays; never by both.
 #include "caustics/caustics.hpp"
+#include "render/eye_trail.hpp"
 #include "render/reconstruction.hpp"
 #include "render/sight.hpp"
 #include "scene/bsdf.hpp"
@@ -15,9 +16,10 @@ namespace deltalux::rendering {
 
 struct EyeRay {
   tracing::Ray ray;
-  bool emitters = true;     // whether lights that it meets (straight, or through panes) count
-  std::uint64_t key = 0;    // names the stratified numbers of its pixel ...
-  std::uint32_t index = 0;  // ... and which of them are this ray's
+  bool emitters = true;       // whether lights that it meets (straight, or through panes) count
+  std::uint64_t key = 0;      // names the stratified numbers of its pixel ...
+  std::uint32_t index = 0;    // ... and which of them are this ray's
+  EyeTrail* trail = nullptr;  // notes where the path goes
 };
 
 struct EyeSettings {
@@ -52,6 +54,7 @@ class EyePaths {
     std::optional<Lobe> lobe{};  // of the surface before
     int depth = 0;               // non-diffuse events
     bool parted = false;         // once, into what a surface reflects and what it lets pass
+    std::uint8_t corner = PixelSample::kEye;  // of the trail, that it comes from
   };
   Rgb follow(Way, const EyeRay&, Sights&) const;
   void survey(Way, const EyeRay&, Sights&) const;

@@ -20,12 +20,19 @@
 // fits that jump as leaves enter them).
 // Cost: about 15 neighbours a leaf to build (a ray for pairs that disagree), 0.2-0.5 microseconds a query (a ray per
 // neighbour where leaves are torn), no memory.
+#include <span>
+
 #include "hierarchy/side_locator.hpp"
 #include "render/leaf_irradiance.hpp"
 #include "render/patch_support.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux::rendering {
+
+/// Irradiance at a point, by where it came from [W/m2].
+struct PointIrradiance {
+  Rgb direct{0.0f}, indirect{0.0f}, particle{0.0f};
+};
 
 class IrradianceField {
  public:
@@ -37,11 +44,32 @@ class IrradianceField {
   /// At the surface point `p`, which `at` locates [W/m2].
   Rgb direct(const hierarchy::LeafPoint& at, const Vec3f& p) const { return blend(direct_, at, p); }
   Rgb indirect(const hierarchy::LeafPoint& at, const Vec3f& p) const { return blend(indirect_, at, p); }
+  /// All at once, and what particles brought apart from the rest of indirect light.
+  PointIrradiance all(const hierarchy::LeafPoint& at, const Vec3f& p) const;
   /// Whether something stands on or cuts through the leaf, or between it and its neighbours.
   bool torn(hierarchy::ElementId leaf) const {
     const std::uint32_t i = siteOf_[leaf.index()];
     return torn_[i] < begin_[i + 1];
   }
+
+  // What a leaf's points read, for who watches it change.
+
+  std::size_t sites() const { return sites_.size(); }
+  hierarchy::ElementId leafOf(std::size_t site) const { return sites_[site].leaf; }
+  /// Irradiance as a site has it, to first order: at its centre, and by unit of length along the axes.
+  struct Trend {
+    Rgb value{0.0f}, slope[3] = {Rgb(0.0f), Rgb(0.0f), Rgb(0.0f)};
+  };
+  Trend trend(std::size_t site) const {
+    Trend t{direct_[site].value + indirect_[site].value};
+    for (int k = 0; k < 3; ++k) t.slope[k] = direct_[site].slope[k] + indirect_[site].slope[k];
+    return t;
+  }
+  /// The sites that blend at points of one, itself first; those with something in between come last.
+  std::span<const std::uint32_t> blended(std::size_t site) const {
+    return std::span(neighbours_).subspan(begin_[site], begin_[site + 1] - begin_[site]);
+  }
+  std::size_t blendedFreely(std::size_t site) const { return torn_[site] - begin_[site]; }
 
  private:
   /// A leaf's linear function, kept within `low` and `high`.
@@ -76,6 +104,10 @@ class IrradianceField {
   template <class Visit>
   void forEachCorner(hierarchy::ElementId leaf, const Visit&) const;
   void fit(std::vector<Linear>&, Rgb LeafIrradiance::*quantity, const std::vector<LeafIrradiance>&) const;
+  /// visit(site, weight) for all that take part at a point; the sum of the weights.
+  template <class Visit>
+  float forEachWeight(const hierarchy::LeafPoint&, const Vec3f& p, const Visit&) const;
+  Rgb at(const Linear&, const Site&, const Vec3f& p) const;
   Rgb blend(const std::vector<Linear>&, const hierarchy::LeafPoint&, const Vec3f& p) const;
 
   const hierarchy::Elements& elements_;
@@ -87,6 +119,7 @@ class IrradianceField {
   // in between.
   std::vector<std::uint32_t> begin_, torn_, neighbours_;
   std::vector<Linear> direct_, indirect_;
+  std::vector<Linear> particle_;  // of indirect_; empty: none anywhere
 };
 
 }  // namespace deltalux::rendering

@@ -4,9 +4,13 @@
 #include <deltalux/solution_mesh.hpp>
 #include <deltalux/solution_reader.hpp>
 #include <memory>
+#include <mutex>
 
 #include "render/eye_path.hpp"
+#include "render/light_meter.hpp"
 #include "render/reconstruction.hpp"
+#include "render/sample_changes.hpp"
+#include "render/solution_mesh/mesher.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::rendering {
@@ -17,13 +21,17 @@ struct ReaderState {
   SolutionView view;
   std::uint64_t version = 0;
   std::unique_ptr<Reconstruction> reconstruction;  // of the last refresh
-  SolutionMesh snapshot;                           // the one that was asked for last
+  SolutionMesher mesher;
+  SolutionMesh snapshot;  // the one that was asked for last
+  std::mutex meterMaking;
+  std::unique_ptr<const LightMeter> meter;  // made when first asked for
   std::shared_ptr<const SampleChanges> changes;
+  NotedSolution noted;  // what `changes` are differences from
 
   const Solution& solution() const { return view.get(); }
 };
 
-/// Notes what differs from the solution of the refresh before (sample_changes.cpp).
-std::shared_ptr<const SampleChanges> noteChanges(const ReaderState&, const SampleChanges* before);
+/// Notes what differs from what was noted before (sample_changes.cpp).
+std::shared_ptr<const SampleChanges> noteChanges(ReaderState&, const SampleChanges* before);
 
 }  // namespace deltalux::rendering

@@ -186,6 +186,7 @@ void Sights::learn(int raysOfPlace, std::uint64_t key) {
     learn({first, last}, rays, combineKeys(key, side));
     first = last;
   }
+  places_ = {};
 }
 
 void Sights::learn(std::span<const Place> ofSide, int rays, std::uint64_t key) {

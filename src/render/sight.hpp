@@ -95,7 +95,7 @@ class Sights {
       : elements_(elements), reconstruction_(reconstruction) {}
 
   void note(hierarchy::ElementId leaf, const radiosity::Receiver& place) { places_.push_back({leaf, place}); }
-  /// By so many rays a place that was noted.
+  /// By so many rays a place that was noted; places are forgotten then.
   void learn(int raysOfPlace, std::uint64_t key);
   const Sight& at(hierarchy::ElementId leaf);
 

@@ -16,10 +16,11 @@
 namespace deltalux::test {
 
 namespace {
-pid_t start(const std::vector<std::string>& arguments, const std::filesystem::path& out,
+/// `command`: the program first.
+pid_t start(const std::vector<std::string>& command, const std::filesystem::path& out,
             const std::filesystem::path& err) {
-  std::vector<char*> argv{const_cast<char*>(DELTALUX_CLI)};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  std::vector<char*> argv;
+  for (const std::string& argument : command) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   const pid_t pid = ::fork();
   if (pid < 0) throw std::runtime_error("fork failed");
@@ -44,9 +45,10 @@ void waitForOutput(pid_t pid, const std::filesystem::path& out) {
 }
 }  // namespace
 
-CliResult runCli(const std::vector<std::string>& arguments, const std::function<void(int)>& whileRunning) {
+namespace {
+CliResult runCommand(const std::vector<std::string>& command, const std::function<void(int)>& whileRunning) {
   const TempFolder folder;
-  const pid_t pid = start(arguments, folder / "out", folder / "err");
+  const pid_t pid = start(command, folder / "out", folder / "err");
   if (whileRunning) {
     waitForOutput(pid, folder / "out");
     whileRunning(pid);
@@ -56,6 +58,22 @@ CliResult runCli(const std::vector<std::string>& arguments, const std::function<
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readText(folder / "out"),
           readText(folder / "err")};
 }
+
+std::vector<std::string> joined(std::vector<std::string> command, const std::vector<std::string>& arguments) {
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return command;
+}
+}  // namespace
+
+CliResult runCli(const std::vector<std::string>& arguments, const std::function<void(int)>& whileRunning) {
+  return runCommand(joined({DELTALUX_CLI}, arguments), whileRunning);
+}
+
+CliResult runCliWithDisplay(const std::vector<std::string>& arguments) {
+  return runCommand(joined({(sourceFolder() / "tools" / "with_display").string(), DELTALUX_CLI}, arguments), {});
+}
+
+bool hasDisplayServer() { return std::system("command -v Xvfb >/dev/null 2>&1") == 0; }
 
 void expectUsageError(const std::vector<std::string>& arguments) {
   std::string line = "deltalux";

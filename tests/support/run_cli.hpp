@@ -16,6 +16,10 @@ struct CliResult {
 /// standard output is not empty, or when the process has ended.
 CliResult runCli(const std::vector<std::string>& arguments, const std::function<void(int pid)>& whileRunning = {});
 
+/// The same with a display that no screen shows (tools/with_display), which needs hasDisplayServer().
+CliResult runCliWithDisplay(const std::vector<std::string>& arguments);
+bool hasDisplayServer();
+
 /// Expects exit code 2 with one message that points to --help, and nothing on standard output.
 void expectUsageError(const std::vector<std::string>& arguments);
 

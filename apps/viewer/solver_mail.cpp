@@ -1,0 +1,30 @@
+#include "solver_mail.hpp"
+
+namespace deltalux::viewer {
+
+Orders SolverInbox::take(bool wait) {
+  std::unique_lock lock(mutex_);
+  if (wait) wake_.wait(lock, [&] { return filled_ || stopped_; });
+  filled_ = false;
+  Orders next;
+  next.editCount = orders_.editCount, next.pinned = orders_.pinned;
+  return std::exchange(orders_, std::move(next));
+}
+
+void SolverInbox::stop() {
+  const std::lock_guard lock(mutex_);
+  stopped_ = true;
+  wake_.notify_one();
+}
+
+std::vector<PixelSample> SolverOutbox::takeSamples() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(findings_.samples, {});
+}
+
+void SolverOutbox::onNews(std::function<void()> tell) {
+  const std::lock_guard lock(mutex_);
+  tell_ = std::move(tell);
+}
+
+}  // namespace deltalux::viewer

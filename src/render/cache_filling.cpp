@@ -1,0 +1,67 @@
+#include "render/cache_filling.hpp"
+
+#include <array>
+#include <bit>
+
+#include "base/parallel.hpp"
+
+namespace deltalux::rendering {
+
+namespace {
+
+constexpr std::size_t kRows = 16;  // of a block
+// How well a pixel is known that is filled: at most, of its neighbours; of what is within reach.
+constexpr float kByNeighbours = 0.9f, kWithinReach = 0.3f;
+
+struct Filling {
+  const CacheFrame& frame;
+  const HeldPixels& held;
+  std::span<const std::uint32_t> surfaces;
+
+  /// The mean over held pixels of the same surface within `reach`, by weightOf(dx, dy); the sum of weights.
+  template <class Weight>
+  float mean(int x, int y, int reach, const Weight& weightOf, Rgb& L) const {
+    const std::size_t home = static_cast<std::size_t>(y) * frame.width + x;
+    const std::uint32_t mask = ((1u << (2 * reach + 1)) - 1) << (HeldPixels::kReach - reach);
+    float weights = 0;
+    Rgb sum(0.0f);
+    for (int dy = -reach; dy <= reach; ++dy)
+      for (std::uint32_t bits = held.around(x, y + dy) & mask; bits != 0; bits &= bits - 1) {
+        const int dx = std::countr_zero(bits) - HeldPixels::kReach;
+        const std::size_t p = home + static_cast<std::ptrdiff_t>(dy) * frame.width + dx;
+        if (surfaces[p] != surfaces[home]) continue;
+        const float w = weightOf(dx, dy);
+        sum += w * Rgb(frame.pixels[p]), weights += w;
+      }
+    if (weights > 0) L = sum / weights;
+    return weights;
+  }
+
+  glm::vec4 at(int x, int y) const {
+    constexpr float kAll = 4 * 2 + 4 * 1;
+    constexpr float kMost = (2 * HeldPixels::kReach + 1) * (2 * HeldPixels::kReach + 1);
+    Rgb L(0.0f);
+    if (const float w = mean(
+            x, y, 1, [](int dx, int dy) { return dx == 0 || dy == 0 ? 2.0f : 1.0f; }, L);
+        w > 0)
+      return {L, kByNeighbours * (kWithinReach + (1 - kWithinReach) * w / kAll)};
+    const float w = mean(
+        x, y, HeldPixels::kReach, [](int, int) { return 1.0f; }, L);
+    return {L, kByNeighbours * kWithinReach * w / kMost};
+  }
+};
+
+}  // namespace
+
+void fillFrame(CacheFrame& frame, const HeldPixels& held, std::span<const std::uint32_t> surfaces) {
+  const Filling filling{frame, held, surfaces};
+  parallelFor(static_cast<std::size_t>(frame.height), kRows, [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    glm::vec4* const pixels = frame.pixels.data() + row * frame.width;
+    const std::uint32_t* const seen = surfaces.data() + row * frame.width;
+    for (int x = 0; x < frame.width; ++x)
+      if (seen[x] != 0 && pixels[x].w < 1) pixels[x] = filling.at(x, y);
+  });
+}
+
+}  // namespace deltalux::rendering

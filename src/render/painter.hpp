@@ -1,0 +1,44 @@
+#pragma once
+// How a picture is put together from camera rays, whoever draws it and in whichever order: a picture is cut into tiles,
+// each tile looks around first (sight.hpp), and every pixel then has a fixed list of rays.
+#include <deltalux/image.hpp>
+#include <deltalux/render.hpp>
+
+#include "render/eye_path.hpp"
+
+namespace deltalux::rendering {
+
+/// An empty picture of that size. The settings are checked.
+Image blankImage(const Solution&, const RenderSettings&);
+
+class Painter {
+ public:
+  /// Solution and reconstruction must outlive this.
+  Painter(const Solution&, const Reconstruction&, const View&, const RenderSettings&);
+
+  struct Tile {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels, the ends excluded
+  };
+  std::size_t tiles() const { return static_cast<std::size_t>(across_) * static_cast<std::size_t>(down_); }
+  Tile tile(std::size_t index) const;
+
+  /// Where the lights are, as seen from what the tile shows.
+  Sights lookAround(const Tile&) const;
+  /// Radiance along the ray number `s` of a pixel, below samplesPerPixel: the pixel is the mean of all of them, added
+  /// in this order. `sights` are those of its tile.
+  Rgb radiance(int x, int y, std::uint32_t s, Sights& sights) const;
+
+  const RenderSettings& settings() const { return settings_; }
+
+ private:
+  EyeRay eyeRay(int x, int y, std::uint32_t index, std::uint64_t key) const;
+
+  const hierarchy::Elements& elements_;
+  const Reconstruction& reconstruction_;
+  View view_;
+  RenderSettings settings_;
+  int across_, down_;
+  EyePaths paths_;
+};
+
+}  // namespace deltalux::rendering

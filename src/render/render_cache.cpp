@@ -1,0 +1,360 @@
+#include <deltalux/render_cache.hpp>
+
+#include <algorithm>
+#include <limits>
+
+#include "base/check.hpp"
+#include "render/cache_filling.hpp"
+#include "render/error_diffusion.hpp"
+#include "render/view_projection.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr std::uint32_t kNobody = 0xffffffffu;
+constexpr std::size_t kGroup = 8;        // samples of which the oldest makes room [WDP99]
+constexpr float kNearer = 0.9f;          // depth of a neighbour over a sample's from which it stands before it
+constexpr float kCovered = 0.6f;         // share of such neighbours that a sample does not shine through
+constexpr int kFewestNeighbours = 3;     // that can tell
+constexpr std::uint16_t kMostRays = 64;  // of a pixel that are averaged
+constexpr std::uint32_t kAwaited = 4;    // frames until a ray is asked for again
+constexpr float kOffCentre = 1.0f;       // [pixels] by which a ray's hit may miss its pixel by rounding
+constexpr int kPredicted = 4;            // pixels a side of the cells that are looked at ahead [WDG02]
+constexpr float kOldAge = 64;            // frames
+// Priorities: nothing there, filled from all around, a sample just come from another view, and an old one; one of a
+// pixel's own that is left to chance.
+constexpr float kEmpty = 1.0f, kFilled = 0.6f, kOld = 0.5f, kYoung = 0.1f, kNoisy = 0.1f;
+
+bool same(const View& a, const View& b) {
+  return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.up == b.up &&
+         a.horizontal == b.horizontal && a.vertical == b.vertical;
+}
+
+}  // namespace
+
+struct RenderCache::State {
+  /// What projecting needs of a sample.
+  struct Point {
+    Vec3f apparent{0.0f};
+    std::uint32_t surface = 0;  // of the first one: primitive + 1
+    Rgb radiance{0.0f};
+    std::uint32_t pixel = 0;
+    std::uint32_t view = 0;           // in which it is that pixel's own; 0: none
+    std::uint32_t born = 0;           // frame
+    std::uint32_t shownAt = kNobody;  // pixel of the frame
+    std::uint16_t rays = 1;           // that it is the mean of
+  };
+
+  RenderCacheSettings settings;
+  std::vector<PixelSample> samples;
+  std::vector<Point> points;  // as the samples
+  std::size_t hand = 0;       // where room is made next
+
+  View view;
+  rendering::ViewProjection projection;
+  std::uint32_t viewNumber = 0, frameNumber = 0;
+  CacheFrame frame;
+  std::vector<std::uint32_t> surfaces;  // of the frame
+
+  // By pixel of the frame.
+  std::vector<std::uint32_t> shown;    // sample there, or nobody
+  std::vector<float> depths;           // negative for a pixel's own
+  std::vector<std::uint16_t> streams;  // rays asked for in this view
+  std::vector<std::uint32_t> asked;    // in which frame last; 0: not, or it came back
+  std::vector<char> answered;          // its ray came back
+  rendering::HeldPixels held;
+
+  std::size_t pixels() const { return shown.size(); }
+  bool own(std::uint32_t point) const { return points[point].view == viewNumber; }
+
+  void begin(const View& v, int width, int height, std::span<const std::uint32_t> seen);
+  void project();
+  void cull();
+  void show();
+
+  void insert(const PixelSample&);
+  bool answers(const PixelSample&) const;
+  bool average(std::uint32_t at, const PixelSample&);
+  std::uint32_t room();
+  void evict(std::uint32_t point);
+  std::size_t keep(const std::vector<char>& stays);
+
+  float priority(std::size_t pixel) const;
+  PixelRay ray(const View& from, std::size_t pixel) const;
+  void predict(std::size_t count, const View& next, std::vector<PixelRay>& rays) const;
+};
+
+RenderCache::RenderCache(RenderCacheSettings settings) : state_(std::make_unique<State>()) {
+  DELTALUX_CHECK(settings.samplesPerPixel > 0 && settings.prediction >= 0 && settings.prediction <= 1,
+                 "a store has room, a share is one");
+  state_->settings = settings;
+}
+RenderCache::~RenderCache() = default;
+RenderCache::RenderCache(RenderCache&&) noexcept = default;
+RenderCache& RenderCache::operator=(RenderCache&&) noexcept = default;
+
+// The store.
+
+/// Whether it is what the present view asked for in its pixel.
+bool RenderCache::State::answers(const PixelSample& s) const {
+  if (s.pixel >= pixels() || asked[s.pixel] == 0) return false;
+  if (view.kind == View::Kind::Perspective && s.eye != Vec3f(view.position)) return false;
+  if (!s.primitive.valid()) return true;
+  const rendering::PixelPlace at = projection(s.position);
+  const auto off = [](float x, std::uint32_t centre) { return std::abs(x - (static_cast<float>(centre) + 0.5f)); };
+  const std::uint32_t width = static_cast<std::uint32_t>(frame.width);
+  return at.depth > 0 && off(at.x, s.pixel % width) < kOffCentre && off(at.y, s.pixel / width) < kOffCentre;
+}
+
+/// Takes the sample into the mean of its pixel. Of that only one path is known then, so that any change makes it stale.
+bool RenderCache::State::average(std::uint32_t at, const PixelSample& s) {
+  Point& p = points[at];
+  PixelSample& mean = samples[at];
+  if (!own(at) || !s.noisy || !mean.noisy || p.surface != s.primitive.value + 1) return false;
+  const float n = p.rays;
+  if (p.rays < kMostRays) ++p.rays;
+  p.radiance = mean.radiance = (n * p.radiance + s.radiance) / (n + 1);
+  mean.version = std::min(mean.version, s.version);
+  mean.complete = false;
+  p.born = frameNumber;
+  return true;
+}
+
+void RenderCache::State::evict(std::uint32_t i) {
+  const Point& p = points[i];
+  if (own(i) && p.pixel < pixels()) answered[p.pixel] = 0;
+  if (p.shownAt < pixels() && shown[p.shownAt] == i) shown[p.shownAt] = kNobody;
+}
+
+/// A place for a new sample: at the end, or that of the oldest of the next few.
+std::uint32_t RenderCache::State::room() {
+  const auto most = static_cast<std::size_t>(settings.samplesPerPixel * static_cast<double>(pixels()));
+  if (points.size() < std::max(most, kGroup)) {
+    points.emplace_back(), samples.emplace_back();
+    return static_cast<std::uint32_t>(points.size() - 1);
+  }
+  std::size_t oldest = hand % points.size();
+  for (std::size_t k = 0; k < kGroup; ++k, ++hand)
+    if (const std::size_t i = hand % points.size(); points[i].born < points[oldest].born) oldest = i;
+  const auto at = static_cast<std::uint32_t>(oldest);
+  evict(at);
+  return at;
+}
+
+void RenderCache::State::insert(const PixelSample& s) {
+  const bool answer = answers(s);
+  if (answer) asked[s.pixel] = 0, answered[s.pixel] = 1;
+  if (!s.primitive.valid()) return;
+  std::uint32_t at = answer ? shown[s.pixel] : kNobody;
+  if (at != kNobody && average(at, s)) return;
+  if (at == kNobody || points[at].surface != s.primitive.value + 1) at = room();
+  samples[at] = s;
+  points[at] = {s.apparent, s.primitive.value + 1, s.radiance, s.pixel, answer ? viewNumber : 0, frameNumber};
+  if (answer && surfaces[s.pixel] == points[at].surface) shown[s.pixel] = at, points[at].shownAt = s.pixel;
+}
+
+/// Closes up; returns how many went.
+std::size_t RenderCache::State::keep(const std::vector<char>& stays) {
+  std::vector<std::uint32_t> moved(points.size(), kNobody);
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!stays[i]) continue;
+    moved[i] = static_cast<std::uint32_t>(left);
+    points[left] = points[i], samples[left] = samples[i];
+    ++left;
+  }
+  const std::size_t gone = points.size() - left;
+  if (gone == 0) return 0;
+  points.resize(left), samples.resize(left);
+  hand = 0;
+  for (std::size_t p = 0; p < pixels(); ++p) {
+    if (shown[p] != kNobody) shown[p] = moved[shown[p]];
+    if (shown[p] == kNobody) answered[p] = 0;
+  }
+  return gone;
+}
+
+void RenderCache::insert(std::span<const PixelSample> samples) {
+  for (const PixelSample& s : samples) state_->insert(s);
+}
+
+std::size_t RenderCache::drop(const std::function<bool(const PixelSample&)>& stale) {
+  std::vector<char> stays(state_->samples.size());
+  for (std::size_t i = 0; i < stays.size(); ++i) stays[i] = !stale(state_->samples[i]);
+  return state_->keep(stays);
+}
+
+std::size_t RenderCache::drop(const SampleChanges& changes) {
+  const std::size_t gone = drop([&](const PixelSample& s) { return changes.stale(s); });
+  for (PixelSample& s : state_->samples) s.version = std::max(s.version, changes.version);
+  return gone;
+}
+
+std::span<const PixelSample> RenderCache::samples() const { return state_->samples; }
+
+void RenderCache::clear() {
+  State fresh;
+  fresh.settings = state_->settings;
+  *state_ = std::move(fresh);
+}
+
+// Frames.
+
+void RenderCache::State::begin(const View& v, int width, int height, std::span<const std::uint32_t> seen) {
+  const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  DELTALUX_CHECK(width > 0 && height > 0 && seen.size() == count, "a frame has a surface for each of its pixels");
+  ++frameNumber;
+  const bool sameSize = width == frame.width && height == frame.height;
+  if (viewNumber == 0 || !sameSize || !same(v, view)) {
+    ++viewNumber;
+    view = v, projection = rendering::ViewProjection(v, width, height);
+    streams.assign(count, 0), asked.assign(count, 0), answered.assign(count, 0);
+  } else {
+    for (std::size_t p = 0; p < count; ++p)
+      if (surfaces[p] != seen[p]) answered[p] = 0;
+  }
+  surfaces.assign(seen.begin(), seen.end());
+  frame.width = width, frame.height = height;
+  frame.pixels.assign(count, glm::vec4(0.0f));
+  shown.assign(count, kNobody);
+  depths.assign(count, std::numeric_limits<float>::infinity());
+  held.resize(width, height);
+}
+
+/// A pixel's own sample comes first, then the nearest.
+void RenderCache::State::project() {
+  const float width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point& point = points[i];
+    std::size_t pixel = point.pixel;
+    const rendering::PixelPlace at = projection(point.apparent);
+    float depth = -at.depth;
+    if (point.view != viewNumber) {
+      // Not so written that what is no number passes.
+      if (!(at.depth > 0 && at.x >= 0 && at.x < width && at.y >= 0 && at.y < height)) continue;
+      pixel = static_cast<std::size_t>(at.y) * frame.width + static_cast<std::size_t>(at.x);
+      depth = at.depth;
+    }
+    if (surfaces[pixel] != point.surface || depth >= depths[pixel]) continue;
+    depths[pixel] = depth, shown[pixel] = static_cast<std::uint32_t>(i);
+  }
+}
+
+/// Takes samples away that shine through what is before them. [WDP99 4.2]
+void RenderCache::State::cull() {
+  std::vector<std::size_t> hidden;
+  for (int y = 1; y + 1 < frame.height; ++y)
+    for (int x = 1; x + 1 < frame.width; ++x) {
+      const std::size_t p = static_cast<std::size_t>(y) * frame.width + x;
+      if (shown[p] == kNobody || depths[p] < 0) continue;
+      int around = 0, nearer = 0;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          const std::size_t q = p + static_cast<std::ptrdiff_t>(dy) * frame.width + dx;
+          if (q == p || shown[q] == kNobody || surfaces[q] != surfaces[p]) continue;
+          ++around, nearer += std::abs(depths[q]) < kNearer * depths[p];
+        }
+      if (around >= kFewestNeighbours && static_cast<float>(nearer) > kCovered * static_cast<float>(around))
+        hidden.push_back(p);
+    }
+  for (const std::size_t p : hidden) shown[p] = kNobody;
+}
+
+void RenderCache::State::show() {
+  frame.wanted = frame.held = 0;
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      const std::size_t p = static_cast<std::size_t>(y) * frame.width + x;
+      if (surfaces[p] == 0) continue;
+      ++frame.wanted;
+      if (shown[p] == kNobody) continue;
+      ++frame.held;
+      points[shown[p]].shownAt = static_cast<std::uint32_t>(p);
+      frame.pixels[p] = glm::vec4(points[shown[p]].radiance, 1.0f);
+      held.set(x, y);
+    }
+  rendering::fillFrame(frame, held, surfaces);
+}
+
+const CacheFrame& RenderCache::frame(const View& view, int width, int height, std::span<const std::uint32_t> surfaces) {
+  State& s = *state_;
+  s.begin(view, width, height, surfaces);
+  s.project();
+  s.cull();
+  s.show();
+  return s.frame;
+}
+
+// Rays.
+
+float RenderCache::State::priority(std::size_t p) const {
+  if (surfaces[p] == 0 || (asked[p] != 0 && frameNumber - asked[p] < kAwaited)) return 0;
+  const std::uint32_t at = shown[p];
+  if (at != kNobody && own(at)) {
+    const std::uint16_t rays = points[at].rays;
+    return samples[at].noisy && rays < kMostRays ? kNoisy / static_cast<float>(rays) : 0.0f;
+  }
+  if (answered[p]) return 0;  // by a ray that met something else than is drawn
+  if (at == kNobody) return kEmpty + (kFilled - kEmpty) * frame.pixels[p].w;
+  const float age = static_cast<float>(frameNumber - points[at].born);
+  return kYoung + (kOld - kYoung) * std::min(age / kOldAge, 1.0f);
+}
+
+PixelRay RenderCache::State::ray(const View& from, std::size_t pixel) const {
+  const auto width = static_cast<std::size_t>(frame.width);
+  const ViewRay r = viewRay(from, (static_cast<double>(pixel % width) + 0.5) / frame.width,
+                            (static_cast<double>(pixel / width) + 0.5) / frame.height);
+  return {Vec3f(r.origin), Vec3f(r.direction), static_cast<std::uint32_t>(pixel), 0};
+}
+
+/// Where the next view will have nothing to show: middles of empty cells, as far as what lies there is seen now, or
+/// beside a surface at the border that wants samples.
+void RenderCache::State::predict(std::size_t count, const View& next, std::vector<PixelRay>& rays) const {
+  const rendering::ViewProjection ahead(next, frame.width, frame.height);
+  const int across = (frame.width + kPredicted - 1) / kPredicted, down = (frame.height + kPredicted - 1) / kPredicted;
+  std::vector<char> occupied(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), 0);
+  for (const Point& point : points) {
+    const rendering::PixelPlace at = ahead(point.apparent);
+    if (at.depth > 0 && at.x >= 0 && at.y >= 0 && at.x < static_cast<float>(frame.width) &&
+        at.y < static_cast<float>(frame.height))
+      occupied[static_cast<std::size_t>(static_cast<int>(at.y) / kPredicted) * across +
+               static_cast<std::size_t>(static_cast<int>(at.x) / kPredicted)] = 1;
+  }
+  std::vector<PixelRay> candidates;
+  for (int y = 0; y < down; ++y)
+    for (int x = 0; x < across; ++x) {
+      if (occupied[static_cast<std::size_t>(y) * across + x]) continue;
+      const int px = std::min(x * kPredicted + kPredicted / 2, frame.width - 1),
+                py = std::min(y * kPredicted + kPredicted / 2, frame.height - 1);
+      const PixelRay r = ray(next, static_cast<std::size_t>(py) * frame.width + px);
+      const rendering::PixelPlace now = projection.ofDirection(r.direction);
+      if (!(now.depth > 0)) continue;
+      const auto clamped = [](float v, int size) {
+        return static_cast<std::size_t>(std::clamp(v, 0.0f, static_cast<float>(size - 1)));
+      };
+      if (surfaces[clamped(now.y, frame.height) * frame.width + clamped(now.x, frame.width)] != 0)
+        candidates.push_back(r);
+    }
+  const std::size_t taken = std::min(count, candidates.size());
+  for (std::size_t i = 0; i < taken; ++i) rays.push_back(candidates[i * candidates.size() / taken]);
+}
+
+std::vector<PixelRay> RenderCache::wanted(std::size_t count, const View& next) {
+  State& s = *state_;
+  std::vector<PixelRay> rays;
+  if (s.viewNumber == 0) return rays;
+  if (!same(next, s.view))
+    s.predict(static_cast<std::size_t>(s.settings.prediction * static_cast<double>(count)), next, rays);
+  std::vector<float> priorities(s.pixels());
+  for (std::size_t p = 0; p < priorities.size(); ++p) priorities[p] = s.priority(p);
+  for (const std::uint32_t p : rendering::chooseByPriority(priorities, s.frame.width, count - rays.size())) {
+    PixelRay ray = s.ray(s.view, p);
+    ray.index = s.streams[p]++;
+    s.asked[p] = s.frameNumber;
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+}  // namespace deltalux

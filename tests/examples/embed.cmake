@@ -1,0 +1,21 @@
+# Installs the library, builds examples/embed against what was installed, and runs it:
+#   cmake -DBUILD=build folder -DSOURCE=checkout -DWORK=folder to fill -P embed.cmake
+file(REMOVE_RECURSE ${WORK})
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGN}: ${result}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+run(${CMAKE_COMMAND} -S ${SOURCE}/examples/embed -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
+  -DCMAKE_BUILD_TYPE=Debug)
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/embed ${SOURCE}/scenes/cornell/cornell.rad short_block 0.05 0 0)
+if(NOT output MATCHES "([0-9]+) triangles\nmoved in [0-9.]+ s: ([0-9]+) sides have another shape, ([0-9]+) other light")
+  message(FATAL_ERROR "embed says something else:\n${output}")
+endif()
+if(CMAKE_MATCH_1 LESS 100 OR CMAKE_MATCH_2 LESS 1 OR CMAKE_MATCH_3 LESS CMAKE_MATCH_2)
+  message(FATAL_ERROR "a block that moves changes its own shape, and light around it:\n${output}")
+endif()
