@@ -317,6 +317,42 @@ TEST_F(RendererTest, LooksThroughGlassAndTellsThePane) {
   EXPECT_EQ(renderer->specularPixels()[24 * kWidth + 4], 0);
 }
 
+TEST_F(RendererTest, ShowsWhatTheRenderCacheKnowsOfMirrorsAndOfNothingElse) {
+  Builder b;
+  Material mirror;
+  mirror.surface = Mirror{Rgb(0.9f)};
+  const PrimitiveId m = b.add(mirror, 0, 1), wall = b.add(matt(Rgb(0.5f)), -1, 6);
+  b.light(m, true, Rgb(0), Rgb(0));
+  b.light(wall, true, Rgb(2), Rgb(2));
+  Frame f = frameOf(b.snapshot());
+  // What a ray through a pixel has found.
+  const auto sampleAt = [&](int x, int y, PrimitiveId p, double z) {
+    const ViewRay ray = viewRay(f.camera, (x + 0.5) / kWidth, (y + 0.5) / kHeight);
+    PixelSample s;
+    s.radiance = Rgb(7, 5, 3);
+    s.position = s.apparent = Vec3f(ray.origin + (z - ray.origin.z) / ray.direction.z * ray.direction);
+    s.primitive = p, s.version = 1, s.eye = Vec3f(ray.origin);
+    return s;
+  };
+  RenderCache cache;
+  renderer->draw(f, &cache);  // it has room for so many samples as its frames have pixels
+  std::vector<PixelSample> samples;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const bool onMirror = x >= 16 && x < 48 && y >= 8 && y < 40;
+      samples.push_back(sampleAt(x, y, onMirror ? m : wall, onMirror ? 0 : -1));
+    }
+  cache.insert(samples);
+  const DrawReport report = renderer->draw(f, &cache);
+  EXPECT_EQ(report.cacheWanted, 32 * 32u);
+  EXPECT_GT(report.cacheHeld, 0u);
+  expectNear(renderer->radiance().at(32, 24), Rgb(7, 5, 3));
+  expectNear(renderer->radiance().at(4, 24), Rgb(1 / static_cast<float>(kPi)));
+  f.settings.cache = false;
+  renderer->draw(f, &cache);
+  expectNear(renderer->radiance().at(32, 24), Rgb(0));
+}
+
 TEST_F(RendererTest, ShowsThePictureOfTheSameViewByItsRays) {
   Builder b;
   const PrimitiveId p = b.add(matt(Rgb(0.5f)), 0, 3);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "gl/background.hpp"
+#include "gl/draw_state.hpp"
 #include "gl/line_pass.hpp"
 #include "gl/screen_pass.hpp"
 #include "gl/surface_passes.hpp"
@@ -36,41 +37,6 @@ void requireVersion() {
 /// Columns from here on show the other snapshot.
 int wipeColumn(const Frame& f) {
   return f.other ? static_cast<int>(std::lround(std::clamp(f.wipe, 0.0, 1.0) * f.width)) : f.width;
-}
-
-/// What the renderer's passes take for granted; what others have set is put back.
-class DrawState {
- public:
-  DrawState() {
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer_);
-    glGetIntegerv(GL_VIEWPORT, viewport_);
-    glDisable(GL_BLEND);
-    glDisable(GL_SCISSOR_TEST);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LEQUAL);
-    glDepthMask(GL_TRUE);
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_BACK);
-    glFrontFace(GL_CW);  // rows run from the top (projection.hpp)
-  }
-  ~DrawState() {
-    for (const GLenum what : {GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_BLEND}) glDisable(what);
-    for (GLenum i = 0; i < 6; ++i) glDisable(GL_CLIP_DISTANCE0 + i);
-    glFrontFace(GL_CCW);
-    glBindVertexArray(0);
-    glUseProgram(0);
-    glActiveTexture(GL_TEXTURE0);
-    glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(framebuffer_));
-    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
-  }
-  GLuint framebuffer() const { return static_cast<GLuint>(framebuffer_); }
-
- private:
-  GLint framebuffer_ = 0, viewport_[4] = {};
-};
-
-void cutAt(bool section) {
-  for (GLenum i = 0; i < 6; ++i) section ? glEnable(GL_CLIP_DISTANCE0 + i) : glDisable(GL_CLIP_DISTANCE0 + i);
 }
 }  // namespace
 
@@ -162,9 +128,9 @@ void Renderer::State::forParts(const Frame& f, std::vector<Part>& parts, const D
   glEnable(GL_SCISSOR_TEST);
   for (const Part& part : parts) {
     glScissor(part.from, 0, part.to - part.from, f.height);
-    cutAt(f.settings.section.has_value());
+    cutAtSection(f.settings.section.has_value());
     draw(viewOf(part, f));
-    cutAt(false);
+    cutAtSection(false);
   }
   glDisable(GL_SCISSOR_TEST);
 }
