@@ -216,11 +216,15 @@ TEST_F(RendererTest, MultipliesByTheTextureOfTheMaterial) {
   shape.cumulativeArea = {8, 16};
   b.scene->primitives[p.index()].shape = shape;
   b.light(p, true, Rgb(2), Rgb(2));
+  b.mesh.caustics[SolutionMesh::side(p, true)] =
+      causticOf(p, true, squareTexture(4, [](int, int) { return glm::vec4(6, 6, 6, 1); }));
   renderer->draw(frameOf(b.snapshot()), nullptr);
-  const float factor = 0.5f * 2 / static_cast<float>(kPi);
+  const Image L = renderer->radiance();
+  const auto at = [&](int x) { return L.at(x, x == 30 ? 24 : 4); };  // within the caustic texture, or above it
+  const auto factorAt = [](int x) { return 0.5f * (x == 30 ? 8 : 2) / static_cast<float>(kPi); };
   for (const int x : {3, 16, 30, 47, 60}) {
     const Rgb tint = b.scene->textures[0].sample({(x + 0.5) / 64, 0.5});
-    expectNear(renderer->radiance().at(x, 24), factor * tint, 4e-3);  // weights of 8 bits
+    expectNear(at(x), factorAt(x) * tint, 4e-3);  // weights of 8 bits
   }
 }
 
@@ -244,7 +248,7 @@ TEST_F(RendererTest, UploadsWhatHasChangedAndNothingElse) {
   b.mesh.caustics[SolutionMesh::side(p, true)] =
       causticOf(p, true, squareTexture(4, [](int, int) { return glm::vec4(2, 2, 2, 1); }), 3);
   f.mesh = b.snapshot();
-  EXPECT_EQ(renderer->draw(f, nullptr).uploadedBytes, 16 * 16 + 4 * 24 + 6 * 4u);
+  EXPECT_EQ(renderer->draw(f, nullptr).uploadedBytes, 16 * 16 + 4 * 32 + 6 * 4u);
   b.mesh.surfaces[SolutionMesh::side(q, true)] = nullptr;
   f.mesh = b.snapshot();
   renderer->draw(f, nullptr);
@@ -311,6 +315,42 @@ TEST_F(RendererTest, LooksThroughGlassAndTellsThePane) {
   EXPECT_EQ(renderer->surfaces()[24 * kWidth + 4], wall.value + 1);
   EXPECT_EQ(renderer->specularPixels()[24 * kWidth + 32], 1);
   EXPECT_EQ(renderer->specularPixels()[24 * kWidth + 4], 0);
+}
+
+TEST_F(RendererTest, ShowsWhatTheRenderCacheKnowsOfMirrorsAndOfNothingElse) {
+  Builder b;
+  Material mirror;
+  mirror.surface = Mirror{Rgb(0.9f)};
+  const PrimitiveId m = b.add(mirror, 0, 1), wall = b.add(matt(Rgb(0.5f)), -1, 6);
+  b.light(m, true, Rgb(0), Rgb(0));
+  b.light(wall, true, Rgb(2), Rgb(2));
+  Frame f = frameOf(b.snapshot());
+  // What a ray through a pixel has found.
+  const auto sampleAt = [&](int x, int y, PrimitiveId p, double z) {
+    const ViewRay ray = viewRay(f.camera, (x + 0.5) / kWidth, (y + 0.5) / kHeight);
+    PixelSample s;
+    s.radiance = Rgb(7, 5, 3);
+    s.position = s.apparent = Vec3f(ray.origin + (z - ray.origin.z) / ray.direction.z * ray.direction);
+    s.primitive = p, s.version = 1, s.eye = Vec3f(ray.origin);
+    return s;
+  };
+  RenderCache cache;
+  renderer->draw(f, &cache);  // it has room for so many samples as its frames have pixels
+  std::vector<PixelSample> samples;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const bool onMirror = x >= 16 && x < 48 && y >= 8 && y < 40;
+      samples.push_back(sampleAt(x, y, onMirror ? m : wall, onMirror ? 0 : -1));
+    }
+  cache.insert(samples);
+  const DrawReport report = renderer->draw(f, &cache);
+  EXPECT_EQ(report.cacheWanted, 32 * 32u);
+  EXPECT_GT(report.cacheHeld, 0u);
+  expectNear(renderer->radiance().at(32, 24), Rgb(7, 5, 3));
+  expectNear(renderer->radiance().at(4, 24), Rgb(1 / static_cast<float>(kPi)));
+  f.settings.cache = false;
+  renderer->draw(f, &cache);
+  expectNear(renderer->radiance().at(32, 24), Rgb(0));
 }
 
 TEST_F(RendererTest, ShowsThePictureOfTheSameViewByItsRays) {

@@ -43,6 +43,7 @@ std::uint64_t Background::update(const Scene& scene) {
 }
 
 void Background::draw(const Eye& eye, int width, int height) {
+  if (dark()) return;
   program_.use();
   const double w = eye.parallel ? 0 : eye.halfWidth, h = eye.parallel ? 0 : eye.halfHeight;
   const glm::vec3 corner(eye.forward - w * eye.right + h * eye.up);

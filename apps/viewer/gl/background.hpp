@@ -28,6 +28,8 @@ class Background {
     glm::vec3 radiance{0.0f};
   };
 
+  bool dark() const { return domes_.empty() && suns_.empty(); }
+
   std::vector<Dome> domes_;
   std::vector<Sun> suns_;
   Texture2D sky_;

@@ -15,7 +15,8 @@ class CausticStore {
     std::uint32_t side = 0, indices = 0;
     Texture2D texels;  // E, and 1 where it shows; nothing beyond its border
     Buffer vertices, triangles;
-    VertexArray array;  // attributes as in a mesh store, without irradiance
+    VertexArray array;   // attributes as in a mesh store, without irradiance; 4: coordinates in the material's texture
+    TextureId material;  // the side's texture
   };
 
   /// Returns the bytes that were uploaded. Snapshots must be of one SolutionReader.

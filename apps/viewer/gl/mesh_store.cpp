@@ -31,13 +31,13 @@ Extent extentOf(const SurfaceMesh& s) {
   for (const MeshVertex& v : s.vertices) e.offset = std::min(e.offset, glm::dot(normal, v.position));
   return e;
 }
+}  // namespace
 
 TextureId textureOf(const Scene& scene, PrimitiveId p) {
   const auto* opaque = std::get_if<Opaque>(&scene.materialOf(p).surface);
   const auto* mesh = std::get_if<Mesh>(&scene[p].shape);
   return opaque && mesh && !mesh->texcoords.empty() ? opaque->diffuseTexture : TextureId();
 }
-}  // namespace
 
 std::uint64_t MeshStore::update(std::shared_ptr<const SolutionMesh> now) {
   std::uint64_t uploaded = 0;

@@ -14,6 +14,9 @@
 
 namespace deltalux::viewer::gl {
 
+/// Texture that multiplies what a primitive reflects; invalid: none.
+TextureId textureOf(const Scene&, PrimitiveId);
+
 class MeshStore {
  public:
   struct Side {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "gl/background.hpp"
+#include "gl/draw_state.hpp"
 #include "gl/line_pass.hpp"
 #include "gl/screen_pass.hpp"
 #include "gl/surface_passes.hpp"
@@ -37,41 +38,6 @@ void requireVersion() {
 int wipeColumn(const Frame& f) {
   return f.other ? static_cast<int>(std::lround(std::clamp(f.wipe, 0.0, 1.0) * f.width)) : f.width;
 }
-
-/// What the renderer's passes take for granted; what others have set is put back.
-class DrawState {
- public:
-  DrawState() {
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer_);
-    glGetIntegerv(GL_VIEWPORT, viewport_);
-    glDisable(GL_BLEND);
-    glDisable(GL_SCISSOR_TEST);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LEQUAL);
-    glDepthMask(GL_TRUE);
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_BACK);
-    glFrontFace(GL_CW);  // rows run from the top (projection.hpp)
-  }
-  ~DrawState() {
-    for (const GLenum what : {GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_BLEND}) glDisable(what);
-    for (GLenum i = 0; i < 6; ++i) glDisable(GL_CLIP_DISTANCE0 + i);
-    glFrontFace(GL_CCW);
-    glBindVertexArray(0);
-    glUseProgram(0);
-    glActiveTexture(GL_TEXTURE0);
-    glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(framebuffer_));
-    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
-  }
-  GLuint framebuffer() const { return static_cast<GLuint>(framebuffer_); }
-
- private:
-  GLint framebuffer_ = 0, viewport_[4] = {};
-};
-
-void cutAt(bool section) {
-  for (GLenum i = 0; i < 6; ++i) section ? glEnable(GL_CLIP_DISTANCE0 + i) : glDisable(GL_CLIP_DISTANCE0 + i);
-}
 }  // namespace
 
 struct Renderer::State {
@@ -103,6 +69,7 @@ struct Renderer::State {
   void drawScene(const Frame&, std::vector<Part>&, DrawReport&);
   void askCache(const Frame&, RenderCache*, DrawReport&);
   void choosePicture(const Frame&, DrawReport&);
+  void outlineSelection(const Frame&, const std::vector<Part>&);
   void drawOverlays(const Frame&, std::vector<Part>&, DrawReport&);
   void show(GLuint framebuffer) const;
   const std::vector<std::uint32_t>& readPrimitives();
@@ -161,9 +128,9 @@ void Renderer::State::forParts(const Frame& f, std::vector<Part>& parts, const D
   glEnable(GL_SCISSOR_TEST);
   for (const Part& part : parts) {
     glScissor(part.from, 0, part.to - part.from, f.height);
-    cutAt(f.settings.section.has_value());
+    cutAtSection(f.settings.section.has_value());
     draw(viewOf(part, f));
-    cutAt(false);
+    cutAtSection(false);
   }
   glDisable(GL_SCISSOR_TEST);
 }
@@ -193,7 +160,7 @@ void Renderer::State::drawScene(const Frame& f, std::vector<Part>& parts, DrawRe
   background.draw(parts.front().eye, f.width, f.height);
   forParts(f, parts, [&](const SurfaceView& v) {
     passes.addOtherSides(v);
-    passes.addCaustics(v);
+    passes.addCaustics(v, report.uploadedBytes);
   });
   if (!anyPane) return;
   forParts(f, parts, [&](const SurfaceView& v) { passes.drawPanes(v, report.uploadedBytes); });
@@ -230,16 +197,38 @@ void Renderer::State::choosePicture(const Frame& f, DrawReport& report) {
     layers.dropPicture();
 }
 
+/// Looks at the pixels where the selection may be, and no others.
+void Renderer::State::outlineSelection(const Frame& f, const std::vector<Part>& parts) {
+  glm::vec2 lower(static_cast<float>(f.width), static_cast<float>(f.height)), upper(0.0f);
+  for (const Part& part : parts) {
+    const std::vector<MeshStore::Side>& sides = part.store->surfaces.sides();
+    const glm::mat4 clip(toClip(part.eye, part.list.depths));
+    for (const PrimitiveId p : f.selection)
+      for (const std::size_t i : {SolutionMesh::side(p, true), SolutionMesh::side(p, false)}) {
+        if (i >= sides.size() || sides[i].indices == 0) continue;
+        const Extent& e = sides[i].extent;
+        const ScreenBox box = screenBox(part.list.isAhead(i) ? moved(e, f.ahead->matrix) : e, clip, f.width, f.height);
+        lower = glm::min(lower, box.lower), upper = glm::max(upper, box.upper);
+      }
+  }
+  constexpr float kMargin = 3;  // pixels, of the outline
+  const glm::ivec2 from(glm::max(lower - kMargin, glm::vec2(0.0f))), to(upper + kMargin);
+  if (from.x >= to.x || from.y >= to.y) return;
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(from.x, from.y, to.x - from.x, to.y - from.y);
+  screen.outline(targets);
+  glDisable(GL_SCISSOR_TEST);
+}
+
 void Renderer::State::drawOverlays(const Frame& f, std::vector<Part>& parts, DrawReport& report) {
   glBindFramebuffer(GL_FRAMEBUFFER, targets.screen.name());
   const Overlays& overlays = f.settings.overlays;
   if (overlays.textureRegions || overlays.mesh)
     forParts(f, parts, [&](const SurfaceView& v) {
-      if (overlays.textureRegions) passes.tintCaustics(v);
+      if (overlays.textureRegions) passes.tintCaustics(v, report.uploadedBytes);
       if (overlays.mesh) report.uploadedBytes += lines.drawOutlines(v);
     });
-  if (!f.lines.empty())
-    report.uploadedBytes += lines.drawLines(viewOf(parts.front(), f), f.lines);
+  if (!f.lines.empty()) report.uploadedBytes += lines.drawLines(viewOf(parts.front(), f), f.lines);
 }
 
 void Renderer::State::show(GLuint framebuffer) const {
@@ -283,6 +272,7 @@ DrawReport Renderer::draw(const Frame& f, RenderCache* cache) {
   s.choosePicture(f, report);
   report.uploadedBytes += s.screen.select(f.selection, s.scene->primitives.size());
   report.uploadedBytes += s.screen.draw(s.targets, s.layers, f.settings, s.luminousEfficacy, s.wipe);
+  s.outlineSelection(f, parts);
   s.drawOverlays(f, parts, report);
   s.show(state.framebuffer());
   if (f.settings.overlays.statistics) glFinish();

@@ -1,8 +1,9 @@
 #pragma once
-// Draws frames with OpenGL 3.3 [GD01 6.1]: caustic textures first, depth writes off, then the smooth mesh, blended
-// additively, both times what the surface reflects; then the Render Cache's pixels where the first surface is a mirror,
-// gloss or glass, the picture that is made better at rest, tone mapping or false colour, outlines and lines. Uploads
-// what has changed since the snapshot before, and nothing else.
+// Draws frames with OpenGL 3.3 [GD01 6.1]: the smooth mesh, then caustic textures, depth writes off, blended
+// additively, both times what the surface reflects (surface_passes.hpp says why in this order); what stands behind
+// glass, times what the glass passes; then the Render Cache's pixels where the first surface is a mirror, gloss or
+// glass, the picture that is made better at rest, tone mapping or false colour, outlines and lines. Uploads what has
+// changed since the snapshot before, and nothing else.
 #include <memory>
 
 #include "drawing.hpp"
@@ -17,7 +18,8 @@ class Renderer {
   ~Renderer();
 
   /// Draws into the framebuffer that is bound, at the viewport's place (0, 0, width, height). `cache`: projected and
-  /// filled by the way, null for none.
+  /// filled by the way, null for none. Waits for GL to finish only where statistics are shown: otherwise
+  /// `milliseconds` are those of giving the commands. Without a mesh nothing is drawn.
   DrawReport draw(const Frame&, RenderCache* cache);
   /// Pixels of the frame drawn last, without what panels draw over it.
   DisplayImage screenshot() const;

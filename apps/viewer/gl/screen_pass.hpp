@@ -1,5 +1,7 @@
 #pragma once
 // From light to the screen: layers, tone mapping or false colour, the outline of what is selected.
+#include <map>
+
 #include "drawing.hpp"
 #include "gl/layers.hpp"
 #include "gl/targets.hpp"
@@ -15,11 +17,13 @@ class ScreenPass {
   std::vector<glm::vec4> readRadiance(Targets&, Layers&, int wipe);
   /// What is outlined from now on. Returns the bytes uploaded.
   std::uint64_t select(const std::vector<PrimitiveId>&, std::size_t primitives);
+  /// Into targets.screen, within the scissor.
+  void outline(Targets&);
 
  private:
-  void bindLayers(const Program&, Targets&, Layers&, int wipe);
+  const Program& use(const std::string& parts, Targets&, Layers&, int wipe);
 
-  Program show_, compose_;
+  std::map<std::string, Program> programs_;  // by the names of their parts
   VertexArray none_;
   Texture2D ramp_, levels_, composed_;
   std::vector<float> levelValues_;

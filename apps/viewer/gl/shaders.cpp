@@ -29,6 +29,10 @@ out vec3 E;
 #endif
 #ifdef CAUSTIC
 flat out vec3 factor;
+#ifdef TEXTURED
+layout(location = 4) in vec2 materialTexcoord;
+out vec2 materialUv;
+#endif
 #else
 out vec3 radiance;
 #endif
@@ -71,6 +75,9 @@ void main() {
 #endif
 #ifdef CAUSTIC
   factor = reflects;
+#ifdef TEXTURED
+  materialUv = materialTexcoord;
+#endif
 #elif defined(TEXTURED) || defined(OTHER_SIDE)
   radiance = reflects * irradiance;
 #else
@@ -92,6 +99,10 @@ out vec4 irradianceOut;
 #endif
 #ifdef CAUSTIC
 flat in vec3 factor;
+#ifdef TEXTURED
+in vec2 materialUv;
+uniform sampler2D tint;  // the material's texture
+#endif
 #else
 in vec3 radiance;
 #endif
@@ -120,6 +131,9 @@ void main() {
 #else
   vec3 found = texture(image, uv).rgb;
   colour = vec4(factor * found, 0.0);
+#ifdef TEXTURED
+  colour.rgb *= texture(tint, materialUv).rgb;
+#endif
 #ifdef ILLUMINANCE
   irradianceOut = vec4(found, 0.0);
 #endif
@@ -177,70 +191,71 @@ void main() {
 const char* const kScreenFragment = R"glsl(
 uniform sampler2D radiance;
 uniform usampler2D primitives;  // value + 1 of what is seen first
+#ifdef CACHE
 uniform sampler2D cache;        // radiance, and how well it is known
+#endif
+#ifdef PICTURE
 uniform sampler2D picture;      // radiance, and its weight
-uniform int useCache, usePicture;
+#endif
 uniform int wipe;               // columns from here on show another snapshot, without these layers
 out vec4 colour;
 
 vec3 composed(ivec2 p) {
   vec3 L = texelFetch(radiance, p, 0).rgb;
-  if (p.x >= wipe) return L;
-  if (useCache != 0) {
-    vec4 found = texelFetch(cache, p, 0);
-    L = mix(L, found.rgb, found.a);
-  }
-  if (usePicture != 0) {
-    vec4 found = texelFetch(picture, p, 0);
-    L = mix(L, found.rgb, found.a);
-  }
+  float layers = p.x < wipe ? 1.0 : 0.0;
+#ifdef CACHE
+  vec4 known = texelFetch(cache, p, 0);
+  L = mix(L, known.rgb, known.a * layers);
+#endif
+#ifdef PICTURE
+  vec4 better = texelFetch(picture, p, 0);
+  L = mix(L, better.rgb, better.a * layers);
+#endif
   return L;
 }
 
-#ifdef RADIANCE
-void main() { colour = vec4(composed(ivec2(gl_FragCoord.xy)), 1.0); }
-#else
-uniform sampler2D irradiance;   // E, and 1 where there is a surface
-uniform int quantity;           // 0: the picture; 1: illuminance; 2: luminance
+const vec3 weights = vec3(0.265, 0.670, 0.065);
+bool finite(vec3 c) { return !any(isnan(c)) && !any(isinf(c)); }
+
+#ifdef TONE
 uniform float exposure;
-uniform int reinhard;
+
+// As toneMap() of the library has it [Reinhard02 (4)].
+vec3 shown(vec3 L) {
+  vec3 c = exposure * max(L, 0.0);
+  float Y = dot(c, weights);
+#ifdef REINHARD
+  float compressed = Y * (1.0 + Y / 16.0) / (1.0 + Y);
+#else
+  float compressed = Y;
+#endif
+  c *= compressed / Y;
+  float brightest = max(max(c.r, c.g), c.b);
+  if (brightest > 1.0) c = mix(vec3(compressed), c, (1.0 - compressed) / (brightest - compressed));
+  if (compressed >= 1.0) c = vec3(1.0);
+  vec3 curved = 1.055 * pow(max(c, 1e-6), vec3(1.0 / 2.4)) - 0.055;
+  return finite(L) && Y > 0.0 ? mix(curved, 12.92 * c, lessThanEqual(c, vec3(0.0031308))) : vec3(0.0);
+}
+#endif
+
+#if defined(ILLUMINANCE) || defined(LUMINANCE)
+uniform sampler2D irradiance;   // E, and 1 where there is a surface
 uniform float efficacy;         // lm/W
 uniform float top, decades;     // of the scale
 uniform int scale;              // 0: linear; 1: logarithmic; 2: bands
 uniform sampler2D levels;       // values of the bands, or where isolines run
 uniform int levelCount, isolines;
 uniform sampler2D ramp;
-uniform int outline;            // whether anything is selected
-uniform samplerBuffer selected; // by primitive
-const vec3 weights = vec3(0.265, 0.670, 0.065);
-
-bool finite(vec3 c) { return !any(isnan(c)) && !any(isinf(c)); }
-
-// As toneMap() of the library has it [Reinhard02 (4)].
-vec3 shown(vec3 L) {
-  if (!finite(L)) return vec3(0.0);
-  vec3 c = exposure * max(L, 0.0);
-  float Y = dot(c, weights);
-  if (!(Y > 0.0)) return vec3(0.0);
-  float compressed = reinhard != 0 ? Y * (1.0 + Y / 16.0) / (1.0 + Y) : Y;
-  c *= compressed / Y;
-  float brightest = max(max(c.r, c.g), c.b);
-  if (compressed >= 1.0)
-    c = vec3(1.0);
-  else if (brightest > 1.0)
-    c = mix(vec3(compressed), c, (1.0 - compressed) / (brightest - compressed));
-  vec3 curved = 1.055 * pow(max(c, 1e-6), vec3(1.0 / 2.4)) - 0.055;
-  return mix(curved, 12.92 * c, lessThanEqual(c, vec3(0.0031308)));
-}
 
 // Below 0: nothing to tell.
 float value(ivec2 p) {
-  if (quantity == 2) {
-    vec3 L = composed(p);
-    return finite(L) ? efficacy * dot(max(L, 0.0), weights) : -1.0;
-  }
+#ifdef LUMINANCE
+  vec3 L = composed(p);
+  return finite(L) ? efficacy * dot(max(L, 0.0), weights) : -1.0;
+#else
   vec4 E = texelFetch(irradiance, p, 0);
   return E.a > 0.5 && finite(E.rgb) ? efficacy * dot(max(E.rgb, 0.0), weights) : -1.0;
+#endif
 }
 
 int levelOf(float v) {
@@ -272,28 +287,35 @@ vec3 falseColour(ivec2 p) {
   }
   return c;
 }
+#endif
 
-bool isSelected(ivec2 p) {
+#ifdef OUTLINE
+uniform samplerBuffer selected;  // by primitive, from 1
+
+float selectedAt(ivec2 p) {
   uint here = texelFetch(primitives, clamp(p, ivec2(0), textureSize(primitives, 0) - 1), 0).r;
-  return here != 0u && texelFetch(selected, int(here) - 1).r > 0.5;
+  return texelFetch(selected, int(here)).r;
 }
-
-// Within two pixels of what is selected, and no part of it.
-bool onOutline(ivec2 p) {
-  if (isSelected(p)) return false;
-  for (int y = -2; y <= 2; ++y)
-    for (int x = -2; x <= 2; ++x)
-      if (x * x + y * y <= 5 && isSelected(p + ivec2(x, y))) return true;
-  return false;
-}
+#endif
 
 void main() {
   ivec2 p = ivec2(gl_FragCoord.xy);
-  vec3 c = quantity == 0 ? shown(composed(p)) : falseColour(p);
-  if (outline != 0 && onOutline(p)) c = vec3(1.0, 0.55, 0.1);
-  colour = vec4(c, 1.0);
-}
+#if defined(OUTLINE)
+  // Within two pixels of what is selected, and no part of it.
+  float near = 0.0;
+  for (int i = -1; i <= 1; i += 2)
+    near += selectedAt(p + ivec2(i, 0)) + selectedAt(p + ivec2(0, i)) + selectedAt(p + ivec2(2 * i, 0)) +
+            selectedAt(p + ivec2(0, 2 * i)) + selectedAt(p + ivec2(i, i)) + selectedAt(p + ivec2(i, -i));
+  if (near < 0.5 || selectedAt(p) > 0.5) discard;
+  colour = vec4(1.0, 0.55, 0.1, 1.0);
+#elif defined(TONE)
+  colour = vec4(shown(composed(p)), 1.0);
+#elif defined(ILLUMINANCE) || defined(LUMINANCE)
+  colour = vec4(falseColour(p), 1.0);
+#else
+  colour = vec4(composed(p), 1.0);
 #endif
+}
 )glsl";
 
 const char* const kLineVertex = R"glsl(

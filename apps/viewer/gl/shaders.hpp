@@ -14,7 +14,9 @@ extern const char* const kSurfaceFragment;
 extern const char* const kScreenVertex;
 /// Sky, ground and suns.
 extern const char* const kBackgroundFragment;
-/// From radiance or irradiance to the screen. RADIANCE: stops after the layers, before tone mapping.
+/// From light to the screen: TONE (with REINHARD or linear), or false colour of ILLUMINANCE or LUMINANCE, or OUTLINE,
+/// of what is selected; with none of them radiance. CACHE, PICTURE: these layers are there. Each is compiled apart:
+/// software OpenGL computes both ways of a branch.
 extern const char* const kScreenFragment;
 
 /// Lines, with the thickness of one pixel.

@@ -14,7 +14,7 @@ enum Part : unsigned {
   kPane = 32,
   kFlatColour = 64,
 };
-constexpr int kSidesUnit = 0, kImageUnit = 1, kPassesUnit = 2;
+constexpr int kSidesUnit = 0, kImageUnit = 1, kPassesUnit = 2, kTintUnit = 3;
 
 Program surfaceProgram(unsigned parts) {
   static constexpr std::pair<Part, const char*> names[] = {
@@ -77,6 +77,7 @@ const Program& SurfacePasses::use(unsigned parts, const SurfaceView& v, bool ahe
   glUniform1i(program.at("sides"), kSidesUnit);
   glUniform1i(program.at("image"), kImageUnit);
   glUniform1i(program.at("passes"), kPassesUnit);
+  glUniform1i(program.at("tint"), kTintUnit);
   bindTexture(kPassesUnit, GL_TEXTURE_2D, v.mesh.paneTable());
   bindTexture(kSidesUnit, GL_TEXTURE_BUFFER, v.mesh.sideTable());
   return program;
@@ -109,14 +110,20 @@ void SurfacePasses::addOtherSides(const SurfaceView& v) {
   blendNoMore();
 }
 
-void SurfacePasses::drawCaustic(CausticStore::Shown& shown, unsigned parts, const SurfaceView& v) {
+void SurfacePasses::drawCaustic(CausticStore::Shown& shown, unsigned parts, const SurfaceView& v,
+                                std::uint64_t& uploaded) {
+  const bool textured = shown.material.valid() && !(parts & (kOtherSide | kFlatColour));
+  if (textured) {
+    parts |= kTextured;
+    bindTexture(kTintUnit, GL_TEXTURE_2D, textures_.texture(*v.mesh.mesh()->scene, shown.material, uploaded));
+  }
   use(parts | kCaustic, v, v.list.isAhead(shown.side));
   bindTexture(kImageUnit, GL_TEXTURE_2D, shown.texels.name());
   glBindVertexArray(shown.array.name());
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(shown.indices), GL_UNSIGNED_INT, nullptr);
 }
 
-void SurfacePasses::addCaustics(const SurfaceView& v) {
+void SurfacePasses::addCaustics(const SurfaceView& v, std::uint64_t& uploaded) {
   const NearerBySome nearer;
   addTo(v, true);
   const Visibility visibility(v.eye, v.section);
@@ -124,12 +131,12 @@ void SurfacePasses::addCaustics(const SurfaceView& v) {
     return v.list.isAhead(shown.side) || visibility.sees(shown.extent);
   };
   v.caustics.forEach([&](CausticStore::Shown& shown) {
-    if (seen(shown)) drawCaustic(shown, v.illuminance ? kIlluminance : 0u, v);
+    if (seen(shown)) drawCaustic(shown, v.illuminance ? kIlluminance : 0u, v, uploaded);
   });
   addTo(v, false);
   glCullFace(GL_FRONT);
   v.caustics.forEach([&](CausticStore::Shown& shown) {
-    if (v.mesh.sides()[shown.side ^ 1].passesOther && seen(shown)) drawCaustic(shown, kOtherSide, v);
+    if (v.mesh.sides()[shown.side ^ 1].passesOther && seen(shown)) drawCaustic(shown, kOtherSide, v, uploaded);
   });
   glCullFace(GL_BACK);
   blendNoMore();
@@ -162,7 +169,7 @@ void SurfacePasses::drawPanePrimitives(const SurfaceView& v) {
   }
 }
 
-void SurfacePasses::tintCaustics(const SurfaceView& v) {
+void SurfacePasses::tintCaustics(const SurfaceView& v, std::uint64_t& uploaded) {
   const NearerBySome nearer;
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
@@ -174,7 +181,7 @@ void SurfacePasses::tintCaustics(const SurfaceView& v) {
         glm::clamp(glm::abs(glm::fract(hue + glm::vec3(0, 2, 1) / 3.0f) * 6.0f - 3.0f) - 1.0f, 0.0f, 1.0f);
     const Program& program = use(kCaustic | kFlatColour, v, v.list.isAhead(shown.side));
     glUniform4f(program.at("flatColour"), c.r, c.g, c.b, 0.35f);
-    drawCaustic(shown, kFlatColour, v);
+    drawCaustic(shown, kFlatColour, v, uploaded);
   });
   blendNoMore();
 }

@@ -38,17 +38,17 @@ class SurfacePasses {
   /// Adds to colour 0 what passes diffusely from the other sides.
   void addOtherSides(const SurfaceView&);
   /// Adds to colours 0 and 2.
-  void addCaustics(const SurfaceView&);
+  void addCaustics(const SurfaceView&, std::uint64_t& uploaded);
   /// Colour 0 times what passes, plus the panes' own light.
   void drawPanes(const SurfaceView&, std::uint64_t& uploaded);
   /// Primitives into colour 1, depths.
   void drawPanePrimitives(const SurfaceView&);
   /// Where caustic textures show, each in a colour, over colour 0.
-  void tintCaustics(const SurfaceView&);
+  void tintCaustics(const SurfaceView&, std::uint64_t& uploaded);
 
  private:
   const Program& use(unsigned parts, const SurfaceView&, bool ahead);
-  void drawCaustic(CausticStore::Shown&, unsigned parts, const SurfaceView&);
+  void drawCaustic(CausticStore::Shown&, unsigned parts, const SurfaceView&, std::uint64_t& uploaded);
 
   std::map<unsigned, Program> programs_;  // by the parts that they are made of
   TextureStore textures_;

@@ -25,6 +25,19 @@ Extent moved(const Extent& e, const glm::mat4& m) {
   return result;
 }
 
+ScreenBox screenBox(const Extent& e, const glm::mat4& toClip, int width, int height) {
+  const glm::vec2 size(width, height);
+  ScreenBox box{size, glm::vec2(0.0f)};
+  bool behind = false;
+  forCorners(e, [&](const glm::vec3& p) {
+    const glm::vec4 q = toClip * glm::vec4(p, 1.0f);
+    behind = behind || !(q.w > 0);
+    const glm::vec2 pixel = glm::clamp((glm::vec2(q) / q.w * 0.5f + 0.5f) * size, glm::vec2(0.0f), size);
+    box.lower = glm::min(box.lower, pixel), box.upper = glm::max(box.upper, pixel);
+  });
+  return behind ? ScreenBox{glm::vec2(0.0f), size} : box;
+}
+
 Visibility::Visibility(const Eye& eye, const std::optional<Box>& section)
     : eye_(eye), section_(section), nearest_(kInfinity) {
   const glm::dmat4 rows = glm::transpose(toClip(eye, {1, 2}));  // its sides do not depend on the depths

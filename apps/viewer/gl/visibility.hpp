@@ -20,6 +20,12 @@ struct Extent {
 /// The box of one that a matrix moves; flat no more.
 Extent moved(const Extent&, const glm::mat4&);
 
+/// The pixels among which a box appears; all of them where it reaches behind the eye.
+struct ScreenBox {
+  glm::vec2 lower{0.0f}, upper{0.0f};
+};
+ScreenBox screenBox(const Extent&, const glm::mat4& toClip, int width, int height);
+
 class Visibility {
  public:
   Visibility(const Eye&, const std::optional<Box>& section);
