@@ -18,7 +18,7 @@ namespace deltalux {
 struct MeshVertex {
   Vec3f position{0.0f};  // scene units, relative to Scene::origin
   Vec3f normal{0.0f};    // unit, out of the side that it is of; smooth over curved shapes
-  glm::vec2 uv{0.0f};    // texture coordinates of meshes that have them; parameters of the shape otherwise (shape.hpp)
+  glm::vec2 uv{0.0f};    // texture coordinates of meshes (0: it has none); parameters of other shapes (shape.hpp)
   Rgb direct{0.0f}, indirect{0.0f}, particle{0.0f};  // E [W/m2]; particle is 0 where caustic textures show it
 };
 
@@ -60,9 +60,10 @@ struct SurfaceCausticMesh {
 struct SolutionMesh {
   std::uint64_t version = 0;  // 0: nothing yet
   std::shared_ptr<const Scene> scene;
-  /// By 2 * primitive + (front ? 0 : 1); null where a side has no extent, or nobody can see it.
+  /// By 2 * primitive + (front ? 0 : 1); null where a side has no extent. One that was there and is gone is empty.
   std::vector<std::shared_ptr<const SurfaceMesh>> surfaces;
-  std::vector<std::shared_ptr<const SurfaceCausticMesh>> caustics;  // the same order; null: the mesh shows all light
+  /// The same order; null, or without textures: the mesh shows all light.
+  std::vector<std::shared_ptr<const SurfaceCausticMesh>> caustics;
 
   static std::size_t side(PrimitiveId p, bool front) { return 2 * p.index() + (front ? 0 : 1); }
 };

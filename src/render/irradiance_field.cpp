@@ -56,6 +56,8 @@ IrradianceField::IrradianceField(const hierarchy::Elements& elements, const Scen
   const std::vector<LeafIrradiance> whole = quiet(mended(filled(values)), noise);
   fit(direct_, &LeafIrradiance::direct, whole);
   fit(indirect_, &LeafIrradiance::indirect, whole);
+  if (std::any_of(whole.begin(), whole.end(), [](const LeafIrradiance& v) { return !isBlack(v.particle); }))
+    fit(particle_, &LeafIrradiance::particle, whole);
 }
 
 void IrradianceField::findNeighbours(const std::vector<LeafIrradiance>& values) {
@@ -140,16 +142,17 @@ std::vector<LeafIrradiance> IrradianceField::filled(const std::vector<LeafIrradi
   std::vector<LeafIrradiance> result = values;
   parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
     if (!isLittleExposed(elements_, sites_[i].leaf)) return;
-    RgbSum direct(0.0), indirect(0.0);
+    RgbSum direct(0.0), indirect(0.0), particle(0.0);
     double area = 0;
     for (std::uint32_t k = begin_[i]; k < begin_[i + 1]; ++k) {
       const hierarchy::ElementId leaf = sites_[neighbours_[k]].leaf;
       if (isLittleExposed(elements_, leaf)) continue;
       const double lit = elements_.shape(leaf).litArea();
       direct += lit * RgbSum(values[leaf.index()].direct), indirect += lit * RgbSum(values[leaf.index()].indirect);
+      particle += lit * RgbSum(values[leaf.index()].particle);
       area += lit;
     }
-    if (area > 0) result[sites_[i].leaf.index()] = {Rgb(direct / area), Rgb(indirect / area)};
+    if (area > 0) result[sites_[i].leaf.index()] = {Rgb(direct / area), Rgb(indirect / area), 0, Rgb(particle / area)};
   });
   return result;
 }
@@ -163,12 +166,14 @@ std::vector<LeafIrradiance> IrradianceField::mended(const std::vector<LeafIrradi
     for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
       const LeafIrradiance& other = values[sites_[neighbours_[k]].leaf.index()];
       most.direct = glm::max(most.direct, other.direct), most.indirect = glm::max(most.indirect, other.indirect);
+      most.particle = glm::max(most.particle, other.particle);
     }
     const float share = exposed(leaf);
     // What is hidden is taken to be dark, as far as the neighbours in sight bear that out.
     const auto mend = [&](const Rgb& E, const Rgb& limit) { return glm::max(E, glm::min(E / share, limit)); };
     LeafIrradiance& own = result[leaf.index()];
     own.direct = mend(own.direct, most.direct), own.indirect = mend(own.indirect, most.indirect);
+    own.particle = mend(own.particle, most.particle);
   });
   return result;
 }
@@ -198,7 +203,7 @@ std::vector<LeafIrradiance> IrradianceField::quiet(const std::vector<LeafIrradia
       const LeafIrradiance& own = before[leaf.index()];
       const float total = gray(own.direct + own.indirect), asked = noise * total;
       if (!(total > 0)) return;
-      RgbSum sum(0.0);
+      RgbSum sum(0.0), particle(0.0);
       double weights = 0;
       for (std::uint32_t k = begin_[i]; k < torn_[i]; ++k) {
         const Site& other = sites_[neighbours_[k]];
@@ -206,9 +211,10 @@ std::vector<LeafIrradiance> IrradianceField::quiet(const std::vector<LeafIrradia
         const float both = std::sqrt(0.5f * (own.noise * own.noise + value.noise * value.noise));
         const float apart = maxChannel(glm::abs(value.indirect - own.indirect)) / std::max(asked, both);
         const double w = std::exp(-0.5 * apart * apart) / other.fineness;
-        sum += w * RgbSum(value.indirect), weights += w;
+        sum += w * RgbSum(value.indirect), particle += w * RgbSum(value.particle), weights += w;
       }
       result[leaf.index()].indirect = Rgb(sum / weights);
+      result[leaf.index()].particle = Rgb(particle / weights);
     });
   }
   return result;
@@ -260,7 +266,8 @@ void IrradianceField::fit(std::vector<Linear>& result, Rgb LeafIrradiance::*quan
   });
 }
 
-Rgb IrradianceField::blend(const std::vector<Linear>& linears, const hierarchy::LeafPoint& at, const Vec3f& p) const {
+template <class Visit>
+float IrradianceField::forEachWeight(const hierarchy::LeafPoint& at, const Vec3f& p, const Visit& visit) const {
   const std::uint32_t home = siteOf_[at.leaf.index()];
   SupportPoint point;
   point.position = p;
@@ -269,19 +276,46 @@ Rgb IrradianceField::blend(const std::vector<Linear>& linears, const hierarchy::
     point.radius = relativeRadius(scene_[elements_.domain[at.leaf.index()].primitive].shape, at.uv.y);
   }
   const bool cut = torn(at.leaf);
-  Rgb sum(0.0f);
   float weights = 0;
   for (std::uint32_t k = begin_[home]; k < begin_[home + 1]; ++k) {
     const std::uint32_t i = neighbours_[k];
     const Site& site = sites_[i];
     const float w = site.fineness * site.support.weight(point);
     if (w <= 0.0f || (cut && !inSight(p, at.leaf, site.leaf))) continue;
-    const Linear& l = linears[i];
-    const Vec3f d = p - site.center;
-    sum += w * glm::clamp(l.value + d.x * l.slope[0] + d.y * l.slope[1] + d.z * l.slope[2], l.low, l.high);
+    visit(i, w);
     weights += w;
   }
-  return weights > 0.0f ? sum / weights : linears[home].value;
+  return weights;
+}
+
+Rgb IrradianceField::at(const Linear& l, const Site& site, const Vec3f& p) const {
+  const Vec3f d = p - site.center;
+  return glm::clamp(l.value + d.x * l.slope[0] + d.y * l.slope[1] + d.z * l.slope[2], l.low, l.high);
+}
+
+Rgb IrradianceField::blend(const std::vector<Linear>& linears, const hierarchy::LeafPoint& at, const Vec3f& p) const {
+  Rgb sum(0.0f);
+  const float weights =
+      forEachWeight(at, p, [&](std::uint32_t i, float w) { sum += w * IrradianceField::at(linears[i], sites_[i], p); });
+  return weights > 0.0f ? sum / weights : linears[siteOf_[at.leaf.index()]].value;
+}
+
+PointIrradiance IrradianceField::all(const hierarchy::LeafPoint& point, const Vec3f& p) const {
+  PointIrradiance E;
+  const bool particles = !particle_.empty();
+  const float weights = forEachWeight(point, p, [&](std::uint32_t i, float w) {
+    E.direct += w * at(direct_[i], sites_[i], p), E.indirect += w * at(indirect_[i], sites_[i], p);
+    if (particles) E.particle += w * at(particle_[i], sites_[i], p);
+  });
+  if (weights > 0.0f) {
+    E = {E.direct / weights, E.indirect / weights, E.particle / weights};
+  } else {
+    const std::uint32_t home = siteOf_[point.leaf.index()];
+    E = {direct_[home].value, indirect_[home].value, particles ? particle_[home].value : Rgb(0.0f)};
+  }
+  E.particle = glm::min(E.particle, E.indirect);
+  E.indirect -= E.particle;
+  return E;
 }
 
 }  // namespace deltalux::rendering

@@ -29,6 +29,11 @@
 
 namespace deltalux::rendering {
 
+/// Irradiance at a point, by where it came from [W/m2].
+struct PointIrradiance {
+  Rgb direct{0.0f}, indirect{0.0f}, particle{0.0f};
+};
+
 class IrradianceField {
  public:
   /// `values` by element; those of receiving leaves are used. `noise`: of their indirect light, relative to all light.
@@ -39,6 +44,8 @@ class IrradianceField {
   /// At the surface point `p`, which `at` locates [W/m2].
   Rgb direct(const hierarchy::LeafPoint& at, const Vec3f& p) const { return blend(direct_, at, p); }
   Rgb indirect(const hierarchy::LeafPoint& at, const Vec3f& p) const { return blend(indirect_, at, p); }
+  /// All at once, and what particles brought apart from the rest of indirect light.
+  PointIrradiance all(const hierarchy::LeafPoint& at, const Vec3f& p) const;
   /// Whether something stands on or cuts through the leaf, or between it and its neighbours.
   bool torn(hierarchy::ElementId leaf) const {
     const std::uint32_t i = siteOf_[leaf.index()];
@@ -97,6 +104,10 @@ class IrradianceField {
   template <class Visit>
   void forEachCorner(hierarchy::ElementId leaf, const Visit&) const;
   void fit(std::vector<Linear>&, Rgb LeafIrradiance::*quantity, const std::vector<LeafIrradiance>&) const;
+  /// visit(site, weight) for all that take part at a point; the sum of the weights.
+  template <class Visit>
+  float forEachWeight(const hierarchy::LeafPoint&, const Vec3f& p, const Visit&) const;
+  Rgb at(const Linear&, const Site&, const Vec3f& p) const;
   Rgb blend(const std::vector<Linear>&, const hierarchy::LeafPoint&, const Vec3f& p) const;
 
   const hierarchy::Elements& elements_;
@@ -108,6 +119,7 @@ class IrradianceField {
   // in between.
   std::vector<std::uint32_t> begin_, torn_, neighbours_;
   std::vector<Linear> direct_, indirect_;
+  std::vector<Linear> particle_;  // of indirect_; empty: none anywhere
 };
 
 }  // namespace deltalux::rendering

@@ -32,7 +32,7 @@ std::vector<LeafIrradiance> meshIrradiance(const hierarchy::Elements& elements, 
     const hierarchy::ElementLight& l = elements.radiometry[i];
     const bool textured = elements.isPatch(hierarchy::ElementId(i)) && elements.domain[i].primitive.valid() &&
                           caustics.of(elements.domain[i].primitive, elements.topology[i].front) != nullptr;
-    values[i] = {l.direct, textured ? l.indirect : l.indirect + l.particle};
+    values[i] = {l.direct, textured ? l.indirect : l.indirect + l.particle, 0, textured ? Rgb(0.0f) : l.particle};
   }
   const std::span<const radiosity::LeafRow> rows = transfers.rows();
   parallelFor(rows.size(), kLeafBlock,

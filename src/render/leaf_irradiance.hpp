@@ -10,6 +10,7 @@ struct LeafIrradiance {
   Rgb direct{0.0f};    // from emitters [W/m2]
   Rgb indirect{0.0f};  // from other surfaces, particles included [W/m2]
   float noise = 0;     // standard deviation of indirect, gray: that of the rays of its row [W/m2]
+  Rgb particle{0.0f};  // of indirect, what particles brought [W/m2]
 };
 
 /// What push-pull left at every element; without the particles' light where caustic textures show that.

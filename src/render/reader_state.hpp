@@ -4,10 +4,13 @@
 #include <deltalux/solution_mesh.hpp>
 #include <deltalux/solution_reader.hpp>
 #include <memory>
+#include <mutex>
 
 #include "render/eye_path.hpp"
+#include "render/light_meter.hpp"
 #include "render/reconstruction.hpp"
 #include "render/sample_changes.hpp"
+#include "render/solution_mesh/mesher.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::rendering {
@@ -18,7 +21,10 @@ struct ReaderState {
   SolutionView view;
   std::uint64_t version = 0;
   std::unique_ptr<Reconstruction> reconstruction;  // of the last refresh
-  SolutionMesh snapshot;                           // the one that was asked for last
+  SolutionMesher mesher;
+  SolutionMesh snapshot;  // the one that was asked for last
+  std::mutex meterMaking;
+  std::unique_ptr<const LightMeter> meter;  // made when first asked for
   std::shared_ptr<const SampleChanges> changes;
   NotedSolution noted;  // what `changes` are differences from
 

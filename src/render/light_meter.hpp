@@ -1,0 +1,62 @@
+#pragma once
+// Measures irradiance at points of surfaces and in free space: direct light by shadow rays until its error is small,
+// indirect light over the links of the patch, particles from their textures or impacts; in free space by rays that read
+// what they see.
+#include <deltalux/render.hpp>
+#include <memory>
+#include <mutex>
+
+#include "radiosity/indirect_sampler.hpp"
+#include "render/eye_path.hpp"
+#include "render/particle_field.hpp"
+
+namespace deltalux::rendering {
+
+/// A point of a surface side.
+struct SurfaceSpot {
+  PrimitiveId primitive;
+  std::uint32_t triangle = 0;
+  bool front = true;
+  Vec3 position, normal;
+};
+
+class LightMeter {
+ public:
+  /// Both must outlive this.
+  LightMeter(const Solution&, const Reconstruction&);
+
+  /// `key` names the random numbers.
+  ProbeResult measure(const ProbePoint&, const ProbeSettings&, std::uint64_t key) const;
+  /// The nearest surface that faces the point's normal, where the point lies on one.
+  std::optional<SurfaceSpot> surfaceAt(const ProbePoint&) const;
+  /// What particles bring there [W/m2].
+  Rgb particleLight(const SurfaceSpot&) const;
+
+ private:
+  double reachAt(const Vec3&) const;
+  ProbeResult onSurface(const SurfaceSpot&, const ProbeSettings&, std::uint64_t key) const;
+  ProbeResult inFreeSpace(const ProbePoint&, const ProbeSettings&, std::uint64_t key) const;
+  ProbeResult gather(const radiosity::Receiver&, const ProbeSettings&, std::uint64_t key) const;
+  Rgb indirectAt(const hierarchy::LeafPoint&, const SurfaceSpot&, double error) const;
+  /// Made when first asked for.
+  const ParticleField& particles() const;
+
+  const Solution& solution_;
+  const Scene& scene_;
+  const hierarchy::Elements& elements_;
+  const caustics::Caustics& caustics_;
+  const tracing::RayTracer& tracer_;
+  const Reconstruction& reconstruction_;
+  EyePaths paths_;
+  radiosity::IndirectSampler sampler_;
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const ParticleField> particles_;
+};
+
+/// Rays over the links of a surface point, for indirect light of that relative error.
+int gatherRays(double error);
+
+/// As deltalux::probe().
+std::vector<ProbeResult> measureAll(const LightMeter&, std::span<const ProbePoint>, const ProbeSettings&, Progress*);
+
+}  // namespace deltalux::rendering

@@ -1,0 +1,128 @@
+#include "render/solution_mesh/side_light.hpp"
+
+#include <algorithm>
+
+#include "base/parallel.hpp"
+#include "scene/light_sampling.hpp"
+
+namespace deltalux::rendering {
+
+namespace {
+
+constexpr std::size_t kReadBlock = 256;
+constexpr float kInside = 0.02f;  // of the way to a torn leaf's middle
+constexpr std::uint32_t kNowhere = 0xffffffffu;
+
+/// Where a vertex reads the field; no leaf: it is dark.
+struct ReadingPlace {
+  hierarchy::ElementId leaf;
+  Vec3f position;
+};
+
+/// Lays out the vertices of a side.
+class SideLayout {
+ public:
+  SideLayout(const SideShape& shape, const Reconstruction& reconstruction, SurfaceMesh& to)
+      : shape_(shape), reconstruction_(reconstruction), to_(to) {
+    to_.triangles.reserve(shape.triangles.size()), to_.outlines.reserve(shape.outlines.size());
+    to_.vertices.reserve(shape.points.size()), places_.reserve(shape.points.size());
+    lit_.assign(shape.points.size(), kNowhere);
+  }
+
+  /// Where to read the light of each vertex.
+  std::vector<ReadingPlace> layOut() {
+    for (const SideShape::Part& part : shape_.parts) {
+      if (!part.leaf.valid()) {
+        if (dark_.empty()) dark_.assign(shape_.points.size(), kNowhere);
+        add(part, dark_);
+      } else if (!reconstruction_.field.torn(part.leaf)) {
+        add(part, lit_);
+      } else {
+        if (own_.empty()) own_.assign(shape_.points.size(), kNowhere);
+        const std::size_t first = to_.vertices.size();
+        add(part, own_);
+        pullInside(part.leaf, first);
+        for (std::uint32_t i = part.triangles; i < part.trianglesEnd; ++i) own_[shape_.triangles[i]] = kNowhere;
+        for (std::uint32_t i = part.outlines; i < part.outlinesEnd; ++i) own_[shape_.outlines[i]] = kNowhere;
+      }
+    }
+    return std::move(places_);
+  }
+
+ private:
+  void add(const SideShape::Part& part, std::vector<std::uint32_t>& vertexOf) {
+    const auto vertexAt = [&](std::uint32_t point) {
+      if (vertexOf[point] == kNowhere) {
+        vertexOf[point] = static_cast<std::uint32_t>(to_.vertices.size());
+        to_.vertices.push_back(shape_.points[point]);
+        places_.push_back({part.leaf, shape_.points[point].position});
+      }
+      return vertexOf[point];
+    };
+    for (std::uint32_t i = part.triangles; i < part.trianglesEnd; ++i)
+      to_.triangles.push_back(vertexAt(shape_.triangles[i]));
+    for (std::uint32_t i = part.outlines; i < part.outlinesEnd; ++i)
+      to_.outlines.push_back(vertexAt(shape_.outlines[i]));
+  }
+
+  void pullInside(hierarchy::ElementId, std::size_t first) {
+    Vec3f middle(0.0f);
+    for (std::size_t i = first; i < places_.size(); ++i) middle += places_[i].position;
+    middle /= static_cast<float>(std::max<std::size_t>(places_.size() - first, 1));
+    for (std::size_t i = first; i < places_.size(); ++i)
+      places_[i].position = glm::mix(places_[i].position, middle, kInside);
+  }
+
+  const SideShape& shape_;
+  const Reconstruction& reconstruction_;
+  SurfaceMesh& to_;
+  std::vector<ReadingPlace> places_;
+  std::vector<std::uint32_t> lit_, dark_, own_;  // by point: its vertex
+};
+
+Rgb radianceAlongNormal(const Scene& scene, const scene::LightSampler& lights, const SideShape& shape) {
+  const Material& material = scene.materialOf(shape.primitive);
+  if (!material.emission || shape.points.empty()) return Rgb(0.0f);
+  const Vec3 direction(shape.points.front().normal);
+  const double far = 1e3 * bounds(scene[shape.primitive].shape).diagonal();  // spots look brighter from further away
+  const LightId light = lights.lightOf(shape.primitive);
+  return light.valid() ? lights.emittedRadiance(light, direction, far, shape.front)
+                       : scene::seenRadiance(material, direction, far, shape.front);
+}
+
+}  // namespace
+
+SurfaceMesh litSide(const SideShape& shape, const Scene& scene, const Reconstruction& reconstruction) {
+  SurfaceMesh side;
+  side.primitive = shape.primitive, side.front = shape.front;
+  const Material& material = scene.materialOf(shape.primitive);
+  side.albedo = diffuseReflectance(material, shape.front);
+  side.transmittance = diffuseTransmittance(material);
+  side.radiance = radianceAlongNormal(scene, reconstruction.direct.lights(), shape);
+  const std::vector<ReadingPlace> places = SideLayout(shape, reconstruction, side).layOut();
+  parallelFor(places.size(), kReadBlock, [&](std::size_t i) {
+    if (!places[i].leaf.valid()) return;
+    MeshVertex& v = side.vertices[i];
+    const PointIrradiance E = reconstruction.field.all({places[i].leaf, Vec2(v.uv)}, places[i].position);
+    v.direct = E.direct, v.indirect = E.indirect, v.particle = E.particle;
+  });
+  return side;
+}
+
+bool sameShape(const SurfaceMesh& a, const SurfaceMesh& b) {
+  return a.triangles == b.triangles && a.outlines == b.outlines &&
+         std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(),
+                    [](const MeshVertex& v, const MeshVertex& w) {
+                      return v.position == w.position && v.normal == w.normal && v.uv == w.uv;
+                    });
+}
+
+bool sameLight(const SurfaceMesh& a, const SurfaceMesh& b) {
+  return a.albedo == b.albedo && a.transmittance == b.transmittance && a.radiance == b.radiance &&
+         std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(),
+                    [](const MeshVertex& v, const MeshVertex& w) {
+                      return v.direct == w.direct && v.indirect == w.indirect && v.particle == w.particle;
+                    });
+}
+
+}  // namespace deltalux::rendering

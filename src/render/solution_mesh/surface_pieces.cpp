@@ -1,0 +1,143 @@
+#include "render/solution_mesh/surface_pieces.hpp"
+
+#include <algorithm>
+
+#include "hierarchy/below.hpp"
+#include "hierarchy/outline.hpp"
+
+namespace deltalux::rendering {
+
+namespace {
+
+constexpr int kFewestSteps = 64, kMostSteps = 256;  // round a curved surface: powers of two, as leaves are
+constexpr double kSagitta = 1e-4;                   // of the scene: how far flat pieces may be off a curved surface
+constexpr double kApart = 1e-5;                     // of the parameters: cuts nearer to a leaf's border are left out
+
+double largestRadius(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return cylinder->radius;
+  if (const auto* cone = std::get_if<Cone>(&shape)) return std::max(cone->radius0, cone->radius1);
+  if (const auto* ring = std::get_if<Ring>(&shape)) return ring->outerRadius;
+  return 0;
+}
+
+int stepsRound(const Shape& shape, double sceneSize) {
+  int steps = kFewestSteps;
+  while (steps < kMostSteps && largestRadius(shape) * (1 - std::cos(kPi / steps)) > kSagitta * sceneSize) steps *= 2;
+  return steps;
+}
+
+/// Cuts of a curved surface, by parameter.
+struct RoundCuts {
+  std::vector<double> u, v;
+};
+
+RoundCuts roundCuts(const Shape& shape, double sceneSize) {
+  RoundCuts cuts;
+  const int steps = stepsRound(shape, sceneSize);
+  for (int i = 1; i < steps; ++i) cuts.u.push_back(double(i) / steps);
+  if (std::holds_alternative<Sphere>(shape))
+    for (int j = 1; j < steps / 2; ++j) cuts.v.push_back(0.5 * (1 - std::cos(2 * kPi * j / steps)));
+  return cuts;
+}
+
+std::vector<double> cutsWithin(const std::vector<double>& cuts, double low, double high) {
+  std::vector<double> all{low};
+  for (auto c = std::lower_bound(cuts.begin(), cuts.end(), low + kApart); c != cuts.end() && *c < high - kApart; ++c)
+    all.push_back(*c);
+  all.push_back(high);
+  return all;
+}
+
+void addPiece(SurfacePieces& to, SurfacePiece piece, std::span<const Vec2> corners) {
+  piece.first = static_cast<std::uint32_t>(to.corners.size());
+  piece.count = static_cast<std::uint32_t>(corners.size());
+  to.corners.insert(to.corners.end(), corners.begin(), corners.end());
+  to.all.push_back(piece);
+}
+
+/// The leaf, or all of the surface, in parts.
+void addRound(SurfacePieces& to, const RoundCuts& cuts, hierarchy::ElementId leaf, const Vec2& low, const Vec2& high) {
+  const std::vector<double> u = cutsWithin(cuts.u, low.x, high.x), v = cutsWithin(cuts.v, low.y, high.y);
+  SurfacePiece piece;
+  piece.leaf = leaf;
+  piece.leafLower = low, piece.leafUpper = high;
+  piece.cut = u.size() > 2 || v.size() > 2;
+  for (std::size_t j = 0; j + 1 < v.size(); ++j)
+    for (std::size_t i = 0; i + 1 < u.size(); ++i) {
+      const Vec2 corners[] = {{u[i], v[j]}, {u[i + 1], v[j]}, {u[i + 1], v[j + 1]}, {u[i], v[j + 1]}};
+      piece.center = 0.5 * (corners[0] + corners[2]);
+      addPiece(to, piece, corners);
+    }
+}
+
+void addFlat(SurfacePieces& to, SurfacePiece piece, std::span<const Vec2> outline) {
+  if (outline.size() < 3) return;
+  piece.center = hierarchy::outlineCentroid(outline);
+  addPiece(to, piece, outline);
+}
+
+/// The leaves under the sides' input-level patch, or all of a flat surface where it has none.
+void addFlatSide(SurfacePieces& to, const hierarchy::Elements& elements, hierarchy::ElementId side,
+                 std::uint32_t triangle, const hierarchy::PlaneFrame& plane, std::span<const Vec2> outline) {
+  SurfacePiece piece;
+  piece.triangle = triangle;
+  piece.plane = static_cast<std::uint32_t>(to.planes.size());
+  if (!side.valid()) {
+    to.planes.push_back(plane);
+    addFlat(to, piece, outline);
+    return;
+  }
+  to.planes.push_back(elements.frames[elements.domain[side.index()].frame]);
+  hierarchy::forEachLeafBelow(elements, side, [&](hierarchy::ElementId e) {
+    piece.leaf = e;
+    addFlat(to, piece, elements.outline(e));
+  });
+}
+
+}  // namespace
+
+SurfacePieces piecesOf(const hierarchy::Elements& elements, const Scene& scene, PrimitiveId primitive, bool front) {
+  SurfacePieces result;
+  result.primitive = primitive, result.front = front;
+  const Shape& shape = scene[primitive].shape;
+  if (!(area(shape) > 0)) return result;
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) {
+    const hierarchy::PlaneFrame plane{polygon->origin, polygon->edgeU, polygon->edgeV, polygon->normal};
+    addFlatSide(result, elements, elements.side(primitive, 0, front), 0, plane, polygon->outline);
+  } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    const Vec2 outline[] = {{0, 0}, {1, 0}, {0, 1}};
+    for (std::uint32_t t = 0; t < mesh->triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh->triangles[t];
+      hierarchy::PlaneFrame plane;
+      plane.origin = mesh->positions[a];
+      plane.edgeU = mesh->positions[b] - plane.origin, plane.edgeV = mesh->positions[c] - plane.origin;
+      plane.normal = glm::normalize(glm::cross(plane.edgeU, plane.edgeV));
+      addFlatSide(result, elements, elements.side(primitive, t, front), t, plane, outline);
+    }
+  } else {
+    result.flat = false;
+    const RoundCuts cuts = roundCuts(shape, elements.sceneBox.diagonal());
+    const hierarchy::ElementId side = elements.side(primitive, 0, front);
+    if (!side.valid()) {
+      addRound(result, cuts, side, Vec2(0), Vec2(1));
+      return result;
+    }
+    hierarchy::forEachLeafBelow(elements, side, [&](hierarchy::ElementId e) {
+      const hierarchy::PatchDomain& d = elements.domain[e.index()];
+      addRound(result, cuts, e, {d.u0, d.v0}, {d.u1, d.v1});
+    });
+  }
+  return result;
+}
+
+bool samePieces(const SurfacePieces& a, const SurfacePieces& b) {
+  const auto samePlane = [](const hierarchy::PlaneFrame& p, const hierarchy::PlaneFrame& q) {
+    return p.origin == q.origin && p.edgeU == q.edgeU && p.edgeV == q.edgeV && p.normal == q.normal;
+  };
+  return a.primitive == b.primitive && a.front == b.front && a.flat == b.flat && a.all == b.all &&
+         a.corners == b.corners &&
+         std::equal(a.planes.begin(), a.planes.end(), b.planes.begin(), b.planes.end(), samePlane);
+}
+
+}  // namespace deltalux::rendering
