@@ -2,7 +2,7 @@
 // Where particles land: the light that reached a diffuse surface by way of mirrors, gloss or glass, as points.
 #include <vector>
 
-#include "hierarchy/side_locator.hpp"
+#include "hierarchy/element.hpp"
 
 namespace deltalux::particles {
 
@@ -15,14 +15,7 @@ struct Impact {
   Rgb flux{0.0f};              // that arrives here [W, with the scene's unit squared as area]
 };
 
-/// Where it is, in the scene.
-Vec3 positionOf(const Impact&, const Scene&);
-
 struct Particles;
-
-/// What a path's throughput is multiplied by for its flux: what its sender sends today.
-Rgb powerOf(const Particles&, std::size_t path, const hierarchy::Elements&, const hierarchy::SideLocator&,
-            const Scene&);
 
 /// Every impact with today's flux, that is, with the radiosity that its particle's sender has now; in the order of the
 /// particles, which does not depend on the number of threads.

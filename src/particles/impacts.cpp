@@ -1,5 +1,5 @@
 #include "base/parallel.hpp"
-#include "hierarchy/side_locator.hpp"
+#include "particles/impact_light.hpp"
 #include "particles/particles.hpp"
 
 namespace deltalux::particles {

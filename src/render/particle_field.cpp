@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/parallel.hpp"
+#include "particles/impact_light.hpp"
 #include "particles/side_index.hpp"
 #include "solution/solution.hpp"
 
