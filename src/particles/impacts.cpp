@@ -1,8 +1,30 @@
 #include "base/parallel.hpp"
-#include "hierarchy/side_locator.hpp"
+#include "particles/impact_light.hpp"
 #include "particles/particles.hpp"
 
 namespace deltalux::particles {
+
+Vec3 positionOf(const Impact& impact, const Scene& scene) {
+  const Shape& shape = scene[impact.primitive].shape;
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  if (!mesh) return pointAt(shape, Vec2(impact.uv)).position;
+  const auto& t = mesh->triangles[impact.triangle];
+  const Vec3 &a = mesh->positions[t[0]], &b = mesh->positions[t[1]], &c = mesh->positions[t[2]];
+  return a + double(impact.uv.x) * (b - a) + double(impact.uv.y) * (c - a);
+}
+
+Rgb powerOf(const Particles& p, std::size_t path, const hierarchy::Elements& elements,
+            const hierarchy::SideLocator& locator, const Scene& scene) {
+  const SenderCell& cell = p.senderCells[p.sender[path]];
+  Rgb power(0.0f);
+  if (cell.kind == SenderKind::Side) {
+    const hierarchy::ElementId side = locator.side(cell.primitive, p.originTriangle[path], cell.front);
+    if (side.valid()) power = elements.radiometry[locator.locate(side, Vec3(p.verticesOf(path)[0])).leaf.index()].B;
+  } else {
+    power = scene[cell.light].scale;
+  }
+  return power * p.links[p.link[path]].scale;
+}
 
 std::vector<Impact> impacts(const Particles& p, const hierarchy::Elements& elements, const Scene& scene) {
   const hierarchy::SideLocator locator(elements, scene);
@@ -11,15 +33,7 @@ std::vector<Impact> impacts(const Particles& p, const hierarchy::Elements& eleme
   std::vector<Impact> result(first.back());
   parallelFor(p.paths(), 1024, [&](std::size_t path) {
     if (p.range[path].impacts == 0) return;
-    const SenderCell& cell = p.senderCells[p.sender[path]];
-    Rgb power(0.0f);
-    if (cell.kind == SenderKind::Side) {
-      const hierarchy::ElementId side = locator.side(cell.primitive, p.originTriangle[path], cell.front);
-      if (side.valid()) power = elements.radiometry[locator.locate(side, Vec3(p.verticesOf(path)[0])).leaf.index()].B;
-    } else {
-      power = scene[cell.light].scale;
-    }
-    power *= p.links[p.link[path]].scale;
+    const Rgb power = powerOf(p, path, elements, locator, scene);
     for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i)
       result[first[path] + i - p.firstImpact(path)] = {
           p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0, p.uv[i], power * p.throughput[i]};

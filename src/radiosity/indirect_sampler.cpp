@@ -263,7 +263,9 @@ bool IndirectSampler::dealChanged(hierarchy::ElementId leaf, std::span<const hie
   return row.transfers.size() > before;
 }
 
-Rgb IndirectSampler::atPoint(hierarchy::ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const {
+template <class Visit>
+void IndirectSampler::gatherAt(hierarchy::ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays,
+                               const Visit& visit) const {
   const hierarchy::PatchPoint x{p, normal};
   const auto kernelOf = [&](hierarchy::ElementId s, bool) {
     return static_cast<float>(kernelAtPoint(elements_, scene_, p, normal, s));
@@ -274,14 +276,27 @@ Rgb IndirectSampler::atPoint(hierarchy::ElementId leaf, const Vec3f& p, const Ve
   const auto terms = apart(leaf, std::move(whole), sum / static_cast<float>(rays), kernelOf);
   double total = 0;
   for (const Term& t : terms) total += known(t) ? 0.0f : t.weight;
-  RgbSum E(0.0);
   std::uint64_t traced = 0;
   deal(leaf, x, terms, total / rays, rays, kernelOf, [&](const Dealt& d) {
     const auto s = known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index, &x);
     const Rgb T = find(d, s, traced).T;
-    E += RgbSum(T * elements_.radiometry[d.term.sender.index()].B);
+    visit(d.term.sender, T * elements_.radiometry[d.term.sender.index()].B);
   });
-  return Rgb(E);
+}
+
+Rgb IndirectSampler::atPoint(hierarchy::ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const {
+  RgbSum sum(0.0);
+  gatherAt(leaf, p, normal, rays, [&](hierarchy::ElementId, const Rgb& E) { sum += RgbSum(E); });
+  return Rgb(sum);
+}
+
+std::vector<IndirectSampler::Share> IndirectSampler::sharesAtPoint(hierarchy::ElementId leaf, const Vec3f& p,
+                                                                   const Vec3f& normal, int rays) const {
+  std::vector<Share> shares;
+  gatherAt(leaf, p, normal, rays, [&](hierarchy::ElementId sender, const Rgb& E) {
+    if (!isBlack(E)) shares.push_back({sender, E});
+  });
+  return shares;
 }
 
 }  // namespace deltalux::radiosity

@@ -47,8 +47,17 @@ class IndirectSampler {
                         std::span<const hierarchy::LinkId> changed, int rays, std::uint64_t& traced) const;
   /// Irradiance at a point of a leaf patch (unit normal) from the leaves' radiosities.
   Rgb atPoint(hierarchy::ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const;
+  /// The same by who sends it: what its parts bring, in no order; their sum is atPoint().
+  struct Share {
+    hierarchy::ElementId sender;
+    Rgb E{0.0f};
+  };
+  std::vector<Share> sharesAtPoint(hierarchy::ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const;
 
  private:
+  /// visit(sender, E) of all that brings any.
+  template <class Visit>
+  void gatherAt(hierarchy::ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays, const Visit&) const;
   struct Term {
     hierarchy::LinkId link;
     hierarchy::ElementId sender;

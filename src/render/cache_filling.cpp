@@ -37,16 +37,16 @@ struct Filling {
     return weights;
   }
 
-  glm::vec4 at(int x, int y) const {
+  /// `near`: whether a neighbour may hold anything.
+  glm::vec4 at(int x, int y, bool near) const {
     constexpr float kAll = 4 * 2 + 4 * 1;
     constexpr float kMost = (2 * HeldPixels::kReach + 1) * (2 * HeldPixels::kReach + 1);
     Rgb L(0.0f);
-    if (const float w = mean(
-            x, y, 1, [](int dx, int dy) { return dx == 0 || dy == 0 ? 2.0f : 1.0f; }, L);
-        w > 0)
+    const auto crosswise = [](int dx, int dy) { return dx == 0 || dy == 0 ? 2.0f : 1.0f; };
+    if (const float w = near ? mean(x, y, 1, crosswise, L) : 0.0f; w > 0)
       return {L, kByNeighbours * (kWithinReach + (1 - kWithinReach) * w / kAll)};
-    const float w = mean(
-        x, y, HeldPixels::kReach, [](int, int) { return 1.0f; }, L);
+    const auto alike = [](int, int) { return 1.0f; };
+    const float w = mean(x, y, HeldPixels::kReach, alike, L);
     return {L, kByNeighbours * kWithinReach * w / kMost};
   }
 };
@@ -59,8 +59,11 @@ void fillFrame(CacheFrame& frame, const HeldPixels& held, std::span<const std::u
     const int y = static_cast<int>(row);
     glm::vec4* const pixels = frame.pixels.data() + row * frame.width;
     const std::uint32_t* const seen = surfaces.data() + row * frame.width;
+    const HeldPixels::Columns near(held, y, 1), all(held, y, HeldPixels::kReach);
+    constexpr std::uint32_t kNear = 7u << (HeldPixels::kReach - 1);
     for (int x = 0; x < frame.width; ++x)
-      if (seen[x] != 0 && pixels[x].w < 1) pixels[x] = filling.at(x, y);
+      if (seen[x] != 0 && pixels[x].w < 1 && all.around(x) != 0)
+        pixels[x] = filling.at(x, y, (near.around(x) & kNear) != 0);
   });
 }
 

@@ -21,16 +21,28 @@ class HeldPixels {
   void set(int x, int y) { word(x, y) |= bit(x); }
   void reset(int x, int y) { word(x, y) &= ~bit(x); }
   /// Of the seven pixels of row y about x, from the left; y may be as far outside as the reach.
-  std::uint32_t around(int x, int y) const {
-    const int first = x + 64 - kReach;
-    const std::size_t at = rowOf(y) + static_cast<std::size_t>(first >> 6);
-    const int shift = first & 63;
-    std::uint64_t seven = bits_[at] >> shift;
-    if (shift > 64 - (2 * kReach + 1)) seven |= bits_[at + 1] << (64 - shift);
-    return static_cast<std::uint32_t>(seven) & ((1u << (2 * kReach + 1)) - 1);
-  }
+  std::uint32_t around(int x, int y) const { return seven(bits_.data() + rowOf(y), x); }
+  /// Whether any row within `reach` of row y holds a pixel, by column.
+  class Columns {
+   public:
+    Columns(const HeldPixels& held, int y, int reach) : bits_(held.words_, 0) {
+      for (int row = y - reach; row <= y + reach; ++row)
+        for (std::size_t w = 0; w < bits_.size(); ++w) bits_[w] |= held.bits_[held.rowOf(row) + w];
+    }
+    std::uint32_t around(int x) const { return seven(bits_.data(), x); }
+
+   private:
+    std::vector<std::uint64_t> bits_;
+  };
 
  private:
+  static std::uint32_t seven(const std::uint64_t* row, int x) {
+    const int first = x + 64 - kReach, shift = first & 63;
+    row += first >> 6;
+    std::uint64_t bits = row[0] >> shift;
+    if (shift > 64 - (2 * kReach + 1)) bits |= row[1] << (64 - shift);
+    return static_cast<std::uint32_t>(bits) & ((1u << (2 * kReach + 1)) - 1);
+  }
   std::size_t rowOf(int y) const { return words_ * static_cast<std::size_t>(y + kReach); }
   std::uint64_t& word(int x, int y) { return bits_[rowOf(y) + static_cast<std::size_t>((x + 64) >> 6)]; }
   static std::uint64_t bit(int x) { return std::uint64_t(1) << (x & 63); }

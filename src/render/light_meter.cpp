@@ -26,6 +26,10 @@ constexpr double kDirectShare =
 
 }  // namespace
 
+int gatherRays(double error) {
+  return std::clamp(static_cast<int>(kGatherRays / error), kFewestGatherRays, kMostGatherRays);
+}
+
 LightMeter::LightMeter(const Solution& s, const Reconstruction& reconstruction)
     : solution_(s),
       scene_(s.scene),
@@ -101,8 +105,7 @@ ProbeResult LightMeter::onSurface(const SurfaceSpot& spot, const ProbeSettings& 
 }
 
 Rgb LightMeter::indirectAt(const hierarchy::LeafPoint& at, const SurfaceSpot& spot, double error) const {
-  const int rays = std::clamp(static_cast<int>(kGatherRays / error), kFewestGatherRays, kMostGatherRays);
-  return sampler_.atPoint(at.leaf, Vec3f(spot.position), Vec3f(spot.normal), rays) + particleLight(spot);
+  return sampler_.atPoint(at.leaf, Vec3f(spot.position), Vec3f(spot.normal), gatherRays(error)) + particleLight(spot);
 }
 
 Rgb LightMeter::particleLight(const SurfaceSpot& spot) const {

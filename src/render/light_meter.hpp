@@ -29,6 +29,8 @@ class LightMeter {
   ProbeResult measure(const ProbePoint&, const ProbeSettings&, std::uint64_t key) const;
   /// The nearest surface that faces the point's normal, where the point lies on one.
   std::optional<SurfaceSpot> surfaceAt(const ProbePoint&) const;
+  /// What particles bring there [W/m2].
+  Rgb particleLight(const SurfaceSpot&) const;
 
  private:
   double reachAt(const Vec3&) const;
@@ -36,7 +38,6 @@ class LightMeter {
   ProbeResult inFreeSpace(const ProbePoint&, const ProbeSettings&, std::uint64_t key) const;
   ProbeResult gather(const radiosity::Receiver&, const ProbeSettings&, std::uint64_t key) const;
   Rgb indirectAt(const hierarchy::LeafPoint&, const SurfaceSpot&, double error) const;
-  Rgb particleLight(const SurfaceSpot&) const;
   /// Made when first asked for.
   const ParticleField& particles() const;
 
@@ -51,6 +52,9 @@ class LightMeter {
   mutable std::once_flag once_;
   mutable std::unique_ptr<const ParticleField> particles_;
 };
+
+/// Rays over the links of a surface point, for indirect light of that relative error.
+int gatherRays(double error);
 
 /// As deltalux::probe().
 std::vector<ProbeResult> measureAll(const LightMeter&, std::span<const ProbePoint>, const ProbeSettings&, Progress*);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/parallel.hpp"
+#include "particles/impact_light.hpp"
 #include "particles/side_index.hpp"
 #include "solution/solution.hpp"
 
@@ -72,16 +73,7 @@ ParticleField::ParticleField(const Solution& s) : scene_(s.scene), tracer_(*s.tr
   for (std::size_t i = 0; i < all.size(); ++i) place[i] = next[group(all[i])]++;
   parallelFor(all.size(), 4096, [&](std::size_t i) {
     const particles::Impact& impact = all[i];
-    const Shape& shape = scene_[impact.primitive].shape;
-    Vec3 p;
-    if (const auto* mesh = std::get_if<Mesh>(&shape)) {
-      const auto& t = mesh->triangles[impact.triangle];
-      const Vec3 &a = mesh->positions[t[0]], &b = mesh->positions[t[1]], &c = mesh->positions[t[2]];
-      p = a + double(impact.uv.x) * (b - a) + double(impact.uv.y) * (c - a);
-    } else {
-      p = pointAt(shape, Vec2(impact.uv)).position;
-    }
-    landings_[place[i]] = {Vec3f(p), 0, impact.flux};
+    landings_[place[i]] = {Vec3f(particles::positionOf(impact, scene_)), 0, impact.flux};
   });
   parallelFor(begin_.size() - 1, 4, [&](std::size_t g) { sortTree(begin_[g], begin_[g + 1]); });
 }

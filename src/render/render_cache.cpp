@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/check.hpp"
+#include "base/prefetch.hpp"
 #include "render/cache_filling.hpp"
 #include "render/error_diffusion.hpp"
 #include "render/view_projection.hpp"
@@ -13,6 +14,7 @@ namespace deltalux {
 namespace {
 
 constexpr std::uint32_t kNobody = 0xffffffffu;
+constexpr std::size_t kAhead = 16;       // pixels whose samples are fetched ahead
 constexpr std::size_t kGroup = 8;        // samples of which the oldest makes room [WDP99]
 constexpr float kNearer = 0.9f;          // depth of a neighbour over a sample's from which it stands before it
 constexpr float kCovered = 0.6f;         // share of such neighbours that a sample does not shine through
@@ -44,6 +46,7 @@ struct RenderCache::State {
     std::uint32_t born = 0;           // frame
     std::uint32_t shownAt = kNobody;  // pixel of the frame
     std::uint16_t rays = 1;           // that it is the mean of
+    bool noisy = false;
   };
 
   RenderCacheSettings settings;
@@ -54,12 +57,18 @@ struct RenderCache::State {
   View view;
   rendering::ViewProjection projection;
   std::uint32_t viewNumber = 0, frameNumber = 0;
+  bool stands = false;  // nothing came or went since the frame was made
   CacheFrame frame;
   std::vector<std::uint32_t> surfaces;  // of the frame
 
+  /// What a pixel shows.
+  struct Shown {
+    float depth = std::numeric_limits<float>::infinity();  // negative for a pixel's own
+    std::uint32_t point = kNobody;
+  };
   // By pixel of the frame.
-  std::vector<std::uint32_t> shown;    // sample there, or nobody
-  std::vector<float> depths;           // negative for a pixel's own
+  std::vector<Shown> shown;
+  std::vector<float> standing;         // how much a pixel with a sample wants another
   std::vector<std::uint16_t> streams;  // rays asked for in this view
   std::vector<std::uint32_t> asked;    // in which frame last; 0: not, or it came back
   std::vector<char> answered;          // its ray came back
@@ -80,6 +89,7 @@ struct RenderCache::State {
   void evict(std::uint32_t point);
   std::size_t keep(const std::vector<char>& stays);
 
+  float standingOf(const Point&) const;
   float priority(std::size_t pixel) const;
   PixelRay ray(const View& from, std::size_t pixel) const;
   void predict(std::size_t count, const View& next, std::vector<PixelRay>& rays) const;
@@ -111,20 +121,21 @@ bool RenderCache::State::answers(const PixelSample& s) const {
 bool RenderCache::State::average(std::uint32_t at, const PixelSample& s) {
   Point& p = points[at];
   PixelSample& mean = samples[at];
-  if (!own(at) || !s.noisy || !mean.noisy || p.surface != s.primitive.value + 1) return false;
+  if (!own(at) || !s.noisy || !p.noisy || p.surface != s.primitive.value + 1) return false;
   const float n = p.rays;
   if (p.rays < kMostRays) ++p.rays;
   p.radiance = mean.radiance = (n * p.radiance + s.radiance) / (n + 1);
   mean.version = std::min(mean.version, s.version);
   mean.complete = false;
   p.born = frameNumber;
+  standing[s.pixel] = standingOf(p);
   return true;
 }
 
 void RenderCache::State::evict(std::uint32_t i) {
   const Point& p = points[i];
   if (own(i) && p.pixel < pixels()) answered[p.pixel] = 0;
-  if (p.shownAt < pixels() && shown[p.shownAt] == i) shown[p.shownAt] = kNobody;
+  if (p.shownAt < pixels() && shown[p.shownAt].point == i) shown[p.shownAt] = {};
 }
 
 /// A place for a new sample: at the end, or that of the oldest of the next few.
@@ -146,12 +157,17 @@ void RenderCache::State::insert(const PixelSample& s) {
   const bool answer = answers(s);
   if (answer) asked[s.pixel] = 0, answered[s.pixel] = 1;
   if (!s.primitive.valid()) return;
-  std::uint32_t at = answer ? shown[s.pixel] : kNobody;
+  std::uint32_t at = answer ? shown[s.pixel].point : kNobody;
   if (at != kNobody && average(at, s)) return;
   if (at == kNobody || points[at].surface != s.primitive.value + 1) at = room();
   samples[at] = s;
-  points[at] = {s.apparent, s.primitive.value + 1, s.radiance, s.pixel, answer ? viewNumber : 0, frameNumber};
-  if (answer && surfaces[s.pixel] == points[at].surface) shown[s.pixel] = at, points[at].shownAt = s.pixel;
+  Point& p = points[at];
+  p = {s.apparent, s.primitive.value + 1, s.radiance, s.pixel, answer ? viewNumber : 0, frameNumber};
+  p.noisy = s.noisy;
+  if (!answer || surfaces[s.pixel] != p.surface) return;
+  p.shownAt = s.pixel;
+  shown[s.pixel] = {-projection(s.apparent).depth, at};
+  standing[s.pixel] = standingOf(p);
 }
 
 /// Closes up; returns how many went.
@@ -166,16 +182,19 @@ std::size_t RenderCache::State::keep(const std::vector<char>& stays) {
   }
   const std::size_t gone = points.size() - left;
   if (gone == 0) return 0;
+  stands = false;
   points.resize(left), samples.resize(left);
   hand = 0;
   for (std::size_t p = 0; p < pixels(); ++p) {
-    if (shown[p] != kNobody) shown[p] = moved[shown[p]];
-    if (shown[p] == kNobody) answered[p] = 0;
+    std::uint32_t& point = shown[p].point;
+    if (point != kNobody) point = moved[point];
+    if (point == kNobody) shown[p] = {}, answered[p] = 0;
   }
   return gone;
 }
 
 void RenderCache::insert(std::span<const PixelSample> samples) {
+  state_->stands = state_->stands && samples.empty();
   for (const PixelSample& s : samples) state_->insert(s);
 }
 
@@ -217,8 +236,8 @@ void RenderCache::State::begin(const View& v, int width, int height, std::span<c
   surfaces.assign(seen.begin(), seen.end());
   frame.width = width, frame.height = height;
   frame.pixels.assign(count, glm::vec4(0.0f));
-  shown.assign(count, kNobody);
-  depths.assign(count, std::numeric_limits<float>::infinity());
+  shown.assign(count, {});
+  standing.assign(count, 0.0f);
   held.resize(width, height);
 }
 
@@ -236,8 +255,8 @@ void RenderCache::State::project() {
       pixel = static_cast<std::size_t>(at.y) * frame.width + static_cast<std::size_t>(at.x);
       depth = at.depth;
     }
-    if (surfaces[pixel] != point.surface || depth >= depths[pixel]) continue;
-    depths[pixel] = depth, shown[pixel] = static_cast<std::uint32_t>(i);
+    if (surfaces[pixel] == point.surface && depth < shown[pixel].depth)
+      shown[pixel] = {depth, static_cast<std::uint32_t>(i)};
   }
 }
 
@@ -247,18 +266,18 @@ void RenderCache::State::cull() {
   for (int y = 1; y + 1 < frame.height; ++y)
     for (int x = 1; x + 1 < frame.width; ++x) {
       const std::size_t p = static_cast<std::size_t>(y) * frame.width + x;
-      if (shown[p] == kNobody || depths[p] < 0) continue;
+      if (shown[p].point == kNobody || shown[p].depth < 0) continue;
       int around = 0, nearer = 0;
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
           const std::size_t q = p + static_cast<std::ptrdiff_t>(dy) * frame.width + dx;
-          if (q == p || shown[q] == kNobody || surfaces[q] != surfaces[p]) continue;
-          ++around, nearer += std::abs(depths[q]) < kNearer * depths[p];
+          if (q == p || shown[q].point == kNobody || surfaces[q] != surfaces[p]) continue;
+          ++around, nearer += std::abs(shown[q].depth) < kNearer * shown[p].depth;
         }
       if (around >= kFewestNeighbours && static_cast<float>(nearer) > kCovered * static_cast<float>(around))
         hidden.push_back(p);
     }
-  for (const std::size_t p : hidden) shown[p] = kNobody;
+  for (const std::size_t p : hidden) shown[p] = {};
 }
 
 void RenderCache::State::show() {
@@ -266,12 +285,16 @@ void RenderCache::State::show() {
   for (int y = 0; y < frame.height; ++y)
     for (int x = 0; x < frame.width; ++x) {
       const std::size_t p = static_cast<std::size_t>(y) * frame.width + x;
+      if (p + kAhead < pixels() && shown[p + kAhead].point != kNobody)
+        prefetch(std::span(&points[shown[p + kAhead].point], 1));
       if (surfaces[p] == 0) continue;
       ++frame.wanted;
-      if (shown[p] == kNobody) continue;
+      if (shown[p].point == kNobody) continue;
       ++frame.held;
-      points[shown[p]].shownAt = static_cast<std::uint32_t>(p);
-      frame.pixels[p] = glm::vec4(points[shown[p]].radiance, 1.0f);
+      Point& point = points[shown[p].point];
+      point.shownAt = static_cast<std::uint32_t>(p);
+      frame.pixels[p] = glm::vec4(point.radiance, 1.0f);
+      standing[p] = standingOf(point);
       held.set(x, y);
     }
   rendering::fillFrame(frame, held, surfaces);
@@ -279,26 +302,35 @@ void RenderCache::State::show() {
 
 const CacheFrame& RenderCache::frame(const View& view, int width, int height, std::span<const std::uint32_t> surfaces) {
   State& s = *state_;
+  if (s.stands && width == s.frame.width && height == s.frame.height && same(view, s.view) &&
+      std::equal(surfaces.begin(), surfaces.end(), s.surfaces.begin(), s.surfaces.end())) {
+    ++s.frameNumber;
+    return s.frame;
+  }
   s.begin(view, width, height, surfaces);
   s.project();
   s.cull();
   s.show();
+  s.stands = true;
   return s.frame;
 }
 
 // Rays.
 
+/// Of a sample that is shown: a pixel's own is good, but for chance; others by their age.
+float RenderCache::State::standingOf(const Point& point) const {
+  if (point.view == viewNumber)
+    return point.noisy && point.rays < kMostRays ? kNoisy / static_cast<float>(point.rays) : 0.0f;
+  const float age = static_cast<float>(frameNumber - point.born);
+  return kYoung + (kOld - kYoung) * std::min(age / kOldAge, 1.0f);
+}
+
 float RenderCache::State::priority(std::size_t p) const {
   if (surfaces[p] == 0 || (asked[p] != 0 && frameNumber - asked[p] < kAwaited)) return 0;
-  const std::uint32_t at = shown[p];
-  if (at != kNobody && own(at)) {
-    const std::uint16_t rays = points[at].rays;
-    return samples[at].noisy && rays < kMostRays ? kNoisy / static_cast<float>(rays) : 0.0f;
-  }
-  if (answered[p]) return 0;  // by a ray that met something else than is drawn
-  if (at == kNobody) return kEmpty + (kFilled - kEmpty) * frame.pixels[p].w;
-  const float age = static_cast<float>(frameNumber - points[at].born);
-  return kYoung + (kOld - kYoung) * std::min(age / kOldAge, 1.0f);
+  const bool ownSample = shown[p].point != kNobody && shown[p].depth < 0;
+  if (answered[p] && !ownSample) return 0;  // by a ray that met something else than is drawn
+  if (shown[p].point != kNobody) return standing[p];
+  return kEmpty + (kFilled - kEmpty) * frame.pixels[p].w;
 }
 
 PixelRay RenderCache::State::ray(const View& from, std::size_t pixel) const {
