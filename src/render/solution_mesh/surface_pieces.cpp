@@ -9,10 +9,9 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr int kFewestSteps = 32, kSteps = 64, kMostSteps = 256;  // round: powers of two, as leaves are
-constexpr double kSmall = 2e-3;                                  // of the scene: radius below which the fewest do
-constexpr double kSagitta = 1e-4;  // of the scene: how far flat pieces may be off a curved surface
-constexpr double kApart = 1e-5;    // of the parameters: cuts nearer to a leaf's border are left out
+constexpr int kFewestSteps = 16, kMostSteps = 128;  // round: powers of two, as leaves are
+constexpr double kSagitta = 3e-5;                   // of the scene: how far flat pieces may be off a curved surface
+constexpr double kApart = 1e-5;                     // of the parameters: cuts nearer to a leaf's border are left out
 
 double largestRadius(const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
@@ -101,7 +100,7 @@ bool isInside(const Shape& shape, bool front) {
 int stepsRound(const Shape& shape, double sceneSize) {
   const double radius = largestRadius(shape);
   if (!(radius > 0)) return 0;
-  int steps = radius < kSmall * sceneSize ? kFewestSteps : kSteps;
+  int steps = kFewestSteps;
   while (steps < kMostSteps && radius * (1 - std::cos(kPi / steps)) > kSagitta * sceneSize) steps *= 2;
   return steps;
 }
