@@ -7,11 +7,11 @@ namespace deltalux::rendering {
 
 namespace {
 
-struct Group {
+struct BoxGroup {
   std::span<Box> boxes;
   Box all;
 
-  explicit Group(std::span<Box> of) : boxes(of) {
+  explicit BoxGroup(std::span<Box> of) : boxes(of) {
     for (const Box& b : boxes) all.extend(b);
   }
   double width() const { return boxes.size() > 1 ? all.diagonal() : -1.0; }
@@ -26,20 +26,20 @@ int longestAxis(const Box& box) {
 
 std::vector<Box> coveringBoxes(std::vector<Box> boxes, std::size_t most) {
   if (boxes.size() <= most) return boxes;
-  std::vector<Group> groups{Group(boxes)};
+  std::vector<BoxGroup> groups{BoxGroup(boxes)};
   while (groups.size() < most) {
     const auto widest = std::max_element(groups.begin(), groups.end(),
-                                         [](const Group& a, const Group& b) { return a.width() < b.width(); });
+                                         [](const BoxGroup& a, const BoxGroup& b) { return a.width() < b.width(); });
     const std::span<Box> all = widest->boxes;
     const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
     std::nth_element(all.begin(), middle, all.end(), [axis = longestAxis(widest->all)](const Box& a, const Box& b) {
       return a.center()[axis] < b.center()[axis];
     });
-    *widest = Group(all.first(all.size() / 2));
+    *widest = BoxGroup(all.first(all.size() / 2));
     groups.emplace_back(all.subspan(all.size() / 2));
   }
   std::vector<Box> covering;
-  for (const Group& g : groups) covering.push_back(g.all);
+  for (const BoxGroup& g : groups) covering.push_back(g.all);
   return covering;
 }
 

@@ -28,7 +28,7 @@ constexpr float kOldAge = 64;            // frames
 // pixel's own that is left to chance.
 constexpr float kEmpty = 1.0f, kFilled = 0.6f, kOld = 0.5f, kYoung = 0.1f, kNoisy = 0.1f;
 
-bool same(const View& a, const View& b) {
+bool sameView(const View& a, const View& b) {
   return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.up == b.up &&
          a.horizontal == b.horizontal && a.vertical == b.vertical;
 }
@@ -225,7 +225,7 @@ void RenderCache::State::begin(const View& v, int width, int height, std::span<c
   DELTALUX_CHECK(width > 0 && height > 0 && seen.size() == count, "a frame has a surface for each of its pixels");
   ++frameNumber;
   const bool sameSize = width == frame.width && height == frame.height;
-  if (viewNumber == 0 || !sameSize || !same(v, view)) {
+  if (viewNumber == 0 || !sameSize || !sameView(v, view)) {
     ++viewNumber;
     view = v, projection = rendering::ViewProjection(v, width, height);
     streams.assign(count, 0), asked.assign(count, 0), answered.assign(count, 0);
@@ -302,7 +302,7 @@ void RenderCache::State::show() {
 
 const CacheFrame& RenderCache::frame(const View& view, int width, int height, std::span<const std::uint32_t> surfaces) {
   State& s = *state_;
-  if (s.stands && width == s.frame.width && height == s.frame.height && same(view, s.view) &&
+  if (s.stands && width == s.frame.width && height == s.frame.height && sameView(view, s.view) &&
       std::equal(surfaces.begin(), surfaces.end(), s.surfaces.begin(), s.surfaces.end())) {
     ++s.frameNumber;
     return s.frame;
@@ -376,7 +376,7 @@ std::vector<PixelRay> RenderCache::wanted(std::size_t count, const View& next) {
   State& s = *state_;
   std::vector<PixelRay> rays;
   if (s.viewNumber == 0) return rays;
-  if (!same(next, s.view))
+  if (!sameView(next, s.view))
     s.predict(static_cast<std::size_t>(s.settings.prediction * static_cast<double>(count)), next, rays);
   std::vector<float> priorities(s.pixels());
   for (std::size_t p = 0; p < priorities.size(); ++p) priorities[p] = s.priority(p);

@@ -19,10 +19,10 @@ namespace rendering {
 
 namespace {
 
-constexpr float kStep = 1.0f / 512;    // relative change of irradiance that shows: half a step of eight bits
-constexpr float kDark = 1.0f / 32;     // of the mean irradiance: what is darker is compared with that
-constexpr std::size_t kPlaces = 64;    // that are told apart
-constexpr std::size_t kNewPlaces = 8;  // of one refresh
+constexpr float kVisibleStep = 1.0f / 512;  // relative change of irradiance that shows: half a step of eight bits
+constexpr float kFaintest = 1.0f / 32;      // of the mean irradiance: what is darker is compared with that
+constexpr std::size_t kPlaces = 64;         // that are told apart
+constexpr std::size_t kNewPlaces = 8;       // of one refresh
 constexpr std::size_t kSiteBlock = 512;
 
 /// What differs from what was noted, apart from the light of leaves.
@@ -33,7 +33,7 @@ struct Difference {
   bool background = false;
 };
 
-bool same(const Material& a, const Material& b) {
+bool sameLook(const Material& a, const Material& b) {
   return a.surface == b.surface && a.emission == b.emission && a.coverage == b.coverage && a.filter == b.filter;
 }
 
@@ -90,7 +90,7 @@ void compareShapes(const Scene& scene, NotedSolution& noted, Difference& d) {
 void compareLooks(const Scene& scene, NotedSolution& noted, Difference& d) {
   std::vector<char> materials(scene.materials.size(), 1);
   for (std::size_t m = 0; m < std::min(materials.size(), noted.materials.size()); ++m)
-    materials[m] = !same(scene.materials[m], noted.materials[m]);
+    materials[m] = !sameLook(scene.materials[m], noted.materials[m]);
   noted.materialOf.resize(scene.primitives.size());
   for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
     const MaterialId m = scene.primitives[p].material;
@@ -161,7 +161,7 @@ class LeafComparison {
     dropLeaves(changed);
     const std::size_t n = field_.sites();
     std::vector<char> differs(n);
-    parallelFor(n, kSiteBlock, [&](std::size_t i) { differs[i] = change(i) > kStep * darkest_[i]; });
+    parallelFor(n, kSiteBlock, [&](std::size_t i) { differs[i] = change(i) > kVisibleStep * darkest_[i]; });
     std::vector<char> readsOther(n);
     parallelFor(n, kSiteBlock, [&](std::size_t i) {
       const auto blended = field_.blended(i);
@@ -188,7 +188,7 @@ class LeafComparison {
       const double lit = elements_.shape(field_.leafOf(i)).litArea();
       light += lit * double(maxChannel(field_.trend(i).value)), area += lit;
     }
-    floor_ = area > 0 ? kDark * static_cast<float>(light / area) : 0.0f;
+    floor_ = area > 0 ? kFaintest * static_cast<float>(light / area) : 0.0f;
   }
 
   /// By site, of all leaves at whose points it is read.
