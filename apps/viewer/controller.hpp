@@ -152,6 +152,7 @@ class Controller {
   std::shared_ptr<const SolutionMesh> mesh_;
   MeshPick pick_;
   std::shared_ptr<const SampleChanges> changes_;
+  bool looking_ = false;  // the solver knows what is looked at
   std::shared_ptr<const Picture> picture_;
   std::shared_ptr<const Readings> readings_;
   std::shared_ptr<const Answer> answer_;
