@@ -225,10 +225,11 @@ void Controller::drawn(const std::vector<char>& specular) {
     raysOut_ = rays.size();
     if (!rays.empty()) solver_->want(std::move(rays));
   }
-  if (!draw_.picture)
-    solver_->look(std::nullopt, 0, 0, {});
-  else if (moves || !pictureFits())
+  if (draw_.picture && (!looking_ || moves || !pictureFits()))
     solver_->look(camera_, width_, height_, specular);
+  else if (!draw_.picture && looking_)
+    solver_->look(std::nullopt, 0, 0, {});
+  looking_ = draw_.picture;
   drawnCamera_ = camera_;
 }
 
