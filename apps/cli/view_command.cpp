@@ -91,12 +91,12 @@ void runView(const ViewOptions& options, const CLI::App& command) {
   std::optional<viewer::ScriptDriver> driver;
   if (script) {
     viewing.width = script->width, viewing.height = script->height;
+    viewing.panels = script->panels;
     driver.emplace(std::move(*script), start, [](const std::string& line) {
       fmt::print("{}\n", line);
       std::fflush(stdout);
     });
     viewing.driver = &*driver;
-    viewing.panels = false;
   }
   try {
     viewer::runViewer(viewing);

@@ -52,8 +52,7 @@ bool Controller::takeNews() {
   status_ = status;
   std::shared_ptr<const SolutionMesh> mesh = solver_->mesh();
   const bool otherMesh = mesh && mesh != mesh_;
-  if (isNews(changes_, solver_->changes()) && changes_)
-    cache_.drop([&](const PixelSample& s) { return changes_->stale(s); }), news = true;
+  if (isNews(changes_, solver_->changes()) && changes_) cache_.retire(*changes_), news = true;
   if (otherMesh) takeMesh(std::move(mesh)), news = true;
   const std::vector<PixelSample> samples = solver_->takeSamples();
   raysOut_ -= std::min(raysOut_, samples.size());
@@ -140,7 +139,15 @@ void Controller::focusOnSelection() {
   for (const PrimitiveId p : selectedPrimitives())
     if (const Box own = bounds(scene()[p].shape); !own.empty()) box.extend(own);
   View view = camera_;
-  focus(view, box.empty() ? bounds(scene()) : box);
+  if (box.empty()) box = bounds(scene());
+  focus(view, box);
+  // Not from behind what stands between: a wall.
+  const Vec3 outwards = glm::normalize(view.position - box.center());
+  const double radius = 0.5 * box.diagonal(), distance = glm::length(view.position - box.center());
+  constexpr double kBefore = 0.95;  // of the way to it
+  if (const auto hit = pick_.first(box.center() + radius * outwards, outwards, std::nullopt))
+    if (radius + hit->surface.distance < distance)
+      view.position = box.center() + (radius + kBefore * hit->surface.distance) * outwards;
   setCamera(view);
 }
 

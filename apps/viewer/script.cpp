@@ -343,6 +343,7 @@ Script parseScript(std::string_view text, const std::string& file, const std::fi
       if (begun) in.fail("'size' comes first", "the picture keeps its size");
       script.width = in.count("width and height", 16, 8192);
       script.height = in.count("width and height", 16, 8192);
+      script.panels = in.take("panels");
       in.end();
     } else {
       script.lines.push_back({number, std::string(line), readAction(in)});

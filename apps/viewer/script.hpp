@@ -149,7 +149,8 @@ struct ScriptLine {
 
 struct Script {
   std::string file;
-  int width = 640, height = 480;  // of the picture: "size W H", the first line
+  int width = 640, height = 480;  // of the window: "size W H [panels]", the first line
+  bool panels = false;            // beside the picture, which fills the window otherwise
   std::vector<ScriptLine> lines;
 };
 

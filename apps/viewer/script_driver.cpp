@@ -184,6 +184,7 @@ struct ScriptDriver::State {
           {"frames", a.frames},
           {"latency_ms", spreadOf(latency)},
           {"draw_ms", spreadOf(drawing)},
+          {"triangles", v.drawing.triangles},
           {"uploaded_bytes", v.drawing.uploadedBytes}});
     return true;
   }

@@ -1,6 +1,8 @@
 #include "solver_work.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <deltalux/error.hpp>
@@ -31,6 +33,13 @@ class LongWork : public Progress {
   SteadyClock::time_point told_ = SteadyClock::now();
 };
 
+/// Gives this thread, and those that it starts for its work, what the window leaves of the processor: on two cores
+/// pictures would come when the light has time for them. It is a courtesy: refused, it does without.
+void yieldToTheWindow() {
+  constexpr int kNice = 15;
+  static_cast<void>(::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice));
+}
+
 /// Whether solving has come to its end: the ledger is drawn up then.
 bool isSolved(const SolveReport& report) { return report.converged || report.energy.emittedW; }
 
@@ -44,6 +53,7 @@ bool sameLook(const std::optional<Look>& a, const std::optional<Look>& b) {
 }  // namespace
 
 void SolverWork::run(const Solver::Open& open) {
+  yieldToTheWindow();
   try {
     openAndSolve(open);
     serve();

@@ -10,7 +10,6 @@
 // edit made wrong is known, and need not be found by looking again.
 #include <deltalux/pixel_sample.hpp>
 #include <deltalux/view.hpp>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -39,11 +38,11 @@ class RenderCache {
 
   /// Takes samples in; the oldest make room. Those that met no surface are not kept.
   void insert(std::span<const PixelSample>);
-  /// Drops samples for which it is true: what an edit has made wrong. Returns how many.
-  std::size_t drop(const std::function<bool(const PixelSample&)>& stale);
-  /// The same for those that are stale; the others count as traced now, so that no change is looked at twice.
-  std::size_t drop(const SampleChanges&);
-  /// All samples, for who drops them elsewhere. Means of several rays are not `complete`: only one's path is there.
+  /// Makes way for what an edit has changed: samples that are stale stay to be seen where there is nothing else, so
+  /// that nothing turns black, until the rays that are wanted there before any other have come. The others count as
+  /// traced now, so that no change is looked at twice. Returns how many were found stale.
+  std::size_t retire(const SampleChanges&);
+  /// All samples. Means of several rays are not `complete`: only one's path is there.
   std::span<const PixelSample> samples() const;
   void clear();
 

@@ -28,6 +28,8 @@ constexpr float kOldAge = 64;            // frames
 // pixel's own that is left to chance.
 constexpr float kEmpty = 1.0f, kFilled = 0.6f, kOld = 0.5f, kYoung = 0.1f, kNoisy = 0.1f;
 
+constexpr float kOutdated = 0.5f * std::numeric_limits<float>::max();  // depth: all else is before it
+
 bool sameView(const View& a, const View& b) {
   return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.up == b.up &&
          a.horizontal == b.horizontal && a.vertical == b.vertical;
@@ -47,6 +49,7 @@ struct RenderCache::State {
     std::uint32_t shownAt = kNobody;  // pixel of the frame
     std::uint16_t rays = 1;           // that it is the mean of
     bool noisy = false;
+    bool outdated = false;  // an edit has made it wrong; nothing better is there yet
   };
 
   RenderCacheSettings settings;
@@ -87,7 +90,6 @@ struct RenderCache::State {
   bool average(std::uint32_t at, const PixelSample&);
   std::uint32_t room();
   void evict(std::uint32_t point);
-  std::size_t keep(const std::vector<char>& stays);
 
   float standingOf(const Point&) const;
   float priority(std::size_t pixel) const;
@@ -170,44 +172,27 @@ void RenderCache::State::insert(const PixelSample& s) {
   standing[s.pixel] = standingOf(p);
 }
 
-/// Closes up; returns how many went.
-std::size_t RenderCache::State::keep(const std::vector<char>& stays) {
-  std::vector<std::uint32_t> moved(points.size(), kNobody);
-  std::size_t left = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!stays[i]) continue;
-    moved[i] = static_cast<std::uint32_t>(left);
-    points[left] = points[i], samples[left] = samples[i];
-    ++left;
-  }
-  const std::size_t gone = points.size() - left;
-  if (gone == 0) return 0;
-  stands = false;
-  points.resize(left), samples.resize(left);
-  hand = 0;
-  for (std::size_t p = 0; p < pixels(); ++p) {
-    std::uint32_t& point = shown[p].point;
-    if (point != kNobody) point = moved[point];
-    if (point == kNobody) shown[p] = {}, answered[p] = 0;
-  }
-  return gone;
-}
-
 void RenderCache::insert(std::span<const PixelSample> samples) {
   state_->stands = state_->stands && samples.empty();
   for (const PixelSample& s : samples) state_->insert(s);
 }
 
-std::size_t RenderCache::drop(const std::function<bool(const PixelSample&)>& stale) {
-  std::vector<char> stays(state_->samples.size());
-  for (std::size_t i = 0; i < stays.size(); ++i) stays[i] = !stale(state_->samples[i]);
-  return state_->keep(stays);
-}
-
-std::size_t RenderCache::drop(const SampleChanges& changes) {
-  const std::size_t gone = drop([&](const PixelSample& s) { return changes.stale(s); });
-  for (PixelSample& s : state_->samples) s.version = std::max(s.version, changes.version);
-  return gone;
+std::size_t RenderCache::retire(const SampleChanges& changes) {
+  State& s = *state_;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < s.points.size(); ++i) {
+    State::Point& p = s.points[i];
+    if (!p.outdated && changes.stale(s.samples[i])) {
+      p.outdated = true;
+      p.view = p.born = 0;
+      if (p.pixel < s.pixels()) s.answered[p.pixel] = 0, s.asked[p.pixel] = 0;
+      ++count;
+    } else if (!p.outdated) {
+      s.samples[i].version = std::max(s.samples[i].version, changes.version);
+    }
+  }
+  s.stands = s.stands && count == 0;
+  return count;
 }
 
 std::span<const PixelSample> RenderCache::samples() const { return state_->samples; }
@@ -241,7 +226,7 @@ void RenderCache::State::begin(const View& v, int width, int height, std::span<c
   held.resize(width, height);
 }
 
-/// A pixel's own sample comes first, then the nearest.
+/// A pixel's own sample comes first, then the nearest, and what is outdated last.
 void RenderCache::State::project() {
   const float width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -255,6 +240,7 @@ void RenderCache::State::project() {
       pixel = static_cast<std::size_t>(at.y) * frame.width + static_cast<std::size_t>(at.x);
       depth = at.depth;
     }
+    if (point.outdated) depth = kOutdated;
     if (surfaces[pixel] == point.surface && depth < shown[pixel].depth)
       shown[pixel] = {depth, static_cast<std::uint32_t>(i)};
   }
@@ -319,6 +305,7 @@ const CacheFrame& RenderCache::frame(const View& view, int width, int height, st
 
 /// Of a sample that is shown: a pixel's own is good, but for chance; others by their age.
 float RenderCache::State::standingOf(const Point& point) const {
+  if (point.outdated) return kEmpty;
   if (point.view == viewNumber)
     return point.noisy && point.rays < kMostRays ? kNoisy / static_cast<float>(point.rays) : 0.0f;
   const float age = static_cast<float>(frameNumber - point.born);

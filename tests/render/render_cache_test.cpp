@@ -122,8 +122,9 @@ TEST(RenderCache, FollowsAnEdit) {
   c.engine.apply(TransformObject{"block", glm::translate(Mat4(1.0), Vec3(0.3, 0.2, 0.1))});
   c.engine.update();
   c.reader.refresh();
-  EXPECT_GT(c.cache.drop(*c.reader.changes()), 50u);
-  EXPECT_EQ(c.cache.drop(*c.reader.changes()), 0u) << "each change is looked at once";
+  EXPECT_GT(c.cache.retire(*c.reader.changes()), 50u);
+  EXPECT_EQ(c.cache.retire(*c.reader.changes()), 0u) << "each change is looked at once";
+  EXPECT_GT(double(c.frame(view).held), 0.9 * double(c.frame(view).wanted)) << "nothing turns black";
   c.settle(view);
   const CacheFrame& frame = c.frame(view);
   EXPECT_EQ(frame.held, frame.wanted);

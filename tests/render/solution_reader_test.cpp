@@ -163,6 +163,15 @@ TEST(SolutionReader, RefreshedIsAsGoodAsNew) {
     const SolutionMesh mesh = reader.mesh();
     EXPECT_NO_THROW(validate(mesh)) << what;
     EXPECT_TRUE(sameMesh(mesh, SolutionReader(engine.solution()).mesh())) << what;
+    // Patches follow when there is time; what is seen is where the scene has it.
+    for (const auto& side : mesh.surfaces) {
+      if (!side || side->vertices.empty() || std::holds_alternative<Sphere>((*mesh.scene)[side->primitive].shape))
+        continue;
+      Box box;
+      for (const MeshVertex& v : side->vertices) box.extend(Vec3(v.position));
+      const Box shape = bounds((*mesh.scene)[side->primitive].shape);
+      EXPECT_LT(glm::length(box.center() - shape.center()), 0.01 * shape.diagonal() + 1e-4) << what;
+    }
   };
   engine.select("pot");
   for (int i = 0; i < 4; ++i) {

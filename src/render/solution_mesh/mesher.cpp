@@ -53,7 +53,8 @@ std::vector<char> SolutionMesher::findChanged(const Solution& s) {
   const double size = s.elements.sceneBox.diagonal();
   parallelFor(sides, kSidesBlock, [&](std::size_t i) {
     const PrimitiveId primitive(i / 2);
-    Cut cut{leavesOf(s.elements, s.scene, primitive, i % 2 == 0), stepsRound(s.scene[primitive].shape, size)};
+    Cut cut{leavesOf(s.elements, s.scene, primitive, i % 2 == 0), stepsRound(s.scene[primitive].shape, size),
+            lagOf(s.elements, s.scene, primitive, i % 2 == 0)};
     changed[i] = moved[i / 2] || cut != cuts_[i];
     cuts_[i] = std::move(cut);
   });

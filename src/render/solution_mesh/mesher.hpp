@@ -30,6 +30,7 @@ class SolutionMesher {
   struct Cut {
     std::vector<hierarchy::ElementId> leaves;
     int steps = -1;
+    std::optional<Mat4> lag = std::nullopt;
 
     bool operator==(const Cut&) const = default;
   };

@@ -55,7 +55,7 @@ class SideLayout {
       if (vertexOf[point] == kNowhere) {
         vertexOf[point] = static_cast<std::uint32_t>(to_.vertices.size());
         to_.vertices.push_back(shape_.points[point]);
-        places_.push_back({part.leaf, shape_.points[point].position});
+        places_.push_back({part.leaf, placeOf(shape_.points[point].position)});
       }
       return vertexOf[point];
     };
@@ -64,6 +64,8 @@ class SideLayout {
     for (std::uint32_t i = part.outlines; i < part.outlinesEnd; ++i)
       to_.outlines.push_back(vertexAt(shape_.outlines[i]));
   }
+
+  Vec3f placeOf(const Vec3f& p) const { return shape_.lag ? Vec3f(*shape_.lag * glm::dvec4(Vec3(p), 1)) : p; }
 
   void pullInside(hierarchy::ElementId, std::size_t first) {
     Vec3f middle(0.0f);

@@ -29,7 +29,7 @@ class SideMaker {
  public:
   SideMaker(const SurfacePieces& pieces, const Scene& scene, const TouchingPoints& points)
       : pieces_(pieces), shape_(scene[pieces.primitive].shape), mesh_(std::get_if<Mesh>(&shape_)), points_(points) {
-    made_->primitive = pieces.primitive, made_->front = pieces.front;
+    made_->primitive = pieces.primitive, made_->front = pieces.front, made_->lag = pieces.lag;
     vertexOf_.assign(points.size(), kNoPoint);
   }
 

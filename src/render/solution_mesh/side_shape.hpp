@@ -5,6 +5,7 @@
 // outlines that no fan fits are triangulated as they are.
 #include <deltalux/solution_mesh.hpp>
 #include <memory>
+#include <optional>
 
 #include "render/solution_mesh/surface_pieces.hpp"
 
@@ -21,6 +22,7 @@ struct SideShape {
   std::vector<MeshVertex> points;  // each once; without light. Of curved surfaces `uv` is where it is read
   std::vector<Part> parts;
   std::vector<std::uint32_t> triangles, outlines;  // as SurfaceMesh has them
+  std::optional<Mat4> lag;                         // as SurfacePieces: from the points to where light is read
 };
 
 /// The shapes of sides that share points: precondition that flat ones and curved ones are not mixed, and that there is

@@ -77,12 +77,11 @@ void addFlatSide(SurfacePieces& to, const hierarchy::Elements& elements, hierarc
   SurfacePiece piece;
   piece.triangle = triangle;
   piece.plane = static_cast<std::uint32_t>(to.planes.size());
+  to.planes.push_back(plane);
   if (!side.valid()) {
-    to.planes.push_back(plane);
     addFlat(to, piece, outline);
     return;
   }
-  to.planes.push_back(elements.frames[elements.domain[side.index()].frame]);
   hierarchy::forEachLeafBelow(elements, side, [&](hierarchy::ElementId e) {
     piece.leaf = e;
     addFlat(to, piece, elements.outline(e));
@@ -115,24 +114,53 @@ std::vector<hierarchy::ElementId> leavesOf(const hierarchy::Elements& elements, 
   return leaves;
 }
 
+namespace {
+
+hierarchy::PlaneFrame planeOf(const Polygon& p) { return {p.origin, p.edgeU, p.edgeV, p.normal}; }
+
+hierarchy::PlaneFrame planeOf(const Mesh& mesh, std::uint32_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  hierarchy::PlaneFrame plane;
+  plane.origin = mesh.positions[a];
+  plane.edgeU = mesh.positions[b] - plane.origin, plane.edgeV = mesh.positions[c] - plane.origin;
+  plane.normal = glm::normalize(glm::cross(plane.edgeU, plane.edgeV));
+  return plane;
+}
+
+/// From the plane's parameters, and the distance in front of it in a length that scales with it.
+Mat4 spaceOf(const hierarchy::PlaneFrame& p) {
+  const double size = std::sqrt(glm::length(glm::cross(p.edgeU, p.edgeV)));
+  return {{p.edgeU, 0}, {p.edgeV, 0}, {size * p.normal, 0}, {p.origin, 1}};
+}
+
+}  // namespace
+
+std::optional<Mat4> lagOf(const hierarchy::Elements& elements, const Scene& scene, PrimitiveId primitive, bool front) {
+  const auto* polygon = std::get_if<Polygon>(&scene[primitive].shape);
+  const auto* mesh = std::get_if<Mesh>(&scene[primitive].shape);
+  for (std::uint32_t t = 0; t < (mesh ? mesh->triangles.size() : polygon ? 1 : 0); ++t) {
+    const hierarchy::ElementId side = elements.side(primitive, t, front);
+    if (!side.valid()) continue;
+    const hierarchy::PlaneFrame now = polygon ? planeOf(*polygon) : planeOf(*mesh, t),
+                                patches = elements.frames[elements.domain[side.index()].frame];
+    if (now.origin == patches.origin && now.edgeU == patches.edgeU && now.edgeV == patches.edgeV) return std::nullopt;
+    return spaceOf(patches) * glm::inverse(spaceOf(now));
+  }
+  return std::nullopt;
+}
+
 SurfacePieces piecesOf(const hierarchy::Elements& elements, const Scene& scene, PrimitiveId primitive, bool front) {
   SurfacePieces result;
   result.primitive = primitive, result.front = front;
+  result.lag = lagOf(elements, scene, primitive, front);
   const Shape& shape = scene[primitive].shape;
   if (!(area(shape) > 0)) return result;
   if (const auto* polygon = std::get_if<Polygon>(&shape)) {
-    const hierarchy::PlaneFrame plane{polygon->origin, polygon->edgeU, polygon->edgeV, polygon->normal};
-    addFlatSide(result, elements, elements.side(primitive, 0, front), 0, plane, polygon->outline);
+    addFlatSide(result, elements, elements.side(primitive, 0, front), 0, planeOf(*polygon), polygon->outline);
   } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
     const Vec2 outline[] = {{0, 0}, {1, 0}, {0, 1}};
-    for (std::uint32_t t = 0; t < mesh->triangles.size(); ++t) {
-      const auto& [a, b, c] = mesh->triangles[t];
-      hierarchy::PlaneFrame plane;
-      plane.origin = mesh->positions[a];
-      plane.edgeU = mesh->positions[b] - plane.origin, plane.edgeV = mesh->positions[c] - plane.origin;
-      plane.normal = glm::normalize(glm::cross(plane.edgeU, plane.edgeV));
-      addFlatSide(result, elements, elements.side(primitive, t, front), t, plane, outline);
-    }
+    for (std::uint32_t t = 0; t < mesh->triangles.size(); ++t)
+      addFlatSide(result, elements, elements.side(primitive, t, front), t, planeOf(*mesh, t), outline);
   } else {
     result.flat = false;
     const RoundCuts cuts = roundCuts(shape, elements.sceneBox.diagonal());

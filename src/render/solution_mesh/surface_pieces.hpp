@@ -5,6 +5,7 @@
 // Pieces lie in a space of their own, in which edges are straight: flat ones in the world, curved ones in the
 // parameters of their shape, as (u, v, 0). Curved pieces are cut along lines that depend on the shape alone, so pieces
 // of two leaves meet in whole edges, but for the corners that touching_points.hpp inserts.
+#include <optional>
 #include <span>
 
 #include "hierarchy/element.hpp"
@@ -26,6 +27,7 @@ struct SurfacePieces {
   std::vector<SurfacePiece> all;
   std::vector<Vec2> corners;                  // (u,v), counter-clockwise in them
   std::vector<hierarchy::PlaneFrame> planes;  // of flat pieces
+  std::optional<Mat4> lag;                    // as lagOf()
 
   std::span<const Vec2> cornersOf(const SurfacePiece& p) const { return {corners.data() + p.first, p.count}; }
   /// In the space of the pieces.
@@ -38,6 +40,10 @@ int stepsRound(const Shape&, double sceneSize);
 
 /// The leaves of a side, in the order of its pieces.
 std::vector<hierarchy::ElementId> leavesOf(const hierarchy::Elements&, const Scene&, PrimitiveId, bool front);
+
+/// In motion a flat surface is where the hand has it before its patches follow: the map from it to them; nullopt where
+/// they are one.
+std::optional<Mat4> lagOf(const hierarchy::Elements&, const Scene&, PrimitiveId, bool front);
 
 /// None where a side has no extent, or nobody can see it: the inside of a ball that no light reaches. Follows from the
 /// shape, the steps and the leaves. Cost: a visit per leaf.
