@@ -205,7 +205,8 @@ vec3 composed(ivec2 p) {
   float layers = p.x < wipe ? 1.0 : 0.0;
 #ifdef CACHE
   vec4 known = texelFetch(cache, p, 0);
-  L = mix(L, known.rgb, known.a * layers);
+  // However few samples it was filled from: what is under it is a mirror without a reflection.
+  if (known.a > 0.0 && layers > 0.0) L = known.rgb;
 #endif
 #ifdef PICTURE
   vec4 better = texelFetch(picture, p, 0);

@@ -9,7 +9,7 @@
 namespace deltalux::viewer {
 
 namespace {
-constexpr ImGuiWindowFlags kStill = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoMove |
+constexpr ImGuiWindowFlags kStatusFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
 
 ImVec4 badgeColour(const Status& s) {
@@ -35,7 +35,7 @@ void refused(Controller& controller, float pictureHeight) {
   if (controller.lastError.empty()) return;
   ImGui::SetNextWindowPos({10, pictureHeight - statusHeight() - 8}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowBgAlpha(0.92f);
-  ImGui::Begin("##refused", nullptr, kStill | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::Begin("##refused", nullptr, kStatusFlags | ImGuiWindowFlags_AlwaysAutoResize);
   if (ImGui::SmallButton("x"))
     controller.lastError.clear();
   else {
@@ -72,7 +72,7 @@ void statusLine(Controller& controller, const Tools& tools, float pictureWidth, 
   ImGui::SetNextWindowSize({pictureWidth, height});
   ImGui::SetNextWindowBgAlpha(0.78f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10, 6});
-  ImGui::Begin("##status", nullptr, kStill | ImGuiWindowFlags_NoInputs);
+  ImGui::Begin("##status", nullptr, kStatusFlags | ImGuiWindowFlags_NoInputs);
   const Status& status = controller.status();
   ImGui::TextColored(badgeColour(status), "%s", statusText(status).c_str());
   if (!status.message.empty()) {
@@ -102,7 +102,7 @@ void openingNotice(const Status& status, const std::string& title, float width, 
   ImGui::SetNextWindowPos({0.5f * width, 0.5f * height}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({std::min(28 * ImGui::GetFontSize(), width), 0});
   ImGui::SetNextWindowBgAlpha(0);
-  ImGui::Begin("##opening", nullptr, kStill | ImGuiWindowFlags_NoInputs);
+  ImGui::Begin("##opening", nullptr, kStatusFlags | ImGuiWindowFlags_NoInputs);
   ImGui::TextUnformatted(title.c_str());
   if (status.phase == Phase::Failed)
     ImGui::TextColored(ink::kError, "%s", status.message.c_str());
