@@ -9,7 +9,7 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr int kFewestSteps = 16, kMostSteps = 128;  // round: powers of two, as leaves are
+constexpr int kFewestSteps = 8, kMostSteps = 128;  // round: powers of two, as leaves are
 constexpr double kSagitta = 3e-5;                   // of the scene: how far flat pieces may be off a curved surface
 constexpr double kApart = 1e-5;                     // of the parameters: cuts nearer to a leaf's border are left out
 
