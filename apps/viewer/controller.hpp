@@ -86,6 +86,9 @@ class Controller {
   void dragTo(const Mat4& fromStart);
   void endDrag();
   bool dragging() const { return session_ && session_->dragging(); }
+  /// A value under the hand: edits follow one another, each in place of the one before, until it lets go.
+  void adjust(const Edit&);
+  void endAdjust();
   void undo();
   void redo();
   void dim(const std::string& light, double factor);  // of its present scale

@@ -102,6 +102,19 @@ void Controller::edit(const Edit& edit) {
   send({session_->apply(edit)}, false);
 }
 
+void Controller::adjust(const Edit& edit) {
+  if (!ready()) refuseAction("there is nothing to edit yet");
+  if (dragging()) endDrag();
+  send(session_->adjust(edit), true);
+}
+
+void Controller::endAdjust() {
+  if (!ready() || !session_->adjusting()) return;
+  session_->endAdjust();
+  send({}, false);
+  solver_->rest();
+}
+
 void Controller::beginDrag() {
   if (!ready() || selection_.empty()) refuseAction("nothing is selected", "select an object or a light first");
   if (dragging()) endDrag();

@@ -245,6 +245,15 @@ const std::map<std::string, ReadAction, std::less<>>& actionReaders() {
        }},
       {"drag", readDrag},
       {"rotate", readDrag},
+      {"dim",
+       [](LineReader& in) {
+         action::Dim dim;
+         dim.light = in.word("a light");
+         dim.factor = in.number("a factor");
+         if (dim.factor < 0) in.fail("a light cannot be dimmed below 0", "a factor of its present scale");
+         if (in.take("frames")) dim.frames = in.count("a number of frames", 1, 100000);
+         return dim;
+       }},
       {"edit", readEdit},
       {"undo", [](LineReader&) { return action::Apply{Undo{}}; }},
       {"redo", [](LineReader&) { return action::Apply{Redo{}}; }},

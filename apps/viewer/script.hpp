@@ -54,6 +54,12 @@ struct Drag {
   double degrees = 0;
   int frames = 1;
 };
+/// A light's dimmer under the hand: in so many frames from its present scale to that times `factor`.
+struct Dim {
+  std::string light;
+  double factor = 1;
+  int frames = 1;
+};
 /// One line of an edits file.
 struct Apply {
   EditStep step;
@@ -135,10 +141,10 @@ struct Quit {};
 
 using Action =
     std::variant<action::Wait, action::Frames, action::Look, action::Camera, action::Walk, action::Turn, action::Orbit,
-                 action::Select, action::SelectAt, action::Drag, action::Apply, action::Aim, action::LookThrough,
-                 action::Store, action::Compare, action::RestoreState, action::Pin, action::Read, action::Field,
-                 action::ReadField, action::PointAt, action::Explain, action::Exposure, action::Tone, action::False,
-                 action::Overlay, action::Section, action::Bookmark, action::Layer, action::Screenshot,
+                 action::Select, action::SelectAt, action::Drag, action::Dim, action::Apply, action::Aim,
+                 action::LookThrough, action::Store, action::Compare, action::RestoreState, action::Pin, action::Read,
+                 action::Field, action::ReadField, action::PointAt, action::Explain, action::Exposure, action::Tone,
+                 action::False, action::Overlay, action::Section, action::Bookmark, action::Layer, action::Screenshot,
                  action::SaveRadiance, action::SaveSolution, action::Quit>;
 
 struct ScriptLine {

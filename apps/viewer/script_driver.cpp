@@ -160,6 +160,35 @@ struct ScriptDriver::State {
     const Mat4 there = glm::translate(Mat4(1.0), centre);
     return there * glm::rotate(Mat4(1.0), radians(share * a.degrees), *a.axis) * glm::translate(Mat4(1.0), -centre);
   }
+  void noteTurn(const Turn& v) {
+    latency.push_back(1e3 * since(moved));
+    drawing.push_back(v.drawing.milliseconds);
+  }
+  void tellGesture(const char* action, const std::string& of, int frames, const Turn& v) {
+    released = Clock::now();
+    tell({{"action", action},
+          {"object", of},
+          {"frames", frames},
+          {"latency_ms", spreadOf(latency)},
+          {"draw_ms", spreadOf(drawing)},
+          {"triangles", v.drawing.triangles},
+          {"uploaded_bytes", v.drawing.uploadedBytes}});
+  }
+  bool play(const action::Dim& a, Controller& c, const Turn& v) {
+    if (turns == 0)
+      frame = 0, latency.clear(), drawing.clear();
+    else
+      noteTurn(v);
+    if (frame < a.frames) {
+      ++frame;
+      moved = Clock::now();
+      c.adjust(ScaleLight{a.light, static_cast<float>(1 + (a.factor - 1) * frame / a.frames)});
+      return false;
+    }
+    c.endAdjust();
+    tellGesture("dim", a.light, a.frames, v);
+    return true;
+  }
   bool play(const action::Drag& a, Controller& c, const Turn& v) {
     if (turns == 0) {
       if (c.selection().empty()) fail("nothing is selected", "select NAME, before it is dragged");
@@ -168,8 +197,7 @@ struct ScriptDriver::State {
       centre = centreOfSelection(c);
       c.beginDrag();
     } else {
-      latency.push_back(1e3 * since(moved));
-      drawing.push_back(v.drawing.milliseconds);
+      noteTurn(v);
     }
     if (frame < a.frames) {
       ++frame;
@@ -178,14 +206,7 @@ struct ScriptDriver::State {
       return false;
     }
     c.endDrag();
-    released = Clock::now();
-    tell({{"action", "drag"},
-          {"object", c.selection()},
-          {"frames", a.frames},
-          {"latency_ms", spreadOf(latency)},
-          {"draw_ms", spreadOf(drawing)},
-          {"triangles", v.drawing.triangles},
-          {"uploaded_bytes", v.drawing.uploadedBytes}});
+    tellGesture("drag", c.selection(), a.frames, v);
     return true;
   }
   bool play(const action::Apply& a, Controller& c, const Turn&) {

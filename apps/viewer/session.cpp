@@ -24,7 +24,7 @@ Session::Session(Scene scene, Recording start, std::filesystem::path record)
 }
 
 Edit Session::apply(const Edit& edit) {
-  if (drag_) endDrag();
+  endGesture();
   const Edit done = takeStep(edit, ++steps_);
   recording_.steps.emplace_back(edit);
   write();
@@ -41,7 +41,7 @@ Edit Session::takeStep(const Edit& edit, std::uint64_t number) {
 // Dragging.
 
 void Session::beginDrag(const std::string& object) {
-  if (drag_) endDrag();
+  endGesture();
   drag_ = Drag{object, Mat4(1.0), std::nullopt, 0};
   try {
     validateEdit(scene_, dragEdit(Mat4(1.0)));
@@ -119,6 +119,42 @@ void Session::endDrag() {
   write();
 }
 
+void Session::endGesture() {
+  if (drag_) endDrag();
+  if (adjust_) endAdjust();
+}
+
+// Values under the hand.
+
+std::vector<Edit> Session::adjust(const Edit& edit) {
+  if (drag_) endDrag();
+  if (!adjust_) {
+    Restore before = applyEdit(scene_, edit).inverse;
+    adjust_ = Adjust{edit, std::move(before)};
+    return {edit};
+  }
+  const Restore now = presentState(scene_, adjust_->before);
+  applyEdit(scene_, adjust_->before);
+  try {
+    Restore before = applyEdit(scene_, edit).inverse;
+    std::vector<Edit> edits{adjust_->before, edit};
+    adjust_ = Adjust{edit, std::move(before)};
+    return edits;
+  } catch (const InputError&) {
+    applyEdit(scene_, now);
+    throw;
+  }
+}
+
+void Session::endAdjust() {
+  if (!adjust_) return;
+  undo_.push_back({++steps_, adjust_->edit, adjust_->before});
+  redo_.clear();
+  recording_.steps.emplace_back(adjust_->edit);
+  adjust_.reset();
+  write();
+}
+
 // Back and forth.
 
 Edit Session::stepBack() {
@@ -142,7 +178,7 @@ Edit Session::stepForth() {
 }
 
 Edit Session::undo() {
-  if (drag_) endDrag();
+  endGesture();
   requireSession(canUndo(), "there is nothing to undo");
   const Edit edit = stepBack();
   write();
@@ -150,7 +186,7 @@ Edit Session::undo() {
 }
 
 Edit Session::redo() {
-  if (drag_) endDrag();
+  endGesture();
   requireSession(canRedo(), "there is nothing to redo");
   const Edit edit = stepForth();
   write();
@@ -160,14 +196,14 @@ Edit Session::redo() {
 // Stored states.
 
 void Session::store(std::size_t slot, std::string name, std::shared_ptr<const SolutionMesh> mesh) {
-  if (drag_) endDrag();
+  endGesture();
   if (stored_.size() <= slot) stored_.resize(slot + 1);
   stored_[slot] = Stored{std::move(name), std::move(mesh), undo_};
 }
 
 std::vector<Edit> Session::restore(std::size_t slot) {
   requireSession(slot < stored_.size() && stored_[slot], "nothing is stored there");
-  if (drag_) endDrag();
+  endGesture();
   const std::vector<Step>& wanted = stored_[slot]->steps;
   std::size_t common = 0;
   while (common < std::min(wanted.size(), undo_.size()) && wanted[common].number == undo_[common].number) ++common;

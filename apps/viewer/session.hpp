@@ -39,6 +39,12 @@ class Session {
   bool dragging() const { return drag_.has_value(); }
   const std::string& dragged() const { return drag_->object; }  // precondition dragging()
 
+  /// A value under the hand, such as a dimmer: each edit takes the place of the one before, all of them are one step.
+  /// Throws InputError and is as before.
+  std::vector<Edit> adjust(const Edit&);
+  void endAdjust();  // one line in the record
+  bool adjusting() const { return adjust_.has_value(); }
+
   bool canUndo() const { return !undo_.empty(); }
   bool canRedo() const { return !redo_.empty(); }
   Edit undo();  // what the engine has to apply; precondition canUndo(). Ends a drag first
@@ -89,7 +95,14 @@ class Session {
   std::vector<Step> undo_;
   std::vector<Undone> redo_;
   std::uint64_t steps_ = 0;
+  struct Adjust {
+    Edit edit;
+    Restore before;
+  };
+  void endGesture();
+
   std::optional<Drag> drag_;
+  std::optional<Adjust> adjust_;
   std::vector<std::optional<Stored>> stored_;
 };
 

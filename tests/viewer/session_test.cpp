@@ -224,5 +224,30 @@ TEST_F(ViewerSession, ARecordThatCannotBeWrittenIsToldAndNothingIsLost) {
   EXPECT_TRUE(session.recordProblem().empty());
 }
 
+/// However often a dimmer moves, it is one step from where it was, and as exact as one edit.
+TEST(ViewerSession, ADimmerUnderTheHandIsOneStep) {
+  const test::TempFolder folder;
+  const Scene start = roomIn(folder);
+  Session session(start, startIn(folder), {});
+  for (const float factor : {0.9f, 0.3f, 0.0f, 0.7f}) session.adjust(ScaleLight{"panel", factor});
+  EXPECT_TRUE(session.adjusting());
+  EXPECT_THROW(session.adjust(ScaleLight{"panle", 0.5f}), InputError);
+  session.endAdjust();
+  Scene once = start;
+  applyEdit(once, ScaleLight{"panel", 0.7f});
+  expectSame(session.scene(), once, true);
+  ASSERT_EQ(session.recording().steps.size(), 1u);
+  session.undo();
+  expectSame(session.scene(), start, true);
+  EXPECT_FALSE(session.canUndo());
+  // Whatever comes next lets go of it first.
+  session.adjust(ScaleLight{"panel", 0.5f});
+  session.apply(RemoveObject{"ball"});
+  EXPECT_FALSE(session.adjusting());
+  session.undo();
+  session.undo();
+  expectSame(session.scene(), start, true);
+}
+
 }  // namespace
 }  // namespace deltalux::viewer

@@ -106,7 +106,7 @@ TEST_F(ViewCommand, ADragIsWhatAnUpdateMakesOfItAndUndoTakesItBack) {
 TEST_F(ViewCommand, ALampDimsAndAStoredStateComesBack) {
   const auto entries = play(fmt::format(
       "wait settled\nprobe floor {}\nread floor\nstore A\n"
-      "edit {{\"op\": \"light\", \"light\": \"lamp\", \"scale\": 0.5}}\nwait settled\nread floor\n"
+      "dim lamp 0.5 frames 4\nwait settled\nread floor\n"
       "compare A 0.5\nfalsecolour illuminance 2000\nscreenshot {}\ncompare off\nrestore A\nwait settled\nread floor\n",
       kFloor, (folder_ / "ab.png").string()));
   const std::vector<double> lux = readings(entries);

@@ -22,12 +22,18 @@ float aimWidth() {
          2 * style.ItemSpacing.x;
 }
 
-void dimTo(Controller& controller, const std::string& name, const LampLevel& now, float level) {
-  if (!now.on) controller.switchLight(name, true);
-  if (now.level > 0)
-    controller.dim(name, double(level / now.level));
-  else
-    controller.colour(name, Rgb(level));  // from 0 no factor leads anywhere
+/// The light follows the hand; from 0 no factor leads anywhere.
+Edit levelEdit(const std::string& name, float start, float level) {
+  if (start > 0) return ScaleLight{name, level / start};
+  return ColourLight{name, Rgb(level)};
+}
+
+void follow(Controller& controller, Held what, const Edit& edit) {
+  if (what == Held::Changed) attempt(controller, [&] { controller.adjust(edit); });
+  if (what == Held::Released) {
+    attempt(controller, [&] { controller.adjust(edit); });
+    attempt(controller, [&] { controller.endAdjust(); });
+  }
 }
 }  // namespace
 
@@ -77,13 +83,14 @@ void lampControls(Controller& controller, Pending& pending, const std::string& n
   if (ImGui::IsItemHovered()) ImGui::SetTooltip(on ? "On" : "Off");
   ImGui::SameLine();
   Rgb colour = now.colour;
-  if (heldColour(pending, "##colour", colour, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float))
-    attempt(controller, [&] { controller.colour(name, colour * now.level); });
+  const Held tinted = heldColour(pending, "##colour", colour, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float);
+  follow(controller, tinted, ColourLight{name, colour * now.level});
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
   float level = now.level;
-  if (heldSlider(pending, "##level", level, 0, kMostLevel, "x %.3g", ImGuiSliderFlags_Logarithmic))
-    attempt(controller, [&] { dimTo(controller, name, now, std::max(level, 0.0f)); });
+  const Held dimmed = heldSlider(pending, "##level", level, 0, kMostLevel, "x %.3g", ImGuiSliderFlags_Logarithmic);
+  if (dimmed == Held::Changed && !now.on) attempt(controller, [&] { controller.switchLight(name, true); });
+  follow(controller, dimmed, levelEdit(name, pending.start[0], std::max(level, 0.0f)));
   ImGui::PopID();
 }
 

@@ -69,14 +69,15 @@ void materials(Controller& controller, Pending& pending, const SelectionPlace& p
     const bool metal = opaque && isBlack(opaque->diffuse);  // its reflectance is its lobe's (SetMaterial)
     Rgb rho = mirror ? mirror->reflectance : metal ? opaque->specular.reflectance : opaque->diffuse;
     ImGui::PushID(int(id.index()));
-    if (heldColour(pending, "##reflectance", rho, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float))
+    if (heldColour(pending, "##reflectance", rho, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float) ==
+        Held::Released)
       attempt(controller, [&] { controller.paint(material.name, glm::clamp(rho, 0.0f, 1.0f)); });
     ImGui::SameLine();
     ImGui::Text("%s  %.0f %%", material.name.c_str(), 100.0 * double(gray(rho)));
     if (opaque && !isBlack(opaque->specular.reflectance)) {
       float roughness = opaque->specular.roughness;
       ImGui::SetNextItemWidth(-6 * ImGui::GetFontSize());
-      if (heldSlider(pending, "roughness", roughness, 0, 1, "%.3f"))
+      if (heldSlider(pending, "roughness", roughness, 0, 1, "%.3f") == Held::Released)
         attempt(controller, [&] { controller.edit(SetMaterial{material.name, std::nullopt, roughness}); });
     }
     ImGui::PopID();

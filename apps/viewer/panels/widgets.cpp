@@ -7,28 +7,31 @@ namespace deltalux::viewer {
 namespace {
 /// Shows what is pending instead of the value, keeps what the widget sets, and tells when the hand is off it.
 template <class Widget>
-bool held(Pending& pending, const char* label, std::array<float, 3>& value, Widget&& widget) {
+Held held(Pending& pending, const char* label, std::array<float, 3>& value, Widget&& widget) {
   const ImGuiID id = ImGui::GetID(label);
+  const std::array<float, 3> before = pending.id == id ? pending.start : value;
   if (pending.id == id) value = pending.value;
-  if (widget(value.data())) pending = {id, value};
-  if (pending.id != id || ImGui::IsAnyItemActive()) return false;
+  const bool changed = widget(value.data());
+  if (changed) pending = {id, value, before};
+  if (pending.id != id) return Held::Nothing;
+  if (ImGui::IsAnyItemActive()) return changed ? Held::Changed : Held::Nothing;
   pending.id = 0;
-  return true;
+  return Held::Released;
 }
 }  // namespace
 
-bool heldSlider(Pending& pending, const char* label, float& value, float least, float most, const char* format,
+Held heldSlider(Pending& pending, const char* label, float& value, float least, float most, const char* format,
                 ImGuiSliderFlags flags) {
   std::array<float, 3> v{value, 0, 0};
-  const bool done =
+  const Held done =
       held(pending, label, v, [&](float* p) { return ImGui::SliderFloat(label, p, least, most, format, flags); });
   value = v[0];
   return done;
 }
 
-bool heldColour(Pending& pending, const char* label, Rgb& value, ImGuiColorEditFlags flags) {
+Held heldColour(Pending& pending, const char* label, Rgb& value, ImGuiColorEditFlags flags) {
   std::array<float, 3> v{value.r, value.g, value.b};
-  const bool done = held(pending, label, v, [&](float* p) { return ImGui::ColorEdit3(label, p, flags); });
+  const Held done = held(pending, label, v, [&](float* p) { return ImGui::ColorEdit3(label, p, flags); });
   value = {v[0], v[1], v[2]};
   return done;
 }
@@ -36,7 +39,8 @@ bool heldColour(Pending& pending, const char* label, Rgb& value, ImGuiColorEditF
 bool heldNumbers(Pending& pending, const char* label, Vec3& value, const char* format) {
   const Vec3f before(value);
   std::array<float, 3> v{before.x, before.y, before.z};
-  const bool done = held(pending, label, v, [&](float* p) { return ImGui::InputFloat3(label, p, format); });
+  const bool done =
+      held(pending, label, v, [&](float* p) { return ImGui::InputFloat3(label, p, format); }) == Held::Released;
   // What was not touched keeps the digits that single precision has not got.
   for (int i = 0; i < 3; ++i)
     if (v[std::size_t(i)] != before[i]) value[i] = double(v[std::size_t(i)]);

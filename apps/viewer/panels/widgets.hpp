@@ -1,5 +1,5 @@
 #pragma once
-// Sliders, colours and numbers that are taken over once the hand lets go: one drag of a slider is one step to undo.
+// Sliders, colours and numbers that tell what the hand does with them: one drag of a slider is one step to undo.
 #include <imgui.h>
 
 #include <array>
@@ -13,12 +13,16 @@ namespace deltalux::viewer {
 struct Pending {
   ImGuiID id = 0;
   std::array<float, 3> value{};
+  std::array<float, 3> start{};  // before the hand came
 };
 
-/// All return true once, when the hand lets go; `value` is then what it has set.
-bool heldSlider(Pending&, const char* label, float& value, float least, float most, const char* format,
+/// What a hand did in this frame: Released comes once, when it lets go; `value` is what it has set by then.
+enum class Held { Nothing, Changed, Released };
+
+Held heldSlider(Pending&, const char* label, float& value, float least, float most, const char* format,
                 ImGuiSliderFlags = 0);
-bool heldColour(Pending&, const char* label, Rgb& value, ImGuiColorEditFlags = 0);
+Held heldColour(Pending&, const char* label, Rgb& value, ImGuiColorEditFlags = 0);
+/// True once, when the hand lets go.
 bool heldNumbers(Pending&, const char* label, Vec3& value, const char* format);
 
 /// A slider over doubles, taken over as it moves.
