@@ -225,20 +225,17 @@ TEST_F(ViewerSession, ARecordThatCannotBeWrittenIsToldAndNothingIsLost) {
 }
 
 /// However often a dimmer moves, it is one step from where it was, and as exact as one edit.
-TEST(ViewerSession, ADimmerUnderTheHandIsOneStep) {
-  const test::TempFolder folder;
-  const Scene start = roomIn(folder);
-  Session session(start, startIn(folder), {});
+TEST_F(ViewerSession, ADimmerUnderTheHandIsOneStep) {
   for (const float factor : {0.9f, 0.3f, 0.0f, 0.7f}) session.adjust(ScaleLight{"panel", factor});
   EXPECT_TRUE(session.adjusting());
   EXPECT_THROW(session.adjust(ScaleLight{"panle", 0.5f}), InputError);
   session.endAdjust();
-  Scene once = start;
+  Scene once = opened;
   applyEdit(once, ScaleLight{"panel", 0.7f});
   expectSame(session.scene(), once, true);
   ASSERT_EQ(session.recording().steps.size(), 1u);
   session.undo();
-  expectSame(session.scene(), start, true);
+  expectSame(session.scene(), opened, true);
   EXPECT_FALSE(session.canUndo());
   // Whatever comes next lets go of it first.
   session.adjust(ScaleLight{"panel", 0.5f});
@@ -246,7 +243,7 @@ TEST(ViewerSession, ADimmerUnderTheHandIsOneStep) {
   EXPECT_FALSE(session.adjusting());
   session.undo();
   session.undo();
-  expectSame(session.scene(), start, true);
+  expectSame(session.scene(), opened, true);
 }
 
 }  // namespace
