@@ -203,7 +203,7 @@ TEST_F(ViewerController, RaysFillTheCacheAndEditsTakeOutWhatTheyMakeWrong) {
   EXPECT_GT(held(), 0.7) << "what was there stays until something better comes";
   ASSERT_TRUE(reached(controller, [&] {
     draw();
-    return 4 * stale() < wrong;
+    return 2 * stale() < wrong && held() > 0.99;  // some lie behind newer ones until there is no room
   }));
 }
 
