@@ -164,6 +164,12 @@ struct ScriptDriver::State {
     latency.push_back(1e3 * since(moved));
     drawing.push_back(v.drawing.milliseconds);
   }
+  /// Of each turn, what drawing did not take.
+  std::vector<double> besides() const {
+    std::vector<double> rest;
+    for (std::size_t i = 0; i < latency.size(); ++i) rest.push_back(std::max(0.0, latency[i] - drawing[i]));
+    return rest;
+  }
   void tellGesture(const char* action, const std::string& of, int frames, const Turn& v) {
     released = Clock::now();
     tell({{"action", action},
@@ -171,6 +177,7 @@ struct ScriptDriver::State {
           {"frames", frames},
           {"latency_ms", spreadOf(latency)},
           {"draw_ms", spreadOf(drawing)},
+          {"besides_ms", spreadOf(besides())},
           {"triangles", v.drawing.triangles},
           {"uploaded_bytes", v.drawing.uploadedBytes}});
   }

@@ -1,7 +1,8 @@
 #pragma once
 // Plays a script, a little every time the window has drawn. What it measures and reads it prints, one JSON object a
 // line:
-//   {"line": 7, "action": "drag", "frames": 40, "latency_ms": {"median", "p95", "worst"}, "draw_ms": {...}}
+//   {"line": 7, "action": "drag", "frames": 40, "latency_ms": {"median", "p95", "worst"}, "draw_ms": {...},
+//    "besides_ms": {...}}         latency: from an action to the frame that shows it; of it, drawing, and the rest
 #include <chrono>
 #include <functional>
 #include <string>
