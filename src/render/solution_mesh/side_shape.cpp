@@ -43,7 +43,7 @@ class SideMaker {
       vertices_.push_back(vertexAt(piece, p, uv_.back()));
     }
     const std::size_t n = ring.size();
-    if (n == 3 || (!pieces_.flat && piece.cut && n == 4)) {
+    if (n == 3 || (!pieces_.flat && n == 4)) {
       for (std::size_t i = 1; i + 1 < n; ++i) addTriangle(vertices_[0], vertices_[i], vertices_[i + 1]);
     } else if (fanFits(uv_, piece.center) && (piece.leaf.valid() || !pieces_.flat)) {
       const std::uint32_t center = addVertex(vertexFor(piece, pieces_.place(piece, piece.center), piece.center));
