@@ -99,7 +99,8 @@ void SolverWork::openAndSolve(const Solver::Open& open) {
   while (!solved) {
     status_.phase = Phase::Solving;
     out_.publish([&](Findings& f) { f.status = status_; });
-    solved = isSolved(engine_->step(&solving));
+    const bool nothingYet = rounds == 0 && !reader_;
+    solved = isSolved(nothingYet ? engine_->preview(&solving) : engine_->step(&solving));
     ++rounds;
     if (!solved) {
       receive(false);

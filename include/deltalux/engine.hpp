@@ -22,6 +22,8 @@ class Engine {
   /// One round: refines to the next error of the schedule and settles the light. The report's `converged` says whether
   /// the target is met. Throws Interrupted (the last round's solution stands) when `progress` asks to stop.
   SolveReport step(Progress* progress = nullptr);
+  /// In place of the first step: a coarser round, for something to look at soon. Steps after it lead to the same error.
+  SolveReport preview(Progress* progress = nullptr);
   /// Steps until the target is met or the time is up.
   SolveReport solve(Progress* progress = nullptr);
 

@@ -26,6 +26,11 @@ Engine& Engine::operator=(Engine&&) noexcept = default;
 
 SolveReport Engine::step(Progress* progress) { return state_->step(progress); }
 
+SolveReport Engine::preview(Progress* progress) {
+  state_->previewed = true;
+  return state_->step(progress);
+}
+
 SolveReport Engine::solve(Progress* progress) {
   SolveReport report = step(progress);
   while (!state_->finished) report = step(progress);

@@ -23,6 +23,7 @@ namespace {
 constexpr double kFirstError = 64.0;   // of the links, relative to the target, in the first round
 constexpr double kErrorFactor = 0.35;  // from round to round
 constexpr double kHasty = 8.0;         // first round when time is limited, against the first otherwise
+constexpr double kPreview = 8.0;       // the same, for a first look: its picture is there in a second or two
 constexpr double kSettled = 1e-3;      // unsettled power, relative to emitted
 constexpr int kMaxIterations = 64;
 
@@ -53,7 +54,7 @@ void Engine::State::prepare(Progress* progress) {
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.counts.raysVisibility += coarse.rays;
   s.report.times.hierarchy += time.seconds() - s.report.times.particles;
-  nextError = s.settings.error * kFirstError * (budget.limited() ? kHasty : 1.0);
+  nextError = s.settings.error * kFirstError * (previewed ? kPreview : budget.limited() ? kHasty : 1.0);
   if (progress) progress->report("hierarchy", 1.0);
 }
 

@@ -46,8 +46,9 @@ namespace deltalux {
 
 struct Engine::State {
   std::shared_ptr<Solution> solution = std::make_shared<Solution>();
-  double nextError = 0;   // of the next round
-  bool finished = false;  // the last round has run
+  double nextError = 0;    // of the next round
+  bool finished = false;   // the last round has run
+  bool previewed = false;  // the first round is to be a coarse one
   engine::Clock clock;
   engine::TimeBudget budget{0};
   bool curtailed = false;                               // fewer particles than the error asks for: there was no time
