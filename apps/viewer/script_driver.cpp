@@ -270,14 +270,17 @@ struct ScriptDriver::State {
         {{"action", "read"}, {"field", {{"Em", f.mean}, {"Emin", f.least}, {"U0", f.uniformity}}}, {"exact", f.exact}});
     return true;
   }
-  bool play(const action::PointAt& a, Controller& c, const Turn&) {
+  bool play(const action::PointAt& a, Controller& c, const Turn& v) {
     if (turns == 0) c.pointAt(a.x, a.y);
     const UnderCursor& under = c.underCursor();
     if (!under.known) {
       if (turns > 0 && !c.hitAt(a.x, a.y)) fail("nothing is seen at that pixel", "a pixel over a surface");
       return false;
     }
-    if (!under.contributions) return waitForReading(c);
+    if (!under.contributions || turns < 2) return waitForReading(c);
+    const DisplayImage seen = v.renderer.screenshot();
+    const auto& colour = seen.at(std::clamp(static_cast<int>(a.x), 0, seen.width - 1),
+                                 std::clamp(static_cast<int>(a.y), 0, seen.height - 1));
     Json lamps = Json::object();
     for (const auto& lamp : under.contributions->lamps)
       lamps[c.scene()[lamp.light].name] = photometric(lamp.E, c.scene().luminousEfficacy);
@@ -287,6 +290,7 @@ struct ScriptDriver::State {
           {"object", under.object.valid() ? c.scene()[under.object].name : ""},
           {"lux", under.lux},
           {"cd_m2", under.candelaPerSquareMetre},
+          {"colour", colour},
           {"lamps_lux", lamps}});
     return true;
   }

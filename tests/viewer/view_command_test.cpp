@@ -29,7 +29,8 @@ class ViewCommand : public testing::Test {
     if (!test::hasDisplayServer()) GTEST_SKIP() << "no Xvfb here: scripts/install-deps";
   }
 
-  std::vector<json> play(const std::string& script, const std::vector<std::string>& more = {}) {
+  std::vector<json> play(const std::string& script, const std::vector<std::string>& more = {},
+                         const std::vector<std::string>& quality = kCoarse) {
     std::vector<std::string> arguments{"view",
                                        bundledScene(kScene),
                                        "--quiet",
@@ -37,7 +38,7 @@ class ViewCommand : public testing::Test {
                                        bundledScene("cornell/cornell.vf"),
                                        "--script",
                                        folder_.write("s.script", "size 64 64\n" + script)};
-    arguments.insert(arguments.end(), kCoarse.begin(), kCoarse.end());
+    arguments.insert(arguments.end(), quality.begin(), quality.end());
     arguments.insert(arguments.end(), more.begin(), more.end());
     const CliResult result = test::runCliWithDisplay(arguments);
     EXPECT_EQ(result.exitCode, 0) << result.err << result.out;
@@ -154,6 +155,41 @@ TEST_F(ViewCommand, ThePointUnderTheCursorAndAFieldAreMeasured) {
   for (const auto& [name, lux] : why["surfaces_lux"].items()) surfaces += double(lux);
   EXPECT_GT(surfaces, 0.5 * double(why["indirect_lux"]));
   EXPECT_LT(surfaces, 1.01 * double(why["indirect_lux"]));
+}
+
+/// The colour that stands for an illuminance on a scale of three decades below `top`.
+std::array<std::uint8_t, 3> falseColourOf(double lux, double top) {
+  Image one;
+  one.width = one.height = 1;
+  one.pixels = {Rgb(static_cast<float>(lux / kLuminousEfficacy))};
+  FalseColorSettings settings;
+  settings.top = top;
+  const DisplayImage shown = falseColor(one, settings);
+  return shown.at(shown.width - 1, 0);
+}
+
+TEST_F(ViewCommand, FalseColourStandsForWhatAProbeReads) {
+  const auto entries =
+      play("wait settled\nfalsecolour illuminance 1000 log 3\npoint 30 25\npoint 6 40\n", {}, {"--error", "0.05"});
+  ASSERT_EQ(entries.size(), 3u);
+  for (const std::size_t i : {1, 2}) {
+    const double lux = entries[i]["lux"];
+    ASSERT_GT(lux, 1);
+    // What is drawn is the mesh's light; the probe's is within some percent of it.
+    int nearest = 1000;
+    for (double share = 0.75; share < 1.34; share *= 1.01) {
+      const auto wanted = falseColourOf(share * lux, 1000);
+      int off = 0;
+      for (std::size_t k = 0; k < 3; ++k) off = std::max(off, std::abs(int(wanted[k]) - int(entries[i]["colour"][k])));
+      nearest = std::min(nearest, off);
+    }
+    EXPECT_LE(nearest, 4) << entries[i].dump();
+    // And not just any colour of the scale.
+    const auto other = falseColourOf(4 * lux, 1000);
+    int apart = 0;
+    for (std::size_t k = 0; k < 3; ++k) apart = std::max(apart, std::abs(int(other[k]) - int(entries[i]["colour"][k])));
+    EXPECT_GT(apart, 16) << entries[i].dump();
+  }
 }
 
 TEST_F(ViewCommand, AWrongScriptIsToldBeforeAnythingIsOpened) {
