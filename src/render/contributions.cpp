@@ -75,11 +75,7 @@ Contributions SolutionReader::contributions(const ProbePoint& point, const Contr
   DELTALUX_CHECK(settings.error > 0 && settings.error < 1, "the error is a fraction between 0 and 1");
   const Solution& s = state_->solution();
   const rendering::Reconstruction& reconstruction = *state_->reconstruction;
-  {
-    const std::lock_guard lock(state_->meterMaking);
-    if (!state_->meter) state_->meter = std::make_unique<const rendering::LightMeter>(s, reconstruction);
-  }
-  const rendering::LightMeter& meter = *state_->meter;
+  const rendering::LightMeter& meter = state_->lightMeter();
   Contributions result;
   const auto spot = meter.surfaceAt(point);
   if (!spot) return result;

@@ -29,6 +29,12 @@ struct ReaderState {
   NotedSolution noted;  // what `changes` are differences from
 
   const Solution& solution() const { return view.get(); }
+  /// Made when first asked for, once a refresh.
+  const LightMeter& lightMeter() {
+    const std::lock_guard lock(meterMaking);
+    if (!meter) meter = std::make_unique<const LightMeter>(solution(), *reconstruction);
+    return *meter;
+  }
 };
 
 /// Notes what differs from what was noted before (sample_changes.cpp).

@@ -42,12 +42,7 @@ std::optional<SurfaceHit> SolutionReader::pick(const Vec3& origin, const Vec3& d
 std::vector<ProbeResult> SolutionReader::probe(std::span<const ProbePoint> points,
                                                const ProbeSettings& settings) const {
   DELTALUX_CHECK(settings.error > 0 && settings.error < 1, "the error is a fraction between 0 and 1");
-  rendering::ReaderState& s = *state_;
-  {
-    const std::lock_guard lock(s.meterMaking);
-    if (!s.meter) s.meter = std::make_unique<const rendering::LightMeter>(s.solution(), *s.reconstruction);
-  }
-  return rendering::measureAll(*s.meter, points, settings, nullptr);
+  return rendering::measureAll(state_->lightMeter(), points, settings, nullptr);
 }
 
 }  // namespace deltalux
