@@ -44,9 +44,7 @@ void SolutionSource::add(CLI::App& app) {
   solve_.add(app);
   app.get_option("SCENE")->description(
       "A solution (.dlx); or a scene, which is solved first: .gltf, .glb, .obj, or .rad files in order");
-  for (const char* name : {"--ies", "--metres-per-unit", "--efficacy", "--error", "--particles", "--diffuse-only",
-                           "--no-caustic-textures"})
-    sceneOnly_.push_back(app.get_option(name));
+  for (const char* name : sceneAndSolveOptions()) sceneOnly_.push_back(app.get_option(name));
 }
 
 SolutionView SolutionSource::load(Run& run, const RunOptions& options, Progress& progress,
@@ -76,6 +74,22 @@ SolutionView SolutionSource::loadFile(Run& run) const {
   run.report.times.import = run.elapsed() - begin;
   throwIfInterrupted();
   return solution;
+}
+
+std::vector<const char*> sceneAndSolveOptions() {
+  std::vector<const char*> names = SceneOptions::names();
+  for (const char* name : SolveOptions::names()) names.push_back(name);
+  return names;
+}
+
+Recording recordingOf(const SceneOptions& scene, const SolveOptions& solve, const RunOptions& run) {
+  Recording recording;
+  recording.scene = {scene.files.begin(), scene.files.end()};
+  recording.luminaires = scene.hung();
+  recording.import = scene.import;
+  recording.settings = solve.settings;
+  recording.settings.seed = run.seed;
+  return recording;
 }
 
 void noteSolve(const SolveReport& solved, RunReport& report) {

@@ -1,5 +1,6 @@
 #pragma once
 // Where a command reads a SOLUTION, a SCENE may stand: it is solved first.
+#include <deltalux/edit_io.hpp>
 #include <deltalux/solution.hpp>
 #include <functional>
 
@@ -11,7 +12,10 @@ namespace deltalux::cli {
 struct SolveOptions {
   SolveSettings settings;
 
-  void add(CLI::App&);  // --error, --particles, --diffuse-only
+  void add(CLI::App&);  // names()
+  static std::vector<const char*> names() {
+    return {"--error", "--particles", "--diffuse-only", "--no-caustic-textures"};
+  }
   /// Solves; notes times, counts and energy in the run's report. Throws Interrupted.
   SolutionView solve(Scene, Run&, const RunOptions&, Progress&) const;
 };
@@ -31,6 +35,11 @@ class SolutionSource {
   SolveOptions solve_;
   std::vector<CLI::Option*> sceneOnly_;  // options that a solution leaves nothing to do for
 };
+
+/// The options that say how a scene is read and solved: those of SceneOptions and SolveOptions.
+std::vector<const char*> sceneAndSolveOptions();
+/// What they say, as a recording without any step.
+Recording recordingOf(const SceneOptions&, const SolveOptions&, const RunOptions&);
 
 /// Adds what solving did to a run's report.
 void noteSolve(const SolveReport&, RunReport&);

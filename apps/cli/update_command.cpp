@@ -61,21 +61,15 @@ bool isRecording(const std::string& file) { return std::filesystem::path(file).e
 /// What replay is to play: a recording, or what its options say.
 Recording sessionOf(const UpdateOptions& options, const CLI::App& command) {
   if (options.scene.files.size() == 1 && isRecording(options.scene.files.front())) {
-    std::vector<const char*> others = SceneOptions::names();
-    for (const char* name : {"--error", "--particles", "--diffuse-only", "--no-caustic-textures", "--seed", "--edits"})
-      others.push_back(name);
+    std::vector<const char*> others = sceneAndSolveOptions();
+    for (const char* name : {"--seed", "--edits"}) others.push_back(name);
     for (const char* name : others)
       if (command.get_option(name)->count() > 0)
         throw CLI::ValidationError(std::string(name) + ": a recording says that itself");
     return loadRecording(options.scene.files.front());
   }
   if (options.edits.empty()) throw CLI::RequiredError("--edits (or a recording in place of SCENE)");
-  Recording session;
-  session.scene = {options.scene.files.begin(), options.scene.files.end()};
-  session.luminaires = options.scene.hung();
-  session.import = options.scene.import;
-  session.settings = options.solve.settings;
-  session.settings.seed = options.run.seed;
+  Recording session = recordingOf(options.scene, options.solve, options.run);
   session.steps = loadEdits(options.edits, session.import);
   return session;
 }

@@ -27,14 +27,12 @@ struct ViewOptions {
 bool isSession(const std::string& file) { return std::filesystem::path(file).extension() == ".json"; }
 
 /// What is to be opened, and how. Throws InputError, CLI::ValidationError.
-Recording recordingOf(const ViewOptions& options, const CLI::App& command) {
+Recording toOpen(const ViewOptions& options, const CLI::App& command) {
   const std::string& first = options.scene.files.front();
   const bool alone = options.scene.files.size() == 1;
   if (alone && (isSession(first) || isSolutionFile(first))) {
-    std::vector<const char*> others = SceneOptions::names();
-    for (const char* name :
-         {"--error", "--particles", "--diffuse-only", "--no-caustic-textures", "--seed", "--seconds"})
-      others.push_back(name);
+    std::vector<const char*> others = sceneAndSolveOptions();
+    for (const char* name : {"--seed", "--seconds"}) others.push_back(name);
     for (const char* name : others)
       if (command.get_option(name)->count() > 0)
         throw CLI::ValidationError(std::string(name) +
@@ -44,13 +42,7 @@ Recording recordingOf(const ViewOptions& options, const CLI::App& command) {
   } else {
     options.scene.requireEffect();
   }
-  Recording recording;
-  recording.scene = {options.scene.files.begin(), options.scene.files.end()};
-  recording.luminaires = options.scene.hung();
-  recording.import = options.scene.import;
-  recording.settings = options.solve.settings;
-  recording.settings.seed = options.run.seed;
-  return recording;
+  return recordingOf(options.scene, options.solve, options.run);
 }
 
 /// The scene as the recording's steps leave it, not yet solved; or the solution.
@@ -76,7 +68,7 @@ void runView(const ViewOptions& options, const CLI::App& command) {
   const auto start = viewer::ScriptDriver::Clock::now();
   std::optional<viewer::Script> script;
   if (!options.script.empty()) script = viewer::loadScript(options.script);
-  const Recording recording = recordingOf(options, command);
+  const Recording recording = toOpen(options, command);
   if (!options.record.empty()) checkWritable(options.record);
   Run run("view", options.run);
 
