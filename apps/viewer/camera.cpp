@@ -51,6 +51,11 @@ glm::dmat3 turning(const View& view, double yaw, double pitch) {
 
 }  // namespace
 
+bool sameView(const View& a, const View& b) {
+  return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.up == b.up &&
+         a.horizontal == b.horizontal && a.vertical == b.vertical;
+}
+
 void turn(View& view, double yaw, double pitch) { view.direction = turning(view, yaw, pitch) * view.direction; }
 
 void move(View& view, const Vec3& rightForwardUp, bool level) {

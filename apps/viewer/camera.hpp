@@ -5,6 +5,8 @@
 
 namespace deltalux::viewer {
 
+/// Whether both show the same, whatever their names.
+bool sameView(const View&, const View&);
 /// Turns the camera in place [radians]; positive yaw to the left, positive pitch upwards, which stays short of straight
 /// up and down.
 void turn(View&, double yaw, double pitch);

@@ -12,11 +12,6 @@ namespace deltalux::viewer {
 
 namespace {
 
-bool sameView(const View& a, const View& b) {
-  return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.up == b.up &&
-         a.horizontal == b.horizontal && a.vertical == b.vertical;
-}
-
 bool sameStatus(const Status& a, const Status& b) {
   return a.phase == b.phase && a.fraction == b.fraction && a.staleShare == b.staleShare && a.message == b.message &&
          a.edits == b.edits && a.settleSeconds == b.settleSeconds;
@@ -24,7 +19,7 @@ bool sameStatus(const Status& a, const Status& b) {
 
 /// The pointer that `now` is, if it is another than `before`.
 template <class T>
-bool isNews(std::shared_ptr<const T>& before, std::shared_ptr<const T> now) {
+bool takeNewer(std::shared_ptr<const T>& before, std::shared_ptr<const T> now) {
   if (!now || now == before) return false;
   before = std::move(now);
   return true;
@@ -43,17 +38,17 @@ Controller::Controller(Source source, Solver::Settings settings) : source_(std::
   solver_ = std::make_unique<Solver>(std::exchange(source_.open, {}), settings);
 }
 
-bool Controller::takeNews() {
+bool Controller::takeChanges() {
   // The status first: what it says of edits is then true of the mesh that is taken next.
   const Status status = solver_->status();
-  bool news = !sameStatus(status, status_);
+  bool changed = !sameStatus(status, status_);
   if (!status.message.empty() && status.phase != Phase::Solving && status.message != status_.message)
     lastError = status.message;
   status_ = status;
   std::shared_ptr<const SolutionMesh> mesh = solver_->mesh();
   const bool otherMesh = mesh && mesh != mesh_;
-  if (isNews(changes_, solver_->changes()) && changes_) cache_.retire(*changes_), news = true;
-  if (otherMesh) takeMesh(std::move(mesh)), news = true;
+  if (takeNewer(changes_, solver_->changes()) && changes_) cache_.retire(*changes_), changed = true;
+  if (otherMesh) takeMesh(std::move(mesh)), changed = true;
   const std::vector<PixelSample> samples = solver_->takeSamples();
   raysOut_ -= std::min(raysOut_, samples.size());
   if (!samples.empty()) {
@@ -61,16 +56,16 @@ bool Controller::takeNews() {
     std::copy_if(samples.begin(), samples.end(), std::back_inserter(good),
                  [&](const PixelSample& s) { return !changes_ || !changes_->stale(s); });
     cache_.insert(good);
-    news = true;
+    changed = true;
   }
-  news |= isNews(picture_, solver_->picture());
-  if (isNews(readings_, solver_->readings())) takeReadings(*readings_), news = true;
-  if (isNews(answer_, solver_->answer())) takeAnswer(*answer_), news = true;
+  changed |= takeNewer(picture_, solver_->picture());
+  if (takeNewer(readings_, solver_->readings())) takeReadings(*readings_), changed = true;
+  if (takeNewer(answer_, solver_->answer())) takeAnswer(*answer_), changed = true;
   if (settled())
     for (int slot = 0; slot < 2; ++slot)
       if (std::exchange(storedEarly_[static_cast<std::size_t>(slot)], false)) store(slot);
   if (session_) askNext();
-  return news;
+  return changed;
 }
 
 void Controller::takeMesh(std::shared_ptr<const SolutionMesh> mesh) {

@@ -53,7 +53,7 @@ class Controller {
 
   // Every frame of the window.
   /// Takes over what is new. True when something has to be drawn again.
-  bool takeNews();
+  bool takeChanges();
   /// The frame to draw.
   Frame frame() const;
   /// After drawing: asks for rays and for the picture at rest. `specular`: by pixel (Renderer::specularPixels).

@@ -21,13 +21,9 @@ Solver::Solver(Open open, Settings settings) : state_(std::make_unique<State>())
 }
 
 Solver::~Solver() {
-  state_->out.onNews({});
+  state_->out.onChange({});
   state_->in.stop();
   state_->thread.join();
-}
-
-void Solver::setSettings(const Settings& settings) {
-  state_->in.put([&](Orders& o) { o.settings = settings; });
 }
 
 std::uint64_t Solver::apply(std::vector<Edit> edits, bool moving) {
@@ -101,6 +97,6 @@ std::shared_ptr<const SampleChanges> Solver::changes() const {
   return state_->out.read([](const Findings& f) { return f.changes; });
 }
 std::vector<PixelSample> Solver::takeSamples() { return state_->out.takeSamples(); }
-void Solver::onNews(std::function<void()> tell) { state_->out.onNews(std::move(tell)); }
+void Solver::onChange(std::function<void()> tell) { state_->out.onChange(std::move(tell)); }
 
 }  // namespace deltalux::viewer

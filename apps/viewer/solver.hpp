@@ -72,7 +72,6 @@ class Solver {
   ~Solver();  // stops what is going on, at its next step
 
   // From the window's thread. All return at once.
-  void setSettings(const Settings&);
   /// Edits to take in; those that come while the scene is being solved wait for that to end. `moving`: more will
   /// follow; otherwise it settles after them. Returns the number of edits so far.
   std::uint64_t apply(std::vector<Edit>, bool moving);
@@ -107,7 +106,7 @@ class Solver {
   /// Tells which samples are stale; never null once there is a mesh.
   std::shared_ptr<const SampleChanges> changes() const;
   /// Called on the solver's thread whenever there is something new: wakes the window.
-  void onNews(std::function<void()>);
+  void onChange(std::function<void()>);
 
  private:
   struct State;

@@ -22,7 +22,7 @@ std::vector<PixelSample> SolverOutbox::takeSamples() {
   return std::exchange(findings_.samples, {});
 }
 
-void SolverOutbox::onNews(std::function<void()> tell) {
+void SolverOutbox::onChange(std::function<void()> tell) {
   const std::lock_guard lock(mutex_);
   tell_ = std::move(tell);
 }

@@ -44,7 +44,6 @@ struct Orders {
     std::promise<std::vector<ProbeResult>> results;
   };
   std::vector<Measurement> measurements;
-  std::optional<Solver::Settings> settings;
 };
 
 class SolverInbox {
@@ -100,7 +99,7 @@ class SolverOutbox {
     return read(findings_);
   }
   std::vector<PixelSample> takeSamples();
-  void onNews(std::function<void()>);
+  void onChange(std::function<void()>);
 
  private:
   mutable std::mutex mutex_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <deltalux/error.hpp>
 
+#include "camera.hpp"
 #include "scene_state.hpp"
 
 namespace deltalux::viewer {
@@ -45,9 +46,7 @@ bool isSolved(const SolveReport& report) { return report.converged || report.ene
 
 bool sameLook(const std::optional<Look>& a, const std::optional<Look>& b) {
   if (!a || !b) return !a && !b;
-  const View &v = a->view, &w = b->view;
-  return a->width == b->width && a->height == b->height && v.kind == w.kind && v.position == w.position &&
-         v.direction == w.direction && v.up == w.up && v.horizontal == w.horizontal && v.vertical == w.vertical;
+  return a->width == b->width && a->height == b->height && sameView(a->view, b->view);
 }
 
 }  // namespace
@@ -148,7 +147,6 @@ void SolverWork::receive(bool wait) {
                 std::make_move_iterator(orders.edits.end()));
   editCount_ = orders.editCount;
   if (orders.moving) moving_ = *orders.moving;
-  if (orders.settings) settings_ = *orders.settings, picture_.reset(), pictureDone_ = false;
   if (orders.select) select_ = std::move(orders.select);
   if (orders.rays) rays_ = std::move(*orders.rays);
   if (orders.meters) {

@@ -42,9 +42,9 @@ class Loop {
         controller_(options.source, options.solver) {
     tools_.panels = options.panels;
     if (options.ev) controller_.draw().tone.ev = *options.ev;
-    controller_.solver().onNews([] { Window::wake(); });
+    controller_.solver().onChange([] { Window::wake(); });
   }
-  ~Loop() { controller_.solver().onNews({}); }
+  ~Loop() { controller_.solver().onChange({}); }
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
 
@@ -59,10 +59,10 @@ class Loop {
     while (!window_.closing()) {
       window_.handleEvents(patience());
       if (window_.takeTouched()) due_ = kFramesAfterTouch;
-      const bool news = controller_.takeNews();
+      const bool changed = controller_.takeChanges();
       if (options_.driver) failWith(controller_.status());
       const bool driven = options_.driver && options_.driver->wantsFrame();
-      const bool drawing = news || driven || due_ > 0 || hands_.moving();
+      const bool drawing = changed || driven || due_ > 0 || hands_.moving();
       if (drawing) frame();
       if (options_.driver && !options_.driver->tick(controller_, *renderer_, drawn_)) return;
       if (drawing) shown();

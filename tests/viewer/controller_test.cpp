@@ -75,7 +75,7 @@ class ViewerController : public ::testing::Test {
   ::testing::AssertionResult reached(Controller& c, const std::function<bool()>& so) {
     const auto start = std::chrono::steady_clock::now();
     while (std::chrono::steady_clock::now() - start < std::chrono::seconds(60)) {
-      if (c.takeNews()) c.drawn({});
+      if (c.takeChanges()) c.drawn({});
       if (so()) return ::testing::AssertionSuccess();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -112,7 +112,7 @@ TEST_F(ViewerController, AfterADragMetersReadWhatProbeReadsOfTheSolution) {
   for (int i = 1; i <= 5; ++i) {
     controller.dragTo(shifted(0.02 * i, 0, 0));
     EXPECT_FALSE(controller.settled());
-    if (controller.takeNews()) controller.drawn({});
+    if (controller.takeChanges()) controller.drawn({});
   }
   ASSERT_TRUE(
       reached(controller, [&] { return controller.status().phase == Phase::Moving && !controller.frame().ahead; }));
@@ -182,11 +182,11 @@ TEST_F(ViewerController, RaysFillTheCacheAndEditsTakeOutWhatTheyMakeWrong) {
     return held() > 0.7;
   }));
   EXPECT_TRUE(controller.finished());
-  int quiet = 0;  // turns without news: no end of asking would be no end of drawing
+  int quiet = 0;  // turns without changes: no end of asking would be no end of drawing
   ASSERT_TRUE(reached(controller, [&] {
-    const bool news = controller.takeNews();
-    if (news) draw();
-    quiet = news ? 0 : quiet + 1;
+    const bool changed = controller.takeChanges();
+    if (changed) draw();
+    quiet = changed ? 0 : quiet + 1;
     return quiet > 50;
   }));
 
@@ -254,12 +254,12 @@ TEST_F(ViewerController, NothingRunsOnceItIsFinished) {
   const std::shared_ptr<const Picture> picture = controller.frame().picture;
   ASSERT_TRUE(picture);
   EXPECT_TRUE(picture->done);
-  EXPECT_FALSE(controller.takeNews());
+  EXPECT_FALSE(controller.takeChanges());
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   const double start = processSeconds();
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   EXPECT_LT(processSeconds() - start, 0.005);
-  EXPECT_FALSE(controller.takeNews());
+  EXPECT_FALSE(controller.takeChanges());
 
   RenderSettings same = settings().picture;
   same.width = same.height = 48;

@@ -12,11 +12,6 @@ float weightOf(std::uint32_t rays) {
 }
 }  // namespace
 
-bool sameView(const View& a, const View& b) {
-  return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.up == b.up &&
-         a.horizontal == b.horizontal && a.vertical == b.vertical;
-}
-
 std::uint64_t Layers::setCache(const CacheFrame& frame) {
   std::uint64_t uploaded = 0;
   const auto known = [](const glm::vec4& p) { return p.w > 0; };

@@ -6,9 +6,6 @@
 
 namespace deltalux::viewer::gl {
 
-/// Whether two views show the same.
-bool sameView(const View&, const View&);
-
 class Layers {
  public:
   /// Returns the bytes uploaded: none where no pixel is known.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "camera.hpp"
 #include "gl/background.hpp"
 #include "gl/draw_state.hpp"
 #include "gl/line_pass.hpp"
