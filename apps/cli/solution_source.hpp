@@ -14,7 +14,7 @@ struct SolveOptions {
 
   void add(CLI::App&);  // names()
   static std::vector<const char*> names() {
-    return {"--error", "--particles", "--diffuse-only", "--no-caustic-textures"};
+    return {"--error", "--particles", "--method", "--diffuse-only", "--no-caustic-textures"};
   }
   /// Solves; notes times, counts and energy in the run's report. Throws Interrupted.
   SolutionView solve(Scene, Run&, const RunOptions&, Progress&) const;

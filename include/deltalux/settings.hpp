@@ -4,6 +4,12 @@
 
 namespace deltalux {
 
+/// How diffuse light is exchanged.
+enum class SolveMethod : std::uint8_t {
+  Links,  // hierarchical links, resolved to rows of transfers
+  Lines,  // stored lines that count at both ends
+};
+
 struct SolveSettings {
   double error = 0.05;          // target relative error of irradiance, in (0, 1)
   std::uint64_t particles = 0;  // target count of particles; 0: from `error`
@@ -11,6 +17,7 @@ struct SolveSettings {
   bool diffuseOnly = false;     // no specular lobes, no mirrors; thin glass passes light straight on
   bool causticTextures = true;  // off: the mesh shows the light of particles everywhere, refined for it
   std::uint64_t seed = 1;
+  SolveMethod method = SolveMethod::Links;
 };
 
 }  // namespace deltalux

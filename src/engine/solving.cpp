@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "engine/energy_balance.hpp"
 #include "engine/particle_count.hpp"
+#include "engine/solve_lines.hpp"
 #include "engine/state.hpp"
 #include "hierarchy/build.hpp"
 #include "particles/mesh_for_particles.hpp"
@@ -32,6 +33,14 @@ constexpr int kMaxIterations = 64;
 SolveReport Engine::State::step(Progress* progress) {
   const engine::Clock time;
   Solution& s = *solution;
+  if (s.settings.method == SolveMethod::Lines) {
+    engine::solveByLines(s, progress);
+    countParticles();
+    if (s.elements.sceneRoot.valid()) makeTextures(), count();
+    finished = s.report.converged = true;
+    s.report.times.total += time.seconds();
+    return s.report;
+  }
   if (!s.elements.sceneRoot.valid() && s.elements.size() == 0) prepare(progress);
   if (s.elements.sceneRoot.valid())
     round(progress);

@@ -23,6 +23,8 @@ void forEachSection(auto& solution, const auto& visit) {
   visit("LINK", solution.links);
   visit("PART", solution.particles);
   visit("TRAN", solution.transfers);
+  visit("LINE", solution.lines);
+  visit("DEVI", solution.deviation);
   visit("SCAL", solution.sampledScale);
   visit("CAUS", solution.caustics);
   visit("REPT", solution.report);

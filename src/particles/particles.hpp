@@ -115,6 +115,7 @@ struct ParticleSettings {
   std::uint64_t count = 0;  // target
   std::uint64_t seed = 1;
   int maxDepth = 64;  // non-diffuse events
+  bool ofSurfaces = true;  // diffuse surfaces send some, too, and not lights alone
 };
 
 /// Traces the particles of a scene. Throws nothing of its own. A scene with edits is judged at rest, with a tracer of

@@ -54,6 +54,12 @@ ParticlePlan plan(const Scene& scene, const tracing::RayTracer& tracer, const Pa
     return refineDsLinks(scene, tracer, emission, senders, receivers, exitance, roots, ds);
   };
 
+  if (!settings.ofSurfaces) {
+    links = refine(senders.lightRoots());
+    nameSenders(senders, exitance, result.empty);
+    result.empty.looks = links.rays;
+    return result;
+  }
   // The light of lights first: surfaces that it reaches over mirrors and glass send on more than shadow rays know of.
   links = refine(senders.lightRoots());
   Particles pilots;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hierarchy/below.hpp"
 #include "radiosity/kernel.hpp"
 #include "radiosity/links_below.hpp"
 
@@ -95,6 +96,13 @@ void DirectSenders::addLink(hierarchy::LinkId id, hierarchy::ElementId leaf, std
 
 std::vector<PossibleSender> DirectSenders::at(hierarchy::ElementId leaf) const {
   std::vector<PossibleSender> out;
+  if (links_.size() == 0) {  // light is exchanged by lines
+    const PossibleSender any{{}, {}, 0.0f, 1.0f, 0};
+    if (elements_.lightRoot.valid()) addLights(elements_.lightRoot, leaf, any, out);
+    for (const hierarchy::ElementId e : elements_.distant)
+      hierarchy::forEachLeafBelow(elements_, e, [&](hierarchy::ElementId cell) { addLights(cell, leaf, any, out); });
+    return out;
+  }
   for (hierarchy::ElementId e = leaf; e.valid(); e = elements_.at(e).parent)
     for (hierarchy::LinkId id = links_.first(e, true); id.valid(); id = links_[id].nextArriving) addLink(id, leaf, out);
   return joined(out);
@@ -140,7 +148,7 @@ std::vector<PossibleSender> DirectSenders::at(const Vec3f& x, const Vec3f& norma
 
 void DirectSenders::collectAll(hierarchy::ElementId e, const Vec3f& x, const Vec3f& normal,
                                std::vector<PossibleSender>& out) const {
-  if (elements_.isCluster(e)) {
+  if (elements_.isCluster(e) || (elements_.isDistant(e) && !elements_.isLeaf(e))) {
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) collectAll(elements_.child(e, i), x, normal, out);
     return;
   }

@@ -26,7 +26,8 @@ float noiseOf(const radiosity::TransferRow& row, const hierarchy::Elements& elem
 }  // namespace
 
 std::vector<LeafIrradiance> meshIrradiance(const hierarchy::Elements& elements, const caustics::Caustics& caustics,
-                                           const radiosity::LeafTransfers& transfers) {
+                                           const radiosity::LeafTransfers& transfers,
+                                           std::span<const float> deviation) {
   std::vector<LeafIrradiance> values(elements.size());
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const hierarchy::ElementLight& l = elements.radiometry[i];
@@ -34,6 +35,9 @@ std::vector<LeafIrradiance> meshIrradiance(const hierarchy::Elements& elements, 
                           caustics.of(elements.domain[i].primitive, elements.topology[i].front) != nullptr;
     values[i] = {l.direct, textured ? l.indirect : l.indirect + l.particle, 0, textured ? Rgb(0.0f) : l.particle};
   }
+  std::size_t line = 0;
+  for (std::size_t i = 0; i < elements.size() && line < deviation.size(); ++i)
+    if (elements.isReceivingLeaf(hierarchy::ElementId(i))) values[i].noise = deviation[line++];
   const std::span<const radiosity::LeafRow> rows = transfers.rows();
   parallelFor(rows.size(), kLeafBlock,
               [&](std::size_t i) { values[rows[i].leaf.index()].noise = noiseOf(rows[i].indirect, elements); });

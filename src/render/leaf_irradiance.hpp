@@ -1,5 +1,7 @@
 #pragma once
 // Irradiance of the leaf patches, the input of reconstruction.
+#include <span>
+
 #include "caustics/caustics.hpp"
 #include "hierarchy/element.hpp"
 #include "radiosity/leaf_transfers.hpp"
@@ -15,8 +17,8 @@ struct LeafIrradiance {
   bool operator==(const LeafIrradiance&) const = default;
 };
 
-/// What push-pull left at every element; without the particles' light where caustic textures show that.
+/// `deviation`: by receiving leaf, where light is exchanged by lines. What push-pull left at every element; without the particles' light where caustic textures show that.
 std::vector<LeafIrradiance> meshIrradiance(const hierarchy::Elements&, const caustics::Caustics&,
-                                           const radiosity::LeafTransfers&);
+                                           const radiosity::LeafTransfers&, std::span<const float> deviation);
 
 }  // namespace deltalux::rendering

@@ -8,6 +8,7 @@
 
 #include "radiosity/indirect_sampler.hpp"
 #include "render/eye_path.hpp"
+#include "render/line_gather.hpp"
 #include "render/particle_field.hpp"
 
 namespace deltalux::rendering {
@@ -37,6 +38,7 @@ class LightMeter {
   ProbeResult onSurface(const SurfaceSpot&, const ProbeSettings&, std::uint64_t key) const;
   ProbeResult inFreeSpace(const ProbePoint&, const ProbeSettings&, std::uint64_t key) const;
   ProbeResult gather(const radiosity::Receiver&, const ProbeSettings&, std::uint64_t key) const;
+  ProbeResult overLines(const hierarchy::LeafPoint&, const SurfaceSpot&, const ProbeSettings&, std::uint64_t key) const;
   Rgb indirectAt(const hierarchy::LeafPoint&, const SurfaceSpot&, double error) const;
   /// Made when first asked for.
   const ParticleField& particles() const;
@@ -49,6 +51,7 @@ class LightMeter {
   const Reconstruction& reconstruction_;
   EyePaths paths_;
   radiosity::IndirectSampler sampler_;
+  std::unique_ptr<const LineGather> lines_;  // where light is exchanged by lines
   mutable std::once_flag once_;
   mutable std::unique_ptr<const ParticleField> particles_;
 };

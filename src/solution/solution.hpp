@@ -5,6 +5,7 @@
 #include "caustics/caustics.hpp"
 #include "hierarchy/element.hpp"
 #include "hierarchy/link.hpp"
+#include "lines/lines.hpp"
 #include "particles/particles.hpp"
 #include "radiosity/leaf_transfers.hpp"
 #include "tracing/ray_tracer.hpp"
@@ -19,6 +20,8 @@ struct Solution {
   hierarchy::Links links;
   particles::Particles particles;      // a function of scene, seed and target count
   radiosity::LeafTransfers transfers;  // empty before the last round
+  lines::Lines lines;                  // of the receiving leaves in order, where light is exchanged by lines
+  std::vector<float> deviation;        // the same: standard error of a leaf's irradiance, gray [W/m2]
   std::vector<Rgb> sampledScale;       // by light: its scale when links and rows last followed it
   caustics::Caustics caustics;         // how the particles' light is shown; never feeds back
   SolveReport report;

@@ -26,7 +26,7 @@ TEST(LeafIrradiance, NoiseIsWhatLeavesVaryBy) {
   Engine engine(std::move(scene), {.error = 0.02});
   engine.solve();
   const Solution& s = engine.solution().get();
-  const std::vector<LeafIrradiance> values = meshIrradiance(s.elements, s.caustics, s.transfers);
+  const std::vector<LeafIrradiance> values = meshIrradiance(s.elements, s.caustics, s.transfers, s.deviation);
   double area = 0, sum = 0, squares = 0, predicted = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!s.elements.isReceivingLeaf(hierarchy::ElementId(i)) || s.elements.geometry[i].exposed < 1) continue;

@@ -16,7 +16,7 @@
 
 namespace deltalux::io {
 
-inline constexpr std::uint32_t kFormatVersion = 15;
+inline constexpr std::uint32_t kFormatVersion = 16;
 
 /// Takes the bytes of a file in order, in blocks.
 using ByteSink = std::function<void(std::string_view)>;

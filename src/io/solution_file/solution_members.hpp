@@ -6,9 +6,14 @@
 
 namespace deltalux::io {
 
+template <>
+struct EnumRange<SolveMethod> {
+  static constexpr SolveMethod first = SolveMethod::Links, last = SolveMethod::Lines;
+};
+
 void members(auto& archive, Is<SolveSettings> auto& s) {
-  auto& [error, particles, seconds, diffuseOnly, causticTextures, seed] = s;
-  transferAll(archive, error, particles, seconds, diffuseOnly, causticTextures, seed);
+  auto& [error, particles, seconds, diffuseOnly, causticTextures, seed, method] = s;
+  transferAll(archive, error, particles, seconds, diffuseOnly, causticTextures, seed, method);
 }
 
 void members(auto& archive, Is<EnergyLedger> auto& e) {
@@ -30,6 +35,11 @@ void members(auto& archive, Is<hierarchy::Elements> auto& e) {
 void members(auto& archive, Is<hierarchy::Links> auto& l) {
   auto& [all, roots, arriving, free] = l;  // the latter two follow from the first
   transferAll(archive, all, roots);
+}
+
+void members(auto& archive, Is<lines::Lines> auto& l) {
+  auto& [first, end, code, exceptions] = l;
+  transferAll(archive, first, end, code, exceptions);
 }
 
 void members(auto& archive, Is<particles::Particles> auto& p) {

@@ -1,0 +1,135 @@
+#include "direct/lamps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "direct/tuning.hpp"
+
+namespace deltalux::direct {
+
+namespace {
+
+/// Greatest intensity of a lamp over directions on a grid about its axis, and the half angle within which it is above
+/// half of that.
+struct Beam {
+  double most = 0, halfWidth = kPi;
+};
+
+Beam beamOf(const scene::LightSampler& sampler, LightId id, const Vec3& axis, const auto& intensity) {
+  constexpr int kRings = 48, kAround = 16;
+  const Frame frame(axis);
+  std::array<double, kRings + 1> brightest{};
+  Beam beam;
+  for (int r = 0; r <= kRings; ++r) {
+    const double theta = kPi * std::pow(double(r) / kRings, 2);  // finer near the axis
+    for (int a = 0; a < (r == 0 ? 1 : kAround); ++a) {
+      const double phi = 2 * kPi * a / kAround;
+      const Vec3 w = frame.toWorld({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+      brightest[static_cast<std::size_t>(r)] =
+          std::max<double>(brightest[static_cast<std::size_t>(r)], gray(intensity(sampler, id, w)));
+    }
+    beam.most = std::max(beam.most, brightest[static_cast<std::size_t>(r)]);
+  }
+  int last = 0;
+  for (int r = 0; r <= kRings; ++r)
+    if (brightest[static_cast<std::size_t>(r)] > 0.5 * beam.most) last = r;
+  beam.halfWidth = kPi * std::pow(double(last + 1) / kRings, 2);
+  return beam;
+}
+
+Vec3 axisOf(const Light& light) {
+  if (const auto* spot = std::get_if<SpotLight>(&light.emitter)) return spot->direction;
+  if (const auto* lambert = std::get_if<LambertPointLight>(&light.emitter)) return lambert->direction;
+  if (const auto* photometric = std::get_if<PhotometricLight>(&light.emitter)) return -photometric->frame[2];
+  return {0, 0, 1};
+}
+
+}  // namespace
+
+Lamps::Lamps(const Scene& scene) : scene_(scene), sampler_(scene) {
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    if (isBlack(light.scale) || std::holds_alternative<DomeLight>(light.emitter)) continue;
+    Lamp lamp;
+    lamp.id = LightId(i);
+    if (const auto* sun = std::get_if<SunLight>(&light.emitter)) {
+      lamp.sun = true, lamp.axis = sun->direction, lamp.halfAngle = sun->angularRadius;
+      lamp.most = gray(light.scale * sun->radiance) * solidAngle(*sun);
+    } else if (const auto* area = std::get_if<AreaLight>(&light.emitter)) {
+      const Material& material = scene.materialOf(area->primitive);
+      const Shape& shape = scene[area->primitive].shape;
+      const Box box = bounds(shape);
+      if (!material.emission || !sendsLight(material) || box.empty()) continue;
+      lamp.lower = Vec3f(box.lower), lamp.upper = Vec3f(box.upper);
+      const double size = sampler_.area(lamp.id);
+      const bool plane = std::holds_alternative<Polygon>(shape) || std::holds_alternative<Ring>(shape);
+      if (plane && !material.emission->bothSides) lamp.flat = true, lamp.axis = samplePoint(shape, {0.5, 0.5}).normal;
+      lamp.most = gray(light.scale * material.emission->radiance) * size;
+      if (const auto& spot = material.emission->spot) {
+        lamp.axis = glm::normalize(spot->direction), lamp.halfAngle = 0.5 * spot->fullAngle;
+        lamp.beam = lamp.halfAngle;
+      } else if (material.emission->pattern) {
+        const Beam beam = beamOf(sampler_, lamp.id, lamp.flat ? lamp.axis : Vec3(0, 0, -1),
+                                 [&](const scene::LightSampler& s, LightId id, const Vec3& w) {
+                                   return Rgb(static_cast<float>(size)) * s.emittedRadiance(id, w, 1e30, true);
+                                 });
+        lamp.most = beam.most;
+      }
+    } else {
+      lamp.lower = lamp.upper = Vec3f(sampler_.position(lamp.id));
+      lamp.axis = axisOf(light);
+      const Beam beam = beamOf(sampler_, lamp.id, lamp.axis, [](const scene::LightSampler& s, LightId id, const Vec3& w) {
+        return s.intensity(id, w);
+      });
+      lamp.most = beam.most;
+      if (const auto* spot = std::get_if<SpotLight>(&light.emitter)) lamp.halfAngle = std::acos(spot->cosOuter);
+      if (std::holds_alternative<LambertPointLight>(light.emitter)) lamp.halfAngle = 0.5 * kPi;
+      // A measured beam has no edge: it is looked for within half of its peak, and shines beyond.
+      lamp.beam = std::min(beam.halfWidth, lamp.halfAngle);
+    }
+    all_.push_back(lamp);
+  }
+}
+
+double Lamps::potential(const Lamp& lamp, const hierarchy::ElementGeometry& g) const {
+  const double cone = std::acos(std::clamp<double>(g.normalCone, -1, 1));
+  if (lamp.sun) {
+    if (g.normalCone <= -1) return lamp.most;
+    const double away = std::acos(std::clamp(glm::dot(Vec3(g.normal), lamp.axis), -1.0, 1.0));
+    const double least = std::max(0.0, away - cone - lamp.halfAngle);
+    return least >= 0.5 * kPi ? 0.0 : lamp.most * std::cos(least);
+  }
+  const Vec3f center = 0.5f * (lamp.lower + lamp.upper), half = 0.5f * (lamp.upper - lamp.lower);
+  // All of the lamp behind the patch's plane, or all of the patch behind the lamp's.
+  if (g.normalCone >= 1 && glm::dot(center - g.center, g.normal) + glm::dot(half, glm::abs(g.normal)) < 0) return 0;
+  if (lamp.flat) {
+    const Vec3f c = 0.5f * (g.lower + g.upper), h = 0.5f * (g.upper - g.lower), n(lamp.axis);
+    if (glm::dot(c - center, n) + glm::dot(h, glm::abs(n)) + glm::dot(half, glm::abs(n)) < 0) return 0;
+  }
+  const Vec3 d = Vec3(g.center) - Vec3(center);
+  const double distance = glm::length(d), radius = g.radius + double(glm::length(half));
+  const double spread = distance > radius ? std::asin(radius / distance) : kPi;
+  if (lamp.halfAngle < kPi && distance > radius &&
+      std::acos(std::clamp(glm::dot(d, lamp.axis) / distance, -1.0, 1.0)) - spread > lamp.halfAngle)
+    return 0;
+  double cosine = 1;
+  if (g.normalCone > -1 && distance > radius) {
+    const double away = std::acos(std::clamp(-glm::dot(d, Vec3(g.normal)) / distance, -1.0, 1.0));
+    cosine = std::cos(std::clamp(away - cone - spread, 0.0, 0.5 * kPi));
+    if (!(cosine > 1e-9)) cosine = 1e-9;  // grazing, not proven
+  }
+  const double nearest = std::max(distance - g.radius, 0.5 * radius);
+  return lamp.most * cosine / std::max(nearest * nearest, 1e-30);
+}
+
+double Lamps::beamWidth(const Lamp& lamp, const hierarchy::ElementGeometry& g) const {
+  if (lamp.sun || 2 * lamp.beam > tuning::kNarrow) return kInfinity;
+  const Vec3 center = 0.5 * (Vec3(lamp.lower) + Vec3(lamp.upper)), d = Vec3(g.center) - center;
+  const double distance = glm::length(d), size = glm::length(Vec3(lamp.upper - lamp.lower)), radius = g.radius + size;
+  if (distance > radius &&
+      std::acos(std::clamp(glm::dot(d, lamp.axis) / distance, -1.0, 1.0)) - std::asin(radius / distance) > lamp.beam)
+    return kInfinity;
+  return size + 2 * std::max(distance - g.radius, 0.0) * std::tan(lamp.beam);
+}
+
+}  // namespace deltalux::direct

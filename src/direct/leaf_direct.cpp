@@ -1,0 +1,200 @@
+#include "direct/leaf_direct.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "direct/tuning.hpp"
+#include "hierarchy/leaf_sequence.hpp"
+#include "tracing/shadow_ray.hpp"
+
+namespace deltalux::direct {
+
+namespace {
+
+constexpr int kMostPoints = 64;
+constexpr std::uint64_t kLampKey = 0x6c616d70735f5full, kDrawKey = 0x647261775f5f5full;
+static_assert(tuning::kUnshadowedPoints <= kMostPoints && tuning::kMixedSunRays <= kMostPoints);
+
+}  // namespace
+
+/// The open points of a patch in order, each made when it is first asked for.
+struct DirectSampler::Points {
+  Points(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId patch, const KnownPoints& k)
+      : sequence(elements, scene, patch), known(k) {}
+
+  /// Makes the next open point; false where there is none.
+  bool next() {
+    while (drawn < 2 * kMostPoints && count < kMostPoints) {
+      const std::uint32_t i = drawn++;
+      if (i < known.known && i < 64 && (known.covered >> i & 1)) continue;
+      const UnitPair place = sequence.place(i);
+      at[count] = sequence.pointAt(place);
+      quadrant[count] = static_cast<std::uint8_t>((place.x < 0.5 ? 0 : 1) + (place.y < 0.5 ? 0 : 2));
+      number[count++] = i;
+      return true;
+    }
+    return false;
+  }
+  bool have(int wanted) {
+    while (count < wanted)
+      if (!next()) return false;
+    return true;
+  }
+
+  hierarchy::LeafSequence sequence;
+  KnownPoints known;
+  std::array<hierarchy::PatchPoint, kMostPoints> at;
+  std::array<std::uint8_t, kMostPoints> quadrant;
+  std::array<std::uint32_t, kMostPoints> number;
+  int count = 0;
+  std::uint32_t drawn = 0;
+};
+
+/// What shadow rays to one lamp have found.
+struct DirectSampler::Tally {
+  int samples = 0, shot = 0, passed = 0;
+  RgbSum open{0.0}, lit{0.0};  // sums of unshadowed and of found light
+  std::array<double, 4> quadrants{}, counts{};
+  double squares = 0;
+  std::uint32_t rays = 0;
+
+  bool mixed() const { return passed > 0 && passed < samples; }
+};
+
+DirectSampler::DirectSampler(const hierarchy::Elements& elements, const Scene& scene, const tracing::RayTracer& tracer,
+                             const Lamps& lamps)
+    : elements_(elements), scene_(scene), tracer_(tracer), lamps_(lamps) {}
+
+namespace {
+
+/// Unshadowed light of a sample at a point [W/m2], and its ray.
+Rgb openLight(const scene::LightSampler& sampler, LightId id, const Vec3& p, const Vec3& normal, const UnitPair& u,
+              tracing::Ray& ray) {
+  const auto s = sampler.sample(id, p, {u.x, u.y});
+  if (!s) return Rgb(0.0f);
+  const double cosine = glm::dot(s->direction, normal);
+  if (!(cosine > 0)) return Rgb(0.0f);
+  ray = tracing::shadowRay(p, normal, s->direction, s->distance, s->normal);
+  return s->radiance * static_cast<float>(cosine / (s->pdf > 0 ? s->pdf : 1.0));
+}
+
+}  // namespace
+
+void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, Tally& t) const {
+  const ScrambledSobol numbers(combineKeys(combineKeys(points.sequence.key(), kLampKey), lamp.id.value));
+  for (; t.samples < upTo && points.have(t.samples + 1); ++t.samples) {
+    const auto k = static_cast<std::size_t>(t.samples);
+    const hierarchy::PatchPoint& x = points.at[k];
+    t.counts[points.quadrant[k]] += 1;
+    tracing::Ray ray;
+    const Rgb open =
+        openLight(lamps_.sampler(), lamp.id, Vec3(x.position), Vec3(x.normal), numbers(points.number[k]), ray);
+    if (isBlack(open)) continue;
+    const Rgb lit = open * tracer_.transmittance(ray);
+    ++t.shot, ++t.rays, t.passed += !isBlack(lit);
+    t.open += RgbSum(open), t.lit += RgbSum(lit);
+    t.quadrants[points.quadrant[k]] += gray(lit), t.squares += double(gray(lit)) * gray(lit);
+  }
+}
+
+Rgb DirectSampler::unshadowed(const Lamp& lamp, Points& points) const {
+  const ScrambledSobol numbers(combineKeys(combineKeys(points.sequence.key(), kLampKey), lamp.id.value));
+  RgbSum sum(0.0);
+  points.have(tuning::kUnshadowedPoints);
+  const int n = std::min(points.count, tuning::kUnshadowedPoints);
+  for (int i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    tracing::Ray ray;
+    sum += RgbSum(openLight(lamps_.sampler(), lamp.id, Vec3(points.at[k].position), Vec3(points.at[k].normal),
+                            numbers(points.number[k]), ray));
+  }
+  return n > 0 ? Rgb(sum / double(n)) : Rgb(0.0f);
+}
+
+LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& known, bool whole) const {
+  LeafDirect result;
+  const hierarchy::ElementGeometry& g = elements_.shape(patch);
+  Points points(elements_, scene_, patch, known);
+  struct Asked {
+    const Lamp* lamp;
+    double potential, weight;  // weight: one over the chance of being drawn
+  };
+  std::vector<Asked> asked;
+  double rest = 0;
+  for (const Lamp& lamp : lamps_.all()) {
+    const double potential = lamps_.potential(lamp, g);
+    if (!(potential > 0)) continue;
+    asked.push_back({&lamp, potential, 1});
+    result.tooWideForBeam =
+        result.tooWideForBeam || g.radius > tuning::kBeam * lamps_.beamWidth(lamp, g);
+  }
+  if (asked.empty() || !points.have(1)) return result;
+  if (asked.size() > tuning::kLampsAsked + tuning::kLampsDrawn) {
+    // The many that may bring little stand for each other, drawn in proportion to what that is.
+    std::stable_sort(asked.begin(), asked.end(), [](const Asked& a, const Asked& b) { return a.potential > b.potential; });
+    std::vector<Asked> drawn(asked.begin(), asked.begin() + tuning::kLampsAsked);
+    for (std::size_t i = tuning::kLampsAsked; i < asked.size(); ++i) rest += asked[i].potential;
+    const double offset = toUnit(combineKeys(points.sequence.key(), kDrawKey));
+    double before = 0;
+    int taken = 0;
+    for (std::size_t i = tuning::kLampsAsked; i < asked.size(); ++i) {
+      before += asked[i].potential * tuning::kLampsDrawn / rest;
+      int times = 0;
+      while (taken < tuning::kLampsDrawn && taken + offset < before) ++taken, ++times;
+      if (times > 0)
+        drawn.push_back({asked[i].lamp, asked[i].potential, times * rest / (tuning::kLampsDrawn * asked[i].potential)});
+    }
+    asked = std::move(drawn);
+  }
+
+  std::vector<Tally> tallies(asked.size());
+  double found = 0;
+  for (std::size_t l = 0; l < asked.size(); ++l) {
+    const Lamp& lamp = *asked[l].lamp;
+    Tally& t = tallies[l];
+    shoot(lamp, points, lamp.sun ? tuning::kSunRays : tuning::kFirstRays, t);
+    if (t.samples > 0) found += asked[l].weight * gray(t.lit) / t.samples;
+  }
+  std::array<double, 4> quadrants{};
+  double variance = 0;
+  for (std::size_t l = 0; l < asked.size(); ++l) {
+    const Lamp& lamp = *asked[l].lamp;
+    Tally& t = tallies[l];
+    const double weight = asked[l].weight;
+    const double open = std::max(t.samples > 0 ? double(gray(t.open)) / t.samples : 0.0,
+                                 t.shot == 0 ? asked[l].potential : 0.0);
+    if (weight * open > tuning::kMatters * found) {
+      if (!lamp.sun) shoot(lamp, points, tuning::kLampRays, t);
+      if (!lamp.sun && t.mixed()) shoot(lamp, points, tuning::kMixedRays, t);
+      if (lamp.sun && whole && t.mixed()) shoot(lamp, points, tuning::kMixedSunRays, t);
+    }
+    result.rays += t.rays;
+    if (t.passed == 0) continue;
+    Rgb E = Rgb(t.lit / double(t.samples));
+    if (whole && !lamp.sun) {
+      const Rgb all = unshadowed(lamp, points);
+      for (int c = 0; c < 3; ++c) E[c] = t.open[c] > 0 ? all[c] * static_cast<float>(t.lit[c] / t.open[c]) : 0.0f;
+    }
+    result.E += static_cast<float>(weight) * E;
+    const double mean = gray(t.lit) / t.samples;
+    if (t.samples > 1 && t.mixed())
+      variance += weight * weight * std::max(0.0, t.squares / t.samples - mean * mean) / (t.samples - 1);
+    for (std::size_t q = 0; q < 4; ++q)
+      quadrants[q] += weight * (t.counts[q] > 0 ? t.quadrants[q] / t.counts[q] : mean);
+  }
+  const double mean = 0.25 * (quadrants[0] + quadrants[1] + quadrants[2] + quadrants[3]);
+  double between = 0;
+  for (const double q : quadrants) between += (q - mean) * (q - mean) / 3;
+  result.variation = static_cast<float>(std::sqrt(between));
+  result.deviation = static_cast<float>(std::sqrt(variance));
+  return result;
+}
+
+bool variesTooMuch(const LeafDirect& direct, const hierarchy::ElementGeometry& g, double meanDistance, double level,
+                   double error) {
+  const double side = tuning::kScale * meanDistance, around = side * side;
+  if (g.area < tuning::kFinest * error * around) return false;
+  return direct.variation * g.area > tuning::kVariation * error * level * std::max<double>(around, g.area);
+}
+
+}  // namespace deltalux::direct

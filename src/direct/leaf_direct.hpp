@@ -1,0 +1,52 @@
+#pragma once
+// Direct light of suns and lamps at a patch, by keyed shadow rays from the points of its sequence: a few at first, more
+// where a light matters, more again where they disagree. What a light brings is the share of it that passes, times what
+// it would bring unshadowed, which takes points but no rays: a ratio, whose error is that of the shadow alone.
+// The same samples tell whether the patch is to be split. Cost: 10 to 20 rays a leaf.
+#include "direct/lamps.hpp"
+#include "tracing/ray_tracer.hpp"
+
+namespace deltalux::direct {
+
+/// What is known of the points of a patch's sequence.
+struct KnownPoints {
+  std::uint64_t covered = 0;  // bit i: point i lies under something, and takes no light
+  std::uint32_t known = 0;    // of how many that is known; those beyond count as open
+};
+
+struct LeafDirect {
+  Rgb E{0.0f};              // mean over what is not covered [W/m2]
+  float deviation = 0;      // standard error of it, gray [W/m2]
+  float variation = 0;      // standard deviation over quadrants, gray [W/m2]
+  bool tooWideForBeam = false;  // a narrow beam would fall between samples
+  std::uint32_t rays = 0;
+};
+
+class DirectSampler {
+ public:
+  /// All must outlive this.
+  DirectSampler(const hierarchy::Elements&, const Scene&, const tracing::RayTracer&, const Lamps&);
+
+  /// `whole`: with all the rays that its light is worth; without, with those that tell whether it varies.
+  LeafDirect at(hierarchy::ElementId patch, const KnownPoints&, bool whole) const;
+  /// Direct light of suns and lamps at one point, unshadowed parts of a light drawn by `index` of the sequence of `key`:
+  /// one shadow ray a light of `rays` each. [W/m2]
+  Rgb atPoint(const Vec3& p, const Vec3& normal, int rays, std::uint32_t index, std::uint64_t key) const;
+
+ private:
+  struct Points;
+  struct Tally;
+  void shoot(const Lamp&, Points&, int upTo, Tally&) const;
+  Rgb unshadowed(const Lamp&, Points&) const;
+
+  const hierarchy::Elements& elements_;
+  const Scene& scene_;
+  const tracing::RayTracer& tracer_;
+  const Lamps& lamps_;
+};
+
+/// Whether direct light varies over a patch by more than its surroundings can stand, where there is about as much light
+/// as `level` [W/m2, gray]. `meanDistance`: of its lines.
+bool variesTooMuch(const LeafDirect&, const hierarchy::ElementGeometry&, double meanDistance, double level, double error);
+
+}  // namespace deltalux::direct

@@ -1,0 +1,140 @@
+#include "direct/sky_light.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "base/unit_circle.hpp"
+#include "hierarchy/leaf_sequence.hpp"
+
+namespace deltalux::direct {
+
+namespace {
+
+constexpr int kHeights = tuning::kSkyHeights, kAzimuths = tuning::kSkyAzimuths;
+constexpr std::uint64_t kSkyKey = 0x736b795f5f5full;
+constexpr float kOpenPrior = 0.1f, kLinesPrior = 2.0f;  // lines that a cell is taken to have had before the first
+constexpr float kLeastOpen = 1.0f / 64;                 // openness of a cell in which no line escaped
+
+/// Power of two nearest to a share.
+float octave(float share) { return std::exp2(std::round(std::log2(std::clamp(share, kLeastOpen, 1.0f)))); }
+
+}  // namespace
+
+int SkyCells::of(const Vec3f& direction) {
+  const Vec3f w = glm::normalize(direction);
+  const int height = std::clamp(static_cast<int>((0.5f * w.z + 0.5f) * kHeights), 0, kHeights - 1);
+  const float turn = std::atan2(w.y, w.x) / static_cast<float>(2 * kPi);
+  const int azimuth = std::clamp(static_cast<int>((turn - std::floor(turn)) * kAzimuths), 0, kAzimuths - 1);
+  return height * kAzimuths + azimuth;
+}
+
+Vec3f SkyCells::direction(int cell, double a, double b) {
+  const double z = -1 + 2 * (cell / kAzimuths + a) / kHeights;
+  return Vec3f(Vec3(std::sqrt(std::max(0.0, 1 - z * z)) * onUnitCircle((cell % kAzimuths + b) / kAzimuths), z));
+}
+
+Skies::Skies(const Scene& scene) {
+  for (const Light& light : scene.lights)
+    if (const auto* dome = std::get_if<DomeLight>(&light.emitter); dome && !isBlack(light.scale))
+      domes_.push_back({*dome, light.scale});
+  if (domes_.empty()) return;
+  constexpr int kGrid = 8;
+  for (int cell = 0; cell < SkyCells::kCount; ++cell)
+    for (int i = 0; i < kGrid * kGrid; ++i)
+      strength_[static_cast<std::size_t>(cell)] +=
+          gray(radiance(SkyCells::direction(cell, (i % kGrid + 0.5) / kGrid, (i / kGrid + 0.5) / kGrid))) /
+          (kGrid * kGrid);
+}
+
+Rgb Skies::radiance(const Vec3f& direction) const {
+  Rgb sum(0.0f);
+  for (const Dome& d : domes_) sum += d.scale * skyRadiance(d.light, Vec3(direction));
+  return sum;
+}
+
+void Openness::placeGuides(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
+                           std::span<const std::uint32_t> linesOf) {
+  std::vector<std::uint32_t> below(elements.size(), 0), guide(elements.size(), hierarchy::LeafTable::kNone);
+  for (std::size_t i = elements.size(); i-- > 0;) {
+    if (leaves.indexOf[i] != hierarchy::LeafTable::kNone) below[i] += linesOf[leaves.indexOf[i]];
+    const hierarchy::ElementId parent = elements.topology[i].parent;
+    if (parent.valid()) below[parent.index()] += below[i];
+  }
+  guideOf_.resize(leaves.size());
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    hierarchy::ElementId e = leaves[i];
+    while (below[e.index()] < tuning::kGuideLines && elements.at(e).parent.valid()) e = elements.at(e).parent;
+    if (guide[e.index()] == hierarchy::LeafTable::kNone) guide[e.index()] = static_cast<std::uint32_t>(guides_++);
+    guideOf_[i] = guide[e.index()];
+  }
+}
+
+void Openness::finish(const std::vector<Counts>& counts) {
+  share_.resize(guides_ * SkyCells::kCount);
+  for (std::size_t g = 0; g < guides_; ++g)
+    for (std::size_t c = 0; c < SkyCells::kCount; ++c)
+      share_[g * SkyCells::kCount + c] = octave((counts[g].open[c] + kOpenPrior) / (counts[g].all[c] + kLinesPrior));
+}
+
+SkyAtLeaf skyLight(const Skies& skies, const Openness& openness, const hierarchy::Elements& elements,
+                   const Scene& scene, const tracing::RayTracer& tracer, const SkyLeaf& s) {
+  SkyAtLeaf result;
+  const hierarchy::ElementGeometry& g = elements.shape(s.element);
+  const bool flat = g.normalCone > 0.999f;
+  std::array<float, SkyCells::kCount> cumulative;
+  float total = 0;
+  const auto weight = [&](int cell) {
+    const auto c = static_cast<std::size_t>(cell);
+    return cumulative[c] - (c > 0 ? cumulative[c - 1] : 0.0f);
+  };
+  for (int cell = 0; cell < SkyCells::kCount; ++cell) {
+    float cosine = 1;
+    if (flat) {
+      cosine = glm::dot(g.normal, SkyCells::direction(cell, 0.5, 0.5));
+      for (int q = 0; q < 4; ++q) cosine = std::max(cosine, glm::dot(g.normal, SkyCells::direction(cell, q & 1, q >> 1)));
+    }
+    if (cosine > 0) total += skies.strength(cell) * cosine * openness.at(s.leaf, cell);
+    cumulative[static_cast<std::size_t>(cell)] = total;
+  }
+  const auto rays = static_cast<double>(s.points.size());
+  const auto guided = [&](int cell) { return total > 0 ? rays * weight(cell) / total / SkyCells::solidAngle() : 0.0; };
+  // Density of own lines: they pass panes by chance, about what those let through.
+  const auto byLines = [&](float cosine, const Rgb& V) { return double(s.lines) * cosine / kPi * std::max(1e-3f, gray(V)); };
+  RgbSum sum(0.0);
+  double squares = 0;
+  const auto add = [&](const Rgb& x) { sum += RgbSum(x), squares += double(gray(x)) * gray(x); };
+  if (total > 0) {
+    const hierarchy::LeafSequence sequence(elements, scene, s.element);
+    const ScrambledSobol choices(combineKeys(sequence.key(), kSkyKey)), places(combineKeys(sequence.key(), kSkyKey + 1));
+    for (std::uint32_t k = 0; k < s.points.size(); ++k) {
+      const UnitPair choice = choices(k), place = places(k);
+      const auto at = std::upper_bound(cumulative.begin(), cumulative.end(), static_cast<float>(choice.x) * total);
+      const int cell = std::min(static_cast<int>(at - cumulative.begin()), SkyCells::kCount - 1);
+      const Vec3f w = SkyCells::direction(cell, place.x, place.y);
+      const hierarchy::PatchPoint x = sequence.point(s.points[k]);
+      const float cosine = glm::dot(w, x.normal);
+      if (!(cosine > 0)) continue;
+      const Rgb L = skies.radiance(w);
+      if (isBlack(L)) continue;
+      tracing::Ray ray;
+      ray.origin = tracing::offsetOrigin(x.position, x.normal, w), ray.direction = w;
+      ++result.rays;
+      const Rgb V = tracer.transmittance(ray);
+      if (!isBlack(V)) add(L * V * static_cast<float>(cosine / (guided(cell) + byLines(cosine, V))));
+    }
+  }
+  for (const EscapedView& e : s.escaped) {
+    const Rgb V = e.weight * e.chance;
+    const double traced = double(s.lines) * e.cosine / kPi * e.chance, line = byLines(e.cosine, V);
+    const double share = line / (line + guided(SkyCells::of(e.direction)));  // [VG95 (balance heuristic)]
+    add(skies.radiance(e.direction) * V * static_cast<float>(e.cosine * share / traced));
+  }
+  const double n = rays + s.lines;
+  result.E = Rgb(sum);
+  const double mean = gray(sum) / n;
+  result.deviation = static_cast<float>(std::sqrt(std::max(0.0, squares - n * mean * mean)));
+  return result;
+}
+
+}  // namespace deltalux::direct

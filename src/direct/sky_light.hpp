@@ -1,0 +1,103 @@
+#pragma once
+// Direct light of skies at leaves: the leaf's lines that escape, balanced [VG95] with shadow rays that are drawn by the
+// sky's radiance, the cosine, and the openness that lines below a common element have found, in octaves, so that what a
+// few lines see is not told from chance.
+#include <array>
+#include <span>
+
+#include "direct/tuning.hpp"
+#include "hierarchy/leaf_table.hpp"
+#include "scene/light_sampling.hpp"
+#include "tracing/ray_tracer.hpp"
+
+namespace deltalux::direct {
+
+/// The sphere in cells of equal solid angle: heights times azimuths.
+struct SkyCells {
+  static constexpr int kCount = tuning::kSkyHeights * tuning::kSkyAzimuths;
+  static int of(const Vec3f& direction);
+  static Vec3f direction(int cell, double a, double b);
+  static constexpr double solidAngle() { return 4 * kPi / kCount; }
+};
+
+/// All skies of a scene.
+class Skies {
+ public:
+  explicit Skies(const Scene&);
+  bool empty() const { return domes_.empty(); }
+  Rgb radiance(const Vec3f& direction) const;
+  /// Greatest gray radiance of a few directions of a cell.
+  float strength(int cell) const { return strength_[static_cast<std::size_t>(cell)]; }
+
+ private:
+  struct Dome {
+    DomeLight light;
+    Rgb scale;
+  };
+  std::vector<Dome> domes_;
+  std::array<float, SkyCells::kCount> strength_{};
+};
+
+/// Openness by guide: shares of lines into each cell that escape, in octaves.
+class Openness {
+ public:
+  /// `forEachLine(sink)` calls sink(leaf, cell, escaped) for every line. Counts below the lowest element above each leaf that
+  /// has enough lines.
+  template <class ForEachLine>
+  Openness(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
+           std::span<const std::uint32_t> linesOf, const ForEachLine& forEachLine) {
+    placeGuides(elements, leaves, linesOf);
+    std::vector<Counts> counts(guides_);
+    forEachLine([&](std::uint32_t leaf, int cell, bool escaped) {
+      Counts& c = counts[guideOf_[leaf]];
+      const auto k = static_cast<std::size_t>(cell);
+      c.all[k] += 1, c.open[k] += escaped;
+    });
+    finish(counts);
+  }
+
+  /// Chance that a line from the leaf into a cell escapes, about; never 0.
+  float at(std::uint32_t leaf, int cell) const {
+    return share_[std::size_t(guideOf_[leaf]) * SkyCells::kCount + static_cast<std::size_t>(cell)];
+  }
+
+ private:
+  struct Counts {
+    std::array<float, SkyCells::kCount> all{}, open{};
+  };
+  void placeGuides(const hierarchy::Elements&, const hierarchy::LeafTable&, std::span<const std::uint32_t> linesOf);
+  void finish(const std::vector<Counts>&);
+
+  std::size_t guides_ = 0;
+  std::vector<std::uint32_t> guideOf_;  // by leaf
+  std::vector<float> share_;            // by guide and cell
+};
+
+/// Own lines of a leaf that escape.
+struct EscapedView {
+  Vec3f direction;
+  float cosine;
+  Rgb weight;    // throughput over chance
+  float chance;  // of its way, beside that of the direction
+};
+
+struct SkyAtLeaf {
+  Rgb E{0.0f};          // [W/m2]
+  float deviation = 0;  // standard error, gray
+  std::uint32_t rays = 0;
+};
+
+/// What is known of a leaf before its sky light.
+struct SkyLeaf {
+  std::uint32_t leaf = 0;
+  hierarchy::ElementId element;
+  std::uint32_t lines = 0;                // own lines that were traced from open points
+  std::span<const EscapedView> escaped;   // of those
+  std::span<const std::uint32_t> points;  // numbers of open points of its sequence: a shadow ray each
+};
+
+/// The skies' irradiance over what is not covered of a leaf.
+SkyAtLeaf skyLight(const Skies&, const Openness&, const hierarchy::Elements&, const Scene&, const tracing::RayTracer&,
+                   const SkyLeaf&);
+
+}  // namespace deltalux::direct

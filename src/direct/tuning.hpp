@@ -1,0 +1,38 @@
+#pragma once
+// The tuned constants of direct light by keyed shadow rays: purpose, unit, normal value, and what breaks.
+
+namespace deltalux::direct::tuning {
+
+/// Shadow rays of a leaf to the sun, and where they disagree. Fewer: penumbrae and edges of sunlight are grainy.
+constexpr int kSunRays = 16, kMixedSunRays = 64;
+/// Shadow rays to a lamp: at first; where it matters; where those disagree. Fewer: lamps' shadows are grainy.
+constexpr int kFirstRays = 1, kLampRays = 4, kMixedRays = 16;
+/// A lamp matters where, unshadowed, it brings more than this share of what has been found. Higher: faint lamps' shadows
+/// are lost.
+constexpr double kMatters = 0.01;
+/// Points that the unshadowed light of a lamp is averaged over. Fewer: grain near lamps.
+constexpr int kUnshadowedPoints = 64;
+/// Lamps that are asked one by one; of the others' sum some are drawn by what they may bring. Fewer: noise where very
+/// many lamps are equally bright.
+constexpr int kLampsAsked = 24, kLampsDrawn = 8;
+/// Split where direct light varies over quadrants, times area, by more than this many errors of the light there. Higher:
+/// shadows' edges are blurred.
+constexpr double kVariation = 2;
+/// Side of the area that variation is weighed against, in mean distances of the leaf's lines, and the area of the
+/// finest leaf that is split in those, times the error. Larger: small bright spots are averaged away.
+constexpr double kScale = 0.15, kFinest = 1;
+/// Widest leaf in a narrow beam, in the beam's widths. Wider: the beam falls between samples.
+constexpr double kBeam = 0.75;
+/// Full angle below which a beam is narrow [radians].
+constexpr double kNarrow = 1.0;
+/// Light below which variation is not looked for, in shares of the scene's mean irradiance.
+constexpr double kFloor = 0.02;
+
+/// Cells of the sphere that openness is kept by: along height, and around.
+constexpr int kSkyHeights = 16, kSkyAzimuths = 16;
+/// Shadow rays of a leaf to the sky. Fewer: grain beside windows.
+constexpr int kSkyRays = 32;
+/// Lines that tell openness below one element. Fewer: guides of chance.
+constexpr int kGuideLines = 4096;
+
+}  // namespace deltalux::direct::tuning

@@ -1,0 +1,36 @@
+#pragma once
+// The points that a leaf is sampled at: a sequence of its own, keyed by what the leaf is, of which any number is a
+// prefix. Its lines start at them and its shadow rays too, so that what is known of a point serves both.
+#include <array>
+#include <span>
+
+#include "base/sobol.hpp"
+#include "hierarchy/patch.hpp"
+
+namespace deltalux::hierarchy {
+
+class LeafSequence {
+ public:
+  static constexpr std::size_t kBatch = 16;
+
+  /// The elements and the scene must outlive this.
+  LeafSequence(const Elements& elements, const Scene& scene, ElementId leaf)
+      : elements_(elements), scene_(scene), leaf_(leaf), key_(elements.key[leaf.index()]), places_(combineKeys(key_, kPlaces)) {}
+
+  std::uint64_t key() const { return key_; }
+  /// Where point `i` lies in the leaf's rectangle, in [0,1)^2: before what the outline cuts off is drawn again.
+  UnitPair place(std::uint32_t i) const { return places_(i); }
+  PatchPoint point(std::uint32_t i) const { return pointAt(place(i)); }
+  PatchPoint pointAt(const UnitPair& place) const { return samplePatch(elements_, scene_, leaf_, place.x, place.y); }
+
+ private:
+  static constexpr std::uint64_t kPlaces = 0x706c616365735f5full;
+
+  const Elements& elements_;
+  const Scene& scene_;
+  ElementId leaf_;
+  std::uint64_t key_;
+  ScrambledSobol places_;
+};
+
+}  // namespace deltalux::hierarchy

@@ -1,0 +1,235 @@
+#include "lines/exchange.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "lines/tuning.hpp"
+
+namespace deltalux::lines {
+
+namespace {
+
+constexpr std::size_t kLeaves = 512;  // of a task
+constexpr float kLeastEnd = 1e-6f;    // in place of a chance of 0
+constexpr std::uint32_t kMostCount = 0xffff;
+
+}  // namespace
+
+Exchange::Exchange(const Lines& lines, const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
+                   const LineTracer& tracer, std::span<const std::uint32_t> covered) {
+  const std::size_t n = leaves.size();
+  area_.resize(n), m_.resize(n), e_.resize(n), closed_.resize(n), target_.resize(n), records_.resize(n);
+  scale_.assign(n, 1.0f);
+  parallelFor(n, kLeaves, [&](std::size_t i) {
+    const hierarchy::ElementGeometry& g = elements.shape(leaves[i]);
+    const hierarchy::Side side = elements.sideOf(leaves[i]);
+    const auto count = static_cast<float>(lines.countOf(i) - covered[i]);
+    e_[i] = std::max(tracer.responses().at(side.primitive, side.front).ends, kLeastEnd);
+    area_[i] = count > 0 ? g.litArea() : 0.0f;
+    m_[i] = area_[i] > 0 ? count / (area_[i] * e_[i]) : 0.0f;
+  });
+  build(lines);
+  addSpecials(lines);
+  setTargets(lines, covered);
+  scale();
+}
+
+void Exchange::build(const Lines& lines) {
+  const std::size_t n = lines.leaves();
+  std::vector<std::atomic<std::uint32_t>> degree(n);
+  /// visit(row, other) of both ends of all straight lines.
+  const auto forEachEnd = [&](const auto& visit) {
+    parallelFor(n, kLeaves, [&](std::size_t i) {
+      for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k) {
+        if (lines.end[k] >= kFirstMark) continue;
+        visit(static_cast<std::uint32_t>(i), lines.end[k]);
+        if (!onlyReceives(i)) visit(lines.end[k], static_cast<std::uint32_t>(i));
+      }
+    });
+  };
+  forEachEnd([&](std::uint32_t i, std::uint32_t) { degree[i].fetch_add(1, std::memory_order_relaxed); });
+  std::vector<std::uint64_t> first(n + 1, 0);
+  for (std::size_t i = 0; i < n; ++i) first[i + 1] = first[i] + degree[i].load(std::memory_order_relaxed);
+  LargeArray<std::uint32_t> ends;
+  ends.resize(first[n]);
+  forEachEnd([&](std::uint32_t i, std::uint32_t j) {
+    ends[first[i] + degree[i].fetch_sub(1, std::memory_order_relaxed) - 1] = j;
+  });
+  // In the order of ids, whichever thread came first; lines of one pair become one entry.
+  std::vector<std::uint32_t> distinct(n, 0);
+  const auto forEachEntry = [&](std::size_t i, const auto& visit) {
+    for (std::uint64_t k = first[i]; k < first[i + 1];) {
+      std::uint64_t last = k + 1;
+      while (last < first[i + 1] && ends[last] == ends[k] && last - k < kMostCount) ++last;
+      visit(ends[k], static_cast<std::uint16_t>(last - k));
+      k = last;
+    }
+  };
+  parallelFor(n, kLeaves, [&](std::size_t i) {
+    std::sort(ends.begin() + static_cast<std::ptrdiff_t>(first[i]),
+              ends.begin() + static_cast<std::ptrdiff_t>(first[i + 1]));
+    forEachEntry(i, [&](std::uint32_t, std::uint16_t) { ++distinct[i]; });
+  });
+  begin_.resize(n + 1);
+  begin_[0] = 0;
+  for (std::size_t i = 0; i < n; ++i) begin_[i + 1] = begin_[i] + distinct[i];
+  id_.resize(begin_[n]), count_.resize(begin_[n]);
+  parallelFor(n, kLeaves, [&](std::size_t i) {
+    std::uint64_t at = begin_[i];
+    forEachEntry(i, [&](std::uint32_t j, std::uint16_t count) { id_[at] = j, count_[at++] = count; });
+  });
+}
+
+void Exchange::addSpecials(const Lines& lines) {
+  const std::size_t n = lines.leaves();
+  specialBegin_.assign(n + 1, 0);
+  for (const ExceptionalLine& e : lines.exceptions) {
+    ++specialBegin_[e.leaf + 1];
+    if (!e.rough && !onlyReceives(e.leaf)) ++specialBegin_[e.end + 1];
+  }
+  for (std::size_t i = 0; i < n; ++i) specialBegin_[i + 1] += specialBegin_[i];
+  specials_.resize(specialBegin_[n]);
+  std::vector<std::uint32_t> next(specialBegin_.begin(), specialBegin_.end() - 1);
+  for (const ExceptionalLine& e : lines.exceptions) {
+    const std::uint32_t i = e.leaf, j = e.end;
+    if (e.rough) {
+      specials_[next[i]++] = {j, e.weight / (m_[i] * e_[i] * e_[j]), true};
+      continue;
+    }
+    const Rgb x = e.weight / (e_[i] * e_[j] * (m_[i] + m_[j]));  // [VG95 (balance heuristic)]
+    specials_[next[i]++] = {j, x, false};
+    if (!onlyReceives(i)) specials_[next[j]++] = {i, x, false};
+  }
+}
+
+template <class Visit>
+void Exchange::forEachExchange(std::size_t i, const Visit& visit) const {
+  const float own = 1 / e_[i];
+  for (std::uint64_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+    const std::uint32_t j = id_[k];
+    visit(j, static_cast<float>(count_[k]) * own / (e_[j] * (m_[i] + m_[j])));
+  }
+  for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k)
+    if (!specials_[k].rough) visit(specials_[k].other, gray(specials_[k].x));
+}
+
+/// What the symmetric part of a row shall sum to: the share of the leaf's own lines, where few of them escape; what
+/// lines of both ends say where many do.
+void Exchange::setTargets(const Lines& lines, std::span<const std::uint32_t> covered) {
+  std::size_t exception = 0;
+  std::vector<float> rough(lines.leaves(), 0.0f), other(lines.leaves(), 0.0f);
+  for (; exception < lines.exceptions.size(); ++exception) {
+    const ExceptionalLine& e = lines.exceptions[exception];
+    (e.rough ? rough : other)[e.leaf] += gray(e.weight) / e_[e.end];
+  }
+  parallelFor(lines.leaves(), kLeaves, [&](std::size_t i) {
+    const auto count = static_cast<float>(lines.countOf(i) - covered[i]);
+    if (!(count > 0) || !(area_[i] > 0)) return;
+    float straight = 0;
+    for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k)
+      if (lines.end[k] < kFirstMark) straight += 1 / e_[lines.end[k]];
+    // Straight lines find at most everything around; what mirrors and gloss show comes on top.
+    const float f = std::min(straight / count, 1.0f) + other[i] / count;
+    float g = 0;
+    forEachExchange(i, [&](std::uint32_t, float x) { g += x; });
+    g /= area_[i];
+    const float sure = std::min(f, 1.0f);
+    target_[i] = std::min(sure * f + (1 - sure) * g, std::max(f, 1.0f));
+    closed_[i] = target_[i] + rough[i] / count;
+  });
+}
+
+/// [Sinkhorn & Knopp 1967], symmetric: each factor takes half of what its row is off by.
+void Exchange::scale() {
+  std::vector<float> next(leaves());
+  for (int pass = 0; pass < tuning::kScalingPasses; ++pass) {
+    parallelFor(leaves(), kLeaves, [&](std::size_t i) {
+      next[i] = scale_[i];
+      float sum = 0;
+      forEachExchange(i, [&](std::uint32_t j, float x) { sum += scale_[j] * x; });
+      sum *= scale_[i];
+      if (sum > 0 && area_[i] > 0)
+        next[i] = std::clamp(scale_[i] * std::sqrt(target_[i] * area_[i] / sum), 1 / tuning::kMostScale,
+                             tuning::kMostScale);
+    });
+    scale_.swap(next);
+  }
+  // What scaling has not reached must not make rows exceed one.
+  parallelFor(leaves(), kLeaves, [&](std::size_t i) {
+    float sum = 0;
+    forEachExchange(i, [&](std::uint32_t j, float x) { sum += scale_[j] * x; });
+    sum *= scale_[i];
+    next[i] = sum > target_[i] * area_[i] ? target_[i] * area_[i] / sum : 1.0f;
+  });
+  target_.swap(next);
+}
+
+void Exchange::fill(std::span<const Rgb> B) {
+  parallelFor(leaves(), kLeaves, [&](std::size_t i) { records_[i] = {B[i] * (scale_[i] / e_[i]), m_[i]}; });
+}
+
+void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E) {
+  fill(B);
+  parallelFor(leaves(), kLeaves, [&](std::size_t i) {
+    if (!(area_[i] > 0)) {
+      E[i] = Rgb(0.0f);
+      return;
+    }
+    const float m = m_[i];
+    Rgb sum(0.0f);
+    for (std::uint64_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+      const LeafRecord& other = records_[id_[k]];
+      sum += static_cast<float>(count_[k]) / (m + other.m) * other.B;
+    }
+    sum /= e_[i];
+    Rgb oneWay(0.0f);
+    for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k) {
+      const Special& s = specials_[k];
+      if (s.rough)
+        oneWay += s.x * B[s.other];
+      else
+        sum += s.x * scale_[s.other] * B[s.other];
+    }
+    E[i] = (target_[i] * scale_[i] * sum + oneWay) / area_[i];
+  });
+}
+
+void Exchange::deviation(std::span<const Rgb> B, std::span<float> sigma) {
+  parallelFor(leaves(), kLeaves, [&](std::size_t i) {
+    double sum = 0, squares = 0, lines = 0;
+    const auto add = [&](double count, double each) { sum += count * each, squares += count * each * each, lines += count; };
+    const double own = target_[i] * scale_[i] / e_[i];
+    for (std::uint64_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+      const std::uint32_t j = id_[k];
+      add(count_[k], own * scale_[j] / (e_[j] * (m_[i] + m_[j])) * gray(B[j]));
+    }
+    for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k) {
+      const Special& s = specials_[k];
+      add(1, gray(s.x * B[s.other]) * (s.rough ? 1.0f : target_[i] * scale_[i] * scale_[s.other]));
+    }
+    const double variance = lines > 1 ? std::max(0.0, squares - sum * sum / lines) * lines / (lines - 1) : sum * sum;
+    sigma[i] = area_[i] > 0 ? static_cast<float>(std::sqrt(variance)) / area_[i] : 0.0f;
+  });
+}
+
+void Exchange::arriving(std::span<double> share) const {
+  // Symmetric: what i gets from j by radiosity, j gets from i; the factor of the receiver comes on top.
+  parallelFor(leaves(), kLeaves, [&](std::size_t j) {
+    double sum = 0;
+    forEachExchange(j, [&](std::uint32_t i, float x) { sum += double(target_[i]) * scale_[i] * x; });
+    share[j] = area_[j] > 0 ? sum * scale_[j] / area_[j] : 0;
+  });
+  for (std::size_t i = 0; i < leaves(); ++i)
+    for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k)
+      if (specials_[k].rough && area_[specials_[k].other] > 0)
+        share[specials_[k].other] += gray(specials_[k].x) / area_[specials_[k].other];
+}
+
+std::size_t Exchange::memoryBytes() const {
+  return leaves() * (6 * sizeof(float) + sizeof(LeafRecord)) + begin_.capacity() * 8 + id_.capacity() * 4 +
+         count_.capacity() * 2 + specialBegin_.capacity() * 4 + specials_.capacity() * sizeof(Special);
+}
+
+}  // namespace deltalux::lines

@@ -1,0 +1,74 @@
+#pragma once
+// What leaves exchange over their lines, as rows to iterate over. A line between leaves i and j samples the same measure
+// from either end, so both ends' estimators are combined by the balance heuristic [VG95]: with n = N / A lines by area
+// and e the chance that a line ends on a leaf, it exchanges
+//
+//   x = w / (n_i e_j + n_j e_i)                                                        [unit^2]
+//
+// of area each way, w being its throughput over the chance of its way; over rough lobes, whose chance back is another,
+// it counts at its start alone, with w A_i / (N_i e_j). Then
+//
+//   E_i = 1 / A_i  sum over j of s_i s_j x_ij B_j
+//
+// The factors s are found by symmetric scaling (Sinkhorn & Knopp): what a row sums to then agrees with the share of the
+// leaf's own lines that end on leaves, which is exact where nothing escapes, so no row exceeds one and light in a
+// closed room is kept to the last digit; and the exchange stays reciprocal, so no light is made or lost between two
+// leaves. [docs/lines.md]
+//
+// Lines of one pair are one entry: leaf, count. Cost: 6 bytes an entry, half a nanosecond a pass on two threads.
+#include "lines/lines.hpp"
+
+namespace deltalux::lines {
+
+struct LeafRecord {
+  Rgb B{0.0f};  // s / e times radiosity
+  float m = 0;  // n / e
+};
+
+class Exchange {
+ public:
+  Exchange(const Lines&, const hierarchy::Elements&, const hierarchy::LeafTable&, const LineTracer&,
+           std::span<const std::uint32_t> covered);
+
+  std::size_t leaves() const { return area_.size(); }
+  /// Lit area [unit^2]; share of a leaf's own lines that end on leaves.
+  float area(std::size_t leaf) const { return area_[leaf]; }
+  float closed(std::size_t leaf) const { return closed_[leaf]; }
+
+  /// Irradiance of every leaf from the radiosities of all [W/m2]. Sizes must agree.
+  void gather(std::span<const Rgb> B, std::span<Rgb> E);
+  /// Standard deviation of gather()'s gray irradiance, from the scatter of the leaf's lines [W/m2].
+  void deviation(std::span<const Rgb> B, std::span<float> sigma);
+  /// Share of what leaf j sends that arrives at leaves: column sums.
+  void arriving(std::span<double> share) const;
+
+  std::size_t entries() const { return id_.size(); }
+  std::size_t memoryBytes() const;
+
+ private:
+  struct Special {
+    std::uint32_t other;
+    Rgb x{0.0f};  // as in the header, the scaling left out; rough ones per area of the leaf
+    bool rough;
+  };
+  /// Whether no line ends there, since it sends nothing diffusely: its lines count at their start alone.
+  bool onlyReceives(std::size_t leaf) const { return e_[leaf] < 1e-3f; }
+  void build(const Lines&);
+  void addSpecials(const Lines&);
+  void setTargets(const Lines&, std::span<const std::uint32_t> covered);
+  void scale();
+  void fill(std::span<const Rgb> B);
+  /// visit(other, x) of all symmetric exchange of a leaf, unscaled, gray.
+  template <class Visit>
+  void forEachExchange(std::size_t leaf, const Visit&) const;
+
+  std::vector<float> area_, m_, e_, closed_, target_, scale_;  // by leaf
+  LargeArray<std::uint64_t> begin_;                            // of the entries of a leaf
+  LargeArray<std::uint32_t> id_;
+  LargeArray<std::uint16_t> count_;
+  std::vector<std::uint32_t> specialBegin_;
+  std::vector<Special> specials_;
+  std::vector<LeafRecord> records_;
+};
+
+}  // namespace deltalux::lines

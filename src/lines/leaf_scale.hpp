@@ -1,0 +1,38 @@
+#pragma once
+// How far a patch sees, by its first lines: what decides how fine the mesh must be for indirect light, whose gradient is
+// bounded by the harmonic mean distance [WH92].
+#include "lines/lines.hpp"
+
+namespace deltalux::lines {
+
+struct LeafScale {
+  float harmonic = std::numeric_limits<float>::infinity();  // mean distance [scene units]
+  float mean = 0;             // arithmetic; lines out of the scene count as its diagonal
+  std::uint64_t covered = 0;  // bit i: point i of the leaf's sequence lies under something
+  std::uint32_t known = 0;    // how many points that is known of, at most 64
+  std::uint32_t rays = 0;
+};
+
+class ScaleMeter {
+ public:
+  /// All must outlive this. `enclosed`: by element of the input level.
+  ScaleMeter(const hierarchy::Elements&, const LineTracer&, const Cover&, const std::vector<char>& enclosed);
+
+  LeafScale measure(hierarchy::ElementId patch) const;
+
+ private:
+  const hierarchy::Elements& elements_;
+  const LineTracer& tracer_;
+  const Cover& cover_;
+  const std::vector<char>& enclosed_;
+  float farthest_;
+};
+
+/// Sets the mean free path of receiving input-level patches, by their lines, and of the clusters above them: no less than
+/// the surface is wide, nor than much of what is usual about it.
+void setMeanFreePaths(hierarchy::Elements&, const std::vector<LeafScale>&);
+
+/// Whether a patch is too wide for indirect light at such an error.
+bool tooWide(const hierarchy::ElementGeometry&, const LeafScale&, double error);
+
+}  // namespace deltalux::lines

@@ -1,0 +1,48 @@
+#include "lines/line_counts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hierarchy/patch.hpp"
+#include "lines/tuning.hpp"
+
+namespace deltalux::lines {
+
+namespace {
+
+/// In octaves: the mean that all refer to stays what it is when an edit changes a few.
+double octave(double x) { return x > 0 ? std::exp2(std::round(std::log2(x))) : 0.0; }
+
+}  // namespace
+
+std::uint32_t baseLines(double error) {
+  const double lines = tuning::kBaseLines * std::pow(tuning::kBaseError / error, 2);
+  return static_cast<std::uint32_t>(std::clamp(lines, double(tuning::kFirstLines), 65536.0));
+}
+
+std::vector<std::uint32_t> lineCounts(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
+                                      std::span<const float> power, const std::vector<char>& enclosed,
+                                      std::uint32_t base) {
+  const std::size_t n = leaves.size();
+  std::vector<char> out(n);
+  double area = 0, sent = 0, live = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    out[i] = enclosed[hierarchy::surfaceOf(elements, leaves[i]).index()];
+    if (out[i]) continue;
+    area += elements.shape(leaves[i]).area, sent += power[i], live += 1;
+  }
+  const double meanArea = octave(area / std::max(live, 1.0)), meanPower = octave(sent / std::max(live, 1.0));
+  std::vector<std::uint32_t> counts(n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (out[i]) continue;
+    double share = elements.shape(leaves[i]).area / std::max(meanArea, 1e-300);
+    if (meanPower > 0) share = std::max(share, power[i] / meanPower);
+    const auto octaves =
+        static_cast<int>(std::floor(0.5 * std::log2(std::max(share, 1e-12)) + 0.5));
+    counts[i] = static_cast<std::uint32_t>(
+        std::lround(base * std::exp2(std::clamp(octaves, tuning::kFewestOctaves, tuning::kMostOctaves))));
+  }
+  return counts;
+}
+
+}  // namespace deltalux::lines

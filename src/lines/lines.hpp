@@ -1,0 +1,110 @@
+#pragma once
+// Lines of the leaves, and what came of tracing them: cosine-weighted rays from points of each leaf, which sample the
+// line measure dA cos dw, so that every one of them counts at both of its ends. [BNNPP; docs/lines.md]
+//
+// A line is kept as 8 bytes: the leaf that it ends on, and a code of where it runs, by which an edit finds those it can
+// touch. Lines that pass panes or go on over mirrors, gloss and glass are kept besides as exceptions, with their weight.
+// They are a function of the scene and the mesh alone: line k of a leaf is the same whatever their number.
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "base/large_array.hpp"
+#include "base/sobol.hpp"
+#include "hierarchy/leaf_locator.hpp"
+#include "lines/cover.hpp"
+#include "lines/follow_line.hpp"
+
+namespace deltalux::lines {
+
+/// In place of the leaf that a line ends on.
+enum LineMark : std::uint32_t {
+  kFirstMark = 0xfffffff0u,
+  kException = kFirstMark,  // see Lines::exceptions
+  kCovered,                 // it starts where something lies on the leaf: there is no line
+  kLost,
+  kEscaped,
+};
+
+/// Where a line runs: its direction in two bytes, and how far it is followed, in steps of a 32nd, rounded up.
+struct LineCode {
+  std::int8_t x = 0, y = 0;
+  std::uint16_t reach = 0;
+};
+
+/// Not of unit length; within a degree of the coded one.
+inline Vec3f direction(LineCode code) {
+  const float x = static_cast<float>(code.x) / 127.0f, y = static_cast<float>(code.y) / 127.0f;
+  const float z = 1.0f - std::abs(x) - std::abs(y), below = std::max(0.0f, -z);
+  return {x < 0 ? x + below : x - below, y < 0 ? y + below : y - below, z};
+}
+
+/// A line that is not straight through clear air to a leaf.
+struct ExceptionalLine {
+  std::uint64_t line = 0;
+  std::uint32_t leaf = 0, end = 0;  // where it starts and ends
+  Rgb weight{1.0f};                 // throughput over the chance of its way, that of ending left out
+  bool turned = false, rough = false;
+};
+
+struct Lines {
+  LargeArray<std::uint64_t> first{0};  // by leaf: its lines; one more for the end
+  LargeArray<std::uint32_t> end;       // by line
+  LargeArray<LineCode> code;           // by line
+  std::vector<ExceptionalLine> exceptions;  // ascending
+
+  std::size_t leaves() const { return first.size() - 1; }
+  std::uint64_t size() const { return first.back(); }
+  std::uint32_t countOf(std::size_t leaf) const { return static_cast<std::uint32_t>(first[leaf + 1] - first[leaf]); }
+  std::size_t memoryBytes() const;
+  /// Of where every line goes; equal for equal lines of equal leaves, whatever the leaves' numbers: `keys` by leaf.
+  std::uint64_t hash(std::span<const std::uint64_t> keys) const;
+};
+
+/// Recounts: ends and exceptions are of leaves that there are, in order. Throws std::logic_error.
+void validate(const Lines&);
+
+/// A line that leaves the scene straight, for the sky's light.
+struct EscapedLine {
+  std::uint32_t leaf = 0;
+  Vec3f direction{0.0f};
+  float cosine = 0;
+  Rgb weight{1.0f};
+  float chance = 1;  // of its passages
+};
+
+struct TracedLines {
+  Lines lines;
+  std::vector<EscapedLine> escaped;   // ascending by leaf
+  std::vector<std::uint32_t> covered;  // by leaf: lines that are not there
+  std::uint64_t rays = 0;
+};
+
+/// What lines are traced over. All must outlive whoever uses it.
+struct LineScene {
+  const hierarchy::Elements& elements;
+  const hierarchy::LeafTable& leaves;
+  const hierarchy::LeafLocator& locator;
+  const LineTracer& tracer;
+  const Cover& cover;
+  const std::vector<char>& enclosed;  // by element of the input level
+};
+
+/// `counts` lines of each leaf.
+TracedLines traceLines(const LineScene&, std::span<const std::uint32_t> counts);
+
+/// Direction i of a leaf's lines, about its normal there.
+class LineDirections {
+ public:
+  explicit LineDirections(std::uint64_t leafKey) : directions_(combineKeys(leafKey, kKey)) {}
+  Vec3f operator()(std::uint32_t i, const Vec3f& normal) const;
+  /// What decides at the branches of line i.
+  static Rng random(std::uint64_t leafKey, std::uint32_t i) { return Rng(combineKeys(leafKey, kKey + 1), i); }
+
+ private:
+  static constexpr std::uint64_t kKey = 0x6c696e65735f5full;
+  ScrambledSobol directions_;
+};
+
+}  // namespace deltalux::lines

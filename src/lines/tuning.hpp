@@ -1,0 +1,51 @@
+#pragma once
+// The tuned constants of stored lines: purpose, unit, normal value, and what breaks. Everything else follows from the
+// error that was asked for.
+
+namespace deltalux::lines::tuning {
+
+/// Lines of a leaf of mean area and power at an error of 5 %; their noise falls as one over the root. Fewer: blotches
+/// on indirect light. More: time and memory in proportion.
+constexpr double kBaseLines = 128;
+constexpr double kBaseError = 0.05;
+/// Octaves of lines below and above the base. Wider: large leaves take most of the time, small ones are noise.
+constexpr int kFewestOctaves = -1, kMostOctaves = 4;
+/// Lines that tell a leaf's surroundings before there are others. Fewer: splits by chance.
+constexpr int kFirstLines = 16;
+/// Non-diffuse events of a line. Fewer: light between facing mirrors is lost.
+constexpr int kMostEvents = 8;
+/// Least chance that a line ends on what has any diffuse part. Less: the few lines that end on metal weigh much.
+constexpr float kLeastEnding = 0.2f;
+/// Segments of a line, panes included: a guard against surfaces that overlap without end.
+constexpr int kMostSegments = 64;
+/// Widest leaf, in harmonic mean distances of its lines, at an error of 5 %. Wider: indirect light is smeared out.
+constexpr double kWidth = 0.4;
+/// Narrowest leaf that is still split for its width, in mean distances about its surface. Narrower: corners fill with
+/// leaves.
+constexpr double kFinestWidth = 0.035;
+/// Mean distance below which a patch lies in a slot, in its radii: it is not split for its width. Less: slots between
+/// boards fill with leaves that nobody sees.
+constexpr double kSlot = 0.25;
+/// Least mean distance about a surface, relative to that of the second cluster above it. Less: the same.
+constexpr float kSurroundings = 0.5f;
+
+/// Walks that look for light from an input-level side, and their bounces. Fewer: hollows that light reaches through a
+/// gap are taken for closed ones.
+constexpr int kWalks = 16, kBounces = 12;
+/// Mean distance below which a hollow where walks find no light counts as enclosed [m], and the same relative to the
+/// scene's diagonal. Larger: rooms that are lit through a slot stay dark.
+constexpr double kHollow = 0.2, kHollowOfScene = 0.03;
+
+/// Distance at which a surface that lies on another covers it, in roundings of a ray's origin. Less: rugs at floor level
+/// leave the floor lit below them.
+constexpr float kContact = 8;
+
+/// Passes of the symmetric scaling of rows. Fewer: more is left to the scaling that breaks reciprocity.
+constexpr int kScalingPasses = 8;
+/// Most and least that one leaf's exchange is scaled by. Wider: leaves with a handful of lines run away.
+constexpr float kMostScale = 4;
+/// Power that changes in the last pass, relative to emitted, and the most passes.
+constexpr double kConverged = 1e-6;
+constexpr int kMostPasses = 2048;
+
+}  // namespace deltalux::lines::tuning

@@ -1,0 +1,29 @@
+#pragma once
+// Indirect light at a point by lines of its own, which read the radiosity of the leaves that they end on: until their
+// standard error is what is asked for. [docs/lines.md]
+#include <deltalux/probe.hpp>
+
+#include "lines/lines.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux::rendering {
+
+class LineGather {
+ public:
+  /// The solution must outlive this.
+  explicit LineGather(const Solution&);
+
+  /// Irradiance from leaves, direct light and particles left out, at a point with the unit normal of its side, to a
+  /// standard error of `error` times itself plus `ambient`, by at most `most` lines. `key` names the random numbers.
+  ProbeResult at(const Vec3f& p, const Vec3f& normal, double ambient, double error, std::uint64_t most,
+                 std::uint64_t key) const;
+
+ private:
+  const Solution& s_;
+  hierarchy::LeafTable leaves_;
+  hierarchy::LeafLocator locator_;
+  lines::SurfaceResponses responses_;
+  lines::LineTracer tracer_;
+};
+
+}  // namespace deltalux::rendering
