@@ -22,10 +22,10 @@ constexpr int kMostSegments = 64;
 constexpr double kWidth = 0.4;
 /// Narrowest leaf that is still split for its width, in mean distances about its surface. Narrower: corners fill with
 /// leaves.
-constexpr double kFinestWidth = 0.035;
+constexpr double kFinestWidth = 0.07;
 /// Mean distance below which a patch lies in a slot, in its radii: it is not split for its width. Less: slots between
 /// boards fill with leaves that nobody sees.
-constexpr double kSlot = 0.25;
+constexpr double kSlot = 0.5;
 /// Least mean distance about a surface, relative to that of the second cluster above it. Less: the same.
 constexpr float kSurroundings = 0.5f;
 
