@@ -149,12 +149,13 @@ lines::Lines lightLeaves(LineSolve& x, const hierarchy::LeafTable& leaves, std::
   return std::move(traced.lines);
 }
 
-/// By the points that are known to be open; all of it where none is, since nothing is known of the rest then.
+/// By the points that are known to be open; a little where none is, so that the leaf shows what is beside it.
 void setExposed(LineSolve& x, hierarchy::ElementId patch) {
   const lines::LeafScale& scale = x.samples.scale[patch.index()];
   const int covered = std::popcount(scale.covered), known = static_cast<int>(scale.known);
+  if (known == 0) return;
   x.s.elements.geometry[patch.index()].exposed =
-      covered < known ? 1 - static_cast<float>(covered) / static_cast<float>(known) : 1.0f;
+      std::max(0.5f, static_cast<float>(known - covered)) / static_cast<float>(known);
 }
 
 void sample(LineSolve& x, std::span<const hierarchy::ElementId> patches, bool whole) {
@@ -190,7 +191,8 @@ void refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, double 
         if (scale.known == 0) scale = meter.measure(patch);
         setExposed(x, patch);
         std::uint64_t rays = scale.rays;
-        if (tooWide(g, scale, error)) {
+        const double known = gray(elements.radiometry[patch.index()].indirect + elements.radiometry[patch.index()].direct);
+        if (tooWide(g, scale, error, floor > 0 ? known / floor : 1.0)) {
           splits[i] = 1;
           return rays;
         }

@@ -20,6 +20,19 @@ std::vector<BoxF> boxesOf(const Scene& scene) {
   return boxes;
 }
 
+/// Whether a shape may cover some area of another: flat ones where they are parallel, to within what a contact's
+/// thickness over its width may be; curved ones only where both are of a kind.
+bool mayLieOn(const Shape& other, const Shape& own, bool flat, const Vec3& normal) {
+  constexpr double kParallel = 1 - 1e-5;
+  if (std::holds_alternative<Mesh>(other)) return true;
+  const auto* polygon = std::get_if<Polygon>(&other);
+  const auto* ring = std::get_if<Ring>(&other);
+  if (!polygon && !ring) return !flat && other.index() == own.index();
+  const Vec3 n = polygon ? polygon->normal : samplePoint(other, {0.5, 0.5}).normal;
+  return flat ? std::abs(glm::dot(n, normal)) > kParallel
+              : ring && std::holds_alternative<Ring>(own) && std::abs(glm::dot(n, normal)) > kParallel;
+}
+
 }  // namespace
 
 Cover::Cover(const Scene& scene, const tracing::RayTracer& tracer)
@@ -28,9 +41,12 @@ Cover::Cover(const Scene& scene, const tracing::RayTracer& tracer)
 bool Cover::mayTouch(const hierarchy::Elements& elements, hierarchy::ElementId leaf) const {
   const hierarchy::ElementGeometry& g = elements.shape(leaf);
   const float reach = reachAt(glm::max(glm::abs(g.lower), glm::abs(g.upper)));
+  const PrimitiveId own = elements.domain[leaf.index()].primitive;
+  const bool flat = elements.at(leaf).flat;
   bool found = false;
   boxes_.overlapping({g.lower - reach, g.upper + reach}, [&](std::uint32_t i) {
-    found = found || PrimitiveId(i) != elements.domain[leaf.index()].primitive;
+    const PrimitiveId other(i);
+    found = found || (other != own && mayLieOn(scene_[other].shape, scene_[own].shape, flat, Vec3(g.normal)));
   });
   return found;
 }

@@ -46,13 +46,15 @@ class LightSearch {
         if (end.fate == LineFate::Escaped && outside_) return false;
         if (end.fate != LineFate::Ended) break;
         length += end.turned ? 0 : end.distance, ++steps;
+        if (steps >= tuning::kFirstSteps && !(length < hollow * steps)) return false;
         const Material& material = scene_.materialOf(end.side.primitive);
         if (sendsLight(material) && (end.side.front || material.emission->bothSides)) return false;
         const bool through = !isBlack(diffuseTransmittance(material)) && random.uniform() < 0.5;
         x = {end.position, through ? -end.normal : end.normal};
       }
     }
-    return steps > 0 && length < hollow * steps;
+    const double width = std::sqrt(double(elements_.shape(side).area));
+    return steps > 0 && length < hollow * steps && width * steps < tuning::kWidestHollow * length;
   }
 
  private:

@@ -65,31 +65,28 @@ LeafScale ScaleMeter::measure(hierarchy::ElementId patch) const {
 }
 
 void setMeanFreePaths(hierarchy::Elements& elements, const std::vector<LeafScale>& scales) {
-  std::vector<double> area(elements.size(), 0), path(elements.size(), 0);
+  // Of sides below each cluster: the mean of logarithms, in which one vast meadow counts as one.
+  std::vector<double> sum(elements.size(), 0), count(elements.size(), 0);
   for (std::size_t i = elements.size(); i-- > 0;) {
     const hierarchy::ElementTopology& t = elements.topology[i];
-    hierarchy::ElementGeometry& g = elements.geometry[i];
-    if (t.emitter) continue;
-    if (t.kind == hierarchy::ElementKind::Patch) {
-      if (t.depth > 0 || t.blocker) continue;
-      g.meanFreePath = std::max(scales[i].mean, std::sqrt(g.area));
-      area[i] = g.area, path[i] = double(g.area) * scales[i].mean;
-    } else if (area[i] > 0) {
-      g.meanFreePath = static_cast<float>(path[i] / area[i]);
-    }
-    if (t.parent.valid()) area[t.parent.index()] += area[i], path[t.parent.index()] += path[i];
+    const bool side = t.kind == hierarchy::ElementKind::Patch && t.depth == 0 && !t.emitter && !t.blocker;
+    if (side && scales[i].mean > 0) sum[i] = std::log(double(scales[i].mean)), count[i] = 1;
+    if (t.parent.valid()) sum[t.parent.index()] += sum[i], count[t.parent.index()] += count[i];
   }
   for (const hierarchy::ElementId input : elements.inputs) {
     if (!elements.receives(input)) continue;
     const hierarchy::ElementId parent = elements.at(input).parent, second = elements.at(parent).parent;
-    float& own = elements.geometry[input.index()].meanFreePath;
-    own = std::max(own, tuning::kSurroundings * elements.shape(second.valid() ? second : parent).meanFreePath);
+    const std::size_t about = (second.valid() ? second : parent).index();
+    const double usual = count[about] > 0 ? std::exp(sum[about] / count[about]) : 0.0;
+    elements.geometry[input.index()].meanFreePath =
+        std::max(scales[input.index()].mean, static_cast<float>(tuning::kSurroundings * usual));
   }
 }
 
-bool tooWide(const hierarchy::ElementGeometry& g, const LeafScale& scale, double error) {
+bool tooWide(const hierarchy::ElementGeometry& g, const LeafScale& scale, double error, double dim) {
   if (!(scale.mean > 0)) return false;
-  const double finer = std::sqrt(error / tuning::kBaseError);
+  const double wider = std::clamp(1 / std::sqrt(std::max(dim, 1e-12)), 1.0, tuning::kDimWidth);
+  const double finer = wider * std::sqrt(error / tuning::kBaseError);
   return g.radius > tuning::kWidth * finer * scale.harmonic && scale.mean > tuning::kSlot * g.radius &&
          g.radius > tuning::kFinestWidth * finer * std::max(scale.mean, g.meanFreePath);
 }

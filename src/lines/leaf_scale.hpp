@@ -28,11 +28,12 @@ class ScaleMeter {
   float farthest_;
 };
 
-/// Sets the mean free path of receiving input-level patches, by their lines, and of the clusters above them: no less than
-/// the surface is wide, nor than much of what is usual about it.
+/// Sets the mean free path of receiving input-level patches, which their parts inherit: by their lines, but no less than
+/// a share of what is usual about them.
 void setMeanFreePaths(hierarchy::Elements&, const std::vector<LeafScale>&);
 
-/// Whether a patch is too wide for indirect light at such an error.
-bool tooWide(const hierarchy::ElementGeometry&, const LeafScale&, double error);
+/// Whether a patch is too wide for indirect light at such an error. `dim`: its light relative to what still matters; where
+/// that is less than 1 it may be wider.
+bool tooWide(const hierarchy::ElementGeometry&, const LeafScale&, double error, double dim);
 
 }  // namespace deltalux::lines

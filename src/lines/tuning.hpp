@@ -23,18 +23,24 @@ constexpr double kWidth = 0.4;
 /// Narrowest leaf that is still split for its width, in mean distances about its surface. Narrower: corners fill with
 /// leaves.
 constexpr double kFinestWidth = 0.07;
+/// How much wider leaves in the dark may be. Wider: dark corners are smeared out where exposure shows them.
+constexpr double kDimWidth = 3;
 /// Mean distance below which a patch lies in a slot, in its radii: it is not split for its width. Less: slots between
 /// boards fill with leaves that nobody sees.
 constexpr double kSlot = 0.5;
-/// Least mean distance about a surface, relative to that of the second cluster above it. Less: the same.
-constexpr float kSurroundings = 0.5f;
+/// Least mean free path of a surface, relative to what is usual below the second cluster above it. Less: narrow places
+/// fill with leaves.
+constexpr double kSurroundings = 0.5;
 
-/// Walks that look for light from an input-level side, and their bounces. Fewer: hollows that light reaches through a
-/// gap are taken for closed ones.
-constexpr int kWalks = 16, kBounces = 12;
+/// Walks that look for light from an input-level side, and their bounces; the first steps tell how wide the hollow is.
+/// Fewer: slots that light reaches after some bounces are taken for closed hollows.
+constexpr int kWalks = 6, kBounces = 40, kFirstSteps = 8;
 /// Mean distance below which a hollow where walks find no light counts as enclosed [m], and the same relative to the
 /// scene's diagonal. Larger: rooms that are lit through a slot stay dark.
 constexpr double kHollow = 0.2, kHollowOfScene = 0.03;
+/// Widest side that may face such a hollow as a whole, in mean distances: of wider ones a rim may look out. Wider: rims
+/// of what lies close behind something stay dark.
+constexpr double kWidestHollow = 16;
 
 /// Distance at which a surface that lies on another covers it, in roundings of a ray's origin. Less: rugs at floor level
 /// leave the floor lit below them.
