@@ -6,8 +6,9 @@
 #include "base/cosine_direction.hpp"
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
-#include "hierarchy/patch.hpp"
+#include "hierarchy/leaf_sequence.hpp"
 #include "hierarchy/side_locator.hpp"
+#include "lines/lines.hpp"
 #include "particles/bounce.hpp"
 #include "scene/stops_light.hpp"
 
@@ -29,6 +30,13 @@ struct Surfaces {
 /// What passes a surface with diffuse sides straight, at any angle.
 Rgb beside(const Material& m) { return passesStraight(m) ? straightTransmittance(m, 1.0) : Rgb(0.0f); }
 
+/// What a surface passes on over its specular part of light that lines bring: what goes on along lines is not absorbed.
+Rgb passedOnByLines(const Solution& s, const Material& m, bool front) {
+  if (s.settings.method != SolveMethod::Lines || s.settings.diffuseOnly) return Rgb(0.0f);
+  const scene::Bsdf bsdf = scene::makeBsdf(m, front);
+  return bsdf.reflection.reflectance + bsdf.transmission.reflectance;
+}
+
 Surfaces surfacesOf(const Solution& s) {
   const hierarchy::Elements& elements = s.elements;
   const particles::ParticleSurfaces particles(s.scene);
@@ -41,7 +49,10 @@ Surfaces surfacesOf(const Solution& s) {
     const double A = elements.geometry[e].litArea();
     // What goes straight on through a cover counts where it ends; that of particles is theirs.
     const Rgb met = Rgb(1.0f) - beside(s.scene.materialOf(elements.domain[e].primitive));
-    return Surfaces{A * RgbSum(met * l.direct), A * RgbSum((met - l.rho - l.tau) * (l.direct + l.indirect) +
+    const Rgb onward =
+        passedOnByLines(s, s.scene.materialOf(elements.domain[e].primitive), elements.topology[e].front);
+    return Surfaces{A * RgbSum(met * l.direct), A * RgbSum((met - l.rho - l.tau) * (l.direct + l.indirect) -
+                                                           onward * l.indirect +
                                                            (Rgb(1.0f) - l.rho - l.tau) * l.particle)};
   });
 }
@@ -62,30 +73,39 @@ RgbSum sentUnderCovers(const hierarchy::Elements& elements) {
   });
 }
 
-/// What becomes of light that diffuse surfaces send and that reaches none: rays from leaves, in proportion to the power
-/// that they send.
-Outcome diffuseLight(const Solution& s) {
-  const hierarchy::Elements& elements = s.elements;
+/// Calls outcome(leaf, flux, index) of parts of all that leaves send, in proportion to the power of each; the sum.
+/// `areaOf(element)`: what sends.
+template <class AreaOf, class OutcomeOf>
+Outcome ofSentLight(const hierarchy::Elements& elements, std::size_t parts, const AreaOf& areaOf,
+                    const OutcomeOf& outcome) {
   std::vector<double> power{0.0};
   for (std::size_t e = 0; e < elements.size(); ++e)
     power.push_back(power.back() + (elements.isReceivingLeaf(hierarchy::ElementId(e))
-                                        ? double(elements.geometry[e].area) * double(gray(elements.radiometry[e].B))
+                                        ? areaOf(e) * double(gray(elements.radiometry[e].B))
                                         : 0.0));
   const double total = power.back();
   if (!(total > 0)) return {};
-  Outcome all = parallelSum<Outcome>(kRays, kBlock, [&](std::size_t i) {
-    const auto index = static_cast<std::uint32_t>(i);
-    const UnitPair at = scrambledSobol(index, kKey), to = scrambledSobol(index, ~kKey);
-    const double u = (static_cast<double>(i) + 0.5) / kRays * total;
+  return parallelSum<Outcome>(parts, kBlock, [&](std::size_t i) {
+    const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(parts) * total;
     const auto e =
         static_cast<std::size_t>(std::upper_bound(power.begin() + 1, power.end() - 1, u) - power.begin() - 1);
     const Rgb B = elements.radiometry[e].B;
-    const hierarchy::PatchPoint x = hierarchy::samplePatch(elements, s.scene, hierarchy::ElementId(e), at.x, at.y);
+    return outcome(hierarchy::ElementId(e), total / static_cast<double>(parts) / double(gray(B)) * RgbSum(B), i);
+  });
+}
+
+/// What becomes of light that diffuse surfaces send and that reaches none: rays from all over leaves.
+Outcome diffuseLight(const Solution& s) {
+  const hierarchy::Elements& elements = s.elements;
+  const auto whole = [&](std::size_t e) { return double(elements.geometry[e].area); };
+  Outcome all = ofSentLight(elements, kRays, whole, [&](hierarchy::ElementId leaf, RgbSum flux, std::size_t i) {
+    const auto index = static_cast<std::uint32_t>(i);
+    const UnitPair at = scrambledSobol(index, kKey), to = scrambledSobol(index, ~kKey);
+    const hierarchy::PatchPoint x = hierarchy::samplePatch(elements, s.scene, leaf, at.x, at.y);
     tracing::Ray ray;
     ray.direction = Vec3f(cosineDirection(Frame(Vec3(x.normal)), to.x, to.y));
     ray.origin = tracing::offsetOrigin(x.position, x.normal, ray.direction);
     Outcome outcome;
-    RgbSum flux = total / kRays / double(gray(B)) * RgbSum(B);
     for (int pane = 0; pane < kPanes; ++pane) {
       const tracing::Hit hit = s.tracer->closestHit(ray);
       if (!hit) {
@@ -118,6 +138,33 @@ Outcome diffuseLight(const Solution& s) {
   return all;
 }
 
+/// The same where light is exchanged by lines, which go on over mirrors, gloss and glass: by some of those lines, traced
+/// again.
+Outcome lineLight(const Solution& s) {
+  constexpr std::size_t kLines = 1 << 20;
+  const hierarchy::Elements& elements = s.elements;
+  const lines::SurfaceResponses responses(s.scene, !s.settings.diffuseOnly);
+  const lines::LineTracer tracer(s.scene, *s.tracer, responses);
+  const hierarchy::LeafTable leaves(elements);
+  const auto open = [&](std::size_t e) { return double(elements.geometry[e].litArea()); };
+  return ofSentLight(elements, kLines, open, [&](hierarchy::ElementId leaf, const RgbSum& flux, std::size_t i) {
+    Outcome outcome;
+    const std::uint32_t at = leaves.indexOf[leaf.index()], count = s.lines.countOf(at);
+    if (count == 0) return outcome;
+    // The next of its lines that is there.
+    auto k = static_cast<std::uint32_t>(toUnit(combineKeys(kKey, i)) * count);
+    for (std::uint32_t tries = 0; tries < count && s.lines.end[s.lines.first[at] + k] == lines::kCovered; ++tries)
+      k = (k + 1) % count;
+    const hierarchy::LeafSequence points(elements, s.scene, leaf);
+    const hierarchy::PatchPoint x = points.point(k);
+    const lines::LineEnd end = tracer.follow(x.position, x.normal, lines::LineDirections(points.key())(k, x.normal),
+                                             lines::LineDirections::random(points.key(), k));
+    outcome.panes = flux * RgbSum(end.absorbed);
+    if (end.fate == lines::LineFate::Escaped) outcome.escaped = flux * RgbSum(end.weight);
+    return outcome;
+  });
+}
+
 struct Specular {
   RgbSum ofLights{0.0}, passed{0.0}, absorbed{0.0}, escaped{0.0};
 
@@ -147,7 +194,7 @@ Specular specularLight(const Solution& s, const particles::ParticleTransfer& tra
 
 EnergyLedger energyBalance(const Solution& s, const particles::ParticleTransfer& transfer, const RgbSum& unsettled) {
   const Surfaces surfaces = surfacesOf(s);
-  const Outcome diffuse = diffuseLight(s);
+  const Outcome diffuse = s.settings.method == SolveMethod::Lines ? lineLight(s) : diffuseLight(s);
   const Specular specular = specularLight(s, transfer);
   const double unit = s.scene.metresPerUnit * s.scene.metresPerUnit;
   EnergyLedger ledger;

@@ -15,6 +15,12 @@ StepReport Engine::State::frame(double seconds) {
   Solution& s = *solution;
   StepReport step;
   const std::uint64_t traced = tracer().traced();
+  if (byLines()) {  // the next update does it all
+    takeIn(step, true);
+    step.deferred = s.lines.leaves();
+    step.times.total = time.seconds();
+    return step;
+  }
   constexpr double kLikely = 0.02;  // of the time of a solve
   if (!backlog.follow.known()) backlog.follow.learn(kLikely * s.report.times.total);
   constexpr double kMostGapsInMotion = 4;  // closing them takes longer than a frame

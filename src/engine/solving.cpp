@@ -36,8 +36,8 @@ SolveReport Engine::State::step(Progress* progress) {
   if (s.settings.method == SolveMethod::Lines) {
     engine::solveByLines(s, progress);
     countParticles();
-    if (s.elements.sceneRoot.valid()) makeTextures(), count();
     finished = s.report.converged = true;
+    if (s.elements.sceneRoot.valid()) makeTextures(), count();
     s.report.times.total += time.seconds();
     return s.report;
   }
@@ -201,7 +201,7 @@ void Engine::State::solveAfresh(Progress* progress) {
   Solution& s = *solution;
   s.tracer = tracing::makeEmbreeTracer(s.scene);
   tracing.reset(), transfer.reset(), upkeep.reset(), settling.reset(), backlog = {}, groups = {};
-  s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.caustics = {}, s.report = {};
+  s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.lines = {}, s.deviation.clear(), s.caustics = {}, s.report = {};
   finished = false;
   clock = {};
   while (!finished) step(progress);

@@ -62,6 +62,9 @@ struct Engine::State {
   engine::Backlog backlog;                              // what edits that were taken in have still to do
   engine::MovingGroups groups;                          // of the tracer
 
+  /// Whether light is exchanged by lines: an update is then a solve of the edited scene.
+  bool byLines() const { return solution->settings.method == SolveMethod::Lines; }
+
   // Solving.
   SolveReport step(Progress* progress);
   void prepare(Progress* progress);

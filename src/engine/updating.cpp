@@ -73,7 +73,7 @@ engine::RowWork Engine::State::arriveInLight(const engine::SceneUpdate& edits, M
 void Engine::State::takeIn(StepReport& step, bool inMotion) {
   const engine::SceneUpdate edits = std::exchange(pending, {});
   step.op = edits.op, step.object = edits.subject;
-  backlog.afresh |= !engine::haveElements(solution->elements, solution->scene, edits) || outshines(edits);
+  backlog.afresh |= byLines() || !engine::haveElements(solution->elements, solution->scene, edits) || outshines(edits);
   if (backlog.afresh) return;
   backlog.dimmed |= !edits.dimmed.empty();
   const std::vector<hierarchy::ElementId> reflecting = relight(edits);
@@ -114,7 +114,7 @@ Restore Engine::State::apply(const Edit& edit) {
 
 void Engine::State::prepareToFollow() {
   Solution& s = *solution;
-  if (!finished) return;
+  if (!finished || byLines()) return;
   if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
   if (!settling) settling.emplace(engine::LightSettling::Parts{s.scene, s.transfers, *transfer}, s.elements);
   if (s.settings.diffuseOnly) return;

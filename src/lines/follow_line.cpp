@@ -25,7 +25,11 @@ LineEnd LineTracer::follow(tracing::Ray ray, tracing::Hit hit, Rng random) const
       return end;
     }
     const SurfaceResponse& surface = responses_.at(hit.primitive, hit.front);
-    if (medium) end.weight *= glm::pow(medium->transmission, Rgb(hit.t)), end.dimmed = true;
+    if (medium) {
+      const Rgb before = end.weight;
+      end.weight *= glm::pow(medium->transmission, Rgb(hit.t)), end.dimmed = true;
+      end.absorbed += before - end.weight;
+    }
     const Vec3 outward = hit.front ? Vec3(hit.normal) : -Vec3(hit.normal);
     const double cosine = std::min(1.0, -glm::dot(outward, Vec3(ray.direction)));
     if (!(cosine > 0)) return end;
@@ -38,6 +42,10 @@ LineEnd LineTracer::follow(tracing::Ray ray, tracing::Hit hit, Rng random) const
       const float both = gray(passage) + gray(mirror);
       if (!(both > 0)) return end;
       passes = gray(passage) / both;
+      end.absorbed += end.weight * (Rgb(1.0f) - passage - mirror);
+    } else if (surface.ends <= 0 && !surface.body) {
+      end.absorbed += end.weight * (Rgb(1.0f) - surface.passage - surface.specular.reflection.reflectance -
+                                    surface.specular.transmission.reflectance);
     }
     const bool last = events >= tuning::kMostEvents;
     const double choice = surface.ends >= 1 ? 0.0 : random.uniform();
@@ -54,7 +62,10 @@ LineEnd LineTracer::follow(tracing::Ray ray, tracing::Hit hit, Rng random) const
       passStraight(ray, hit);
       continue;
     }
-    if (last) return end;
+    if (last) {
+      end.absorbed += end.weight;
+      return end;
+    }
     if (!end.turned) end.distance = passed + hit.t;
     const float onward = 1 - surface.ends - passes;
     const Frame frame(outward);

@@ -26,6 +26,9 @@ struct LineEnd {
   /// that of its passages.
   Rgb weight{1.0f};
   float chance = 1;
+  /// Of light that is sent along: what mirrors, panes and bodies on its way absorb, and the last event cuts off, over the
+  /// chance of coming there.
+  Rgb absorbed{0.0f};
 };
 
 class LineTracer {
