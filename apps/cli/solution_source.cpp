@@ -102,6 +102,7 @@ void noteSolve(const SolveReport& solved, RunReport& report) {
   report.times.import = import;
   report.counts = solved.counts;
   report.memory = solved.memory;
+  report.error = solved.error;
   report.energy = solved.energy;
 }
 

@@ -20,15 +20,22 @@ struct PhaseTimes {  // [s]
 };
 
 struct WorkCounts {
-  std::uint64_t elements = 0, leafElements = 0, links = 0, linksDs = 0, particles = 0, impacts = 0, raysVisibility = 0,
+  std::uint64_t elements = 0, leafElements = 0, links = 0, linksDs = 0, lines = 0, particles = 0, impacts = 0, raysVisibility = 0,
                 raysParticles = 0, iterations = 0, causticTextures = 0;
   double causticTextureMeanSize = 0;  // texels a side
 };
 
 struct MemoryBytes {
-  std::uint64_t elements = 0, links = 0, particles = 0;
+  std::uint64_t elements = 0, links = 0, lines = 0, particles = 0;
   std::uint64_t octree = 0;  // of what knows the paths near an object in motion: a region and a bit a path; 0 before
   std::uint64_t textures = 0, peakRss = 0;
+};
+
+/// Relative error of irradiance: what was asked for, and what the solution's own samples say, by area of what is lit;
+/// empty where the method cannot tell (null in JSON).
+struct ErrorEstimate {
+  double asked = 0;
+  std::optional<double> estimatedMedian, estimatedP95;
 };
 
 /// Flux summed over the channels' photometric weights [W]; empty where a run did not measure it (null in JSON).
@@ -81,6 +88,7 @@ struct RunReport {
   PhaseTimes times;
   WorkCounts counts;
   MemoryBytes memory;
+  ErrorEstimate error;
   EnergyLedger energy;
   std::vector<StepReport> steps;
   std::optional<CheckReport> check;          // null in JSON when nothing was checked

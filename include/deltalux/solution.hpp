@@ -13,6 +13,7 @@ struct SolveReport {
   PhaseTimes times;
   WorkCounts counts;
   MemoryBytes memory;
+  ErrorEstimate error;
   EnergyLedger energy;
   std::uint64_t activeLinks = 0, provenClear = 0, provenBlocked = 0;  // links that carry light; known without a ray
   std::uint64_t cutParticles = 0;                                     // by the limit of 64 events

@@ -49,11 +49,10 @@ Surfaces surfacesOf(const Solution& s) {
     const double A = elements.geometry[e].litArea();
     // What goes straight on through a cover counts where it ends; that of particles is theirs.
     const Rgb met = Rgb(1.0f) - beside(s.scene.materialOf(elements.domain[e].primitive));
-    const Rgb onward =
-        passedOnByLines(s, s.scene.materialOf(elements.domain[e].primitive), elements.topology[e].front);
-    return Surfaces{A * RgbSum(met * l.direct), A * RgbSum((met - l.rho - l.tau) * (l.direct + l.indirect) -
-                                                           onward * l.indirect +
-                                                           (Rgb(1.0f) - l.rho - l.tau) * l.particle)};
+    const Rgb onward = passedOnByLines(s, s.scene.materialOf(elements.domain[e].primitive), elements.topology[e].front);
+    return Surfaces{A * RgbSum(met * l.direct),
+                    A * RgbSum((met - l.rho - l.tau) * (l.direct + l.indirect) - onward * l.indirect +
+                               (Rgb(1.0f) - l.rho - l.tau) * l.particle)};
   });
 }
 
@@ -138,8 +137,8 @@ Outcome diffuseLight(const Solution& s) {
   return all;
 }
 
-/// The same where light is exchanged by lines, which go on over mirrors, gloss and glass: by some of those lines, traced
-/// again.
+/// The same where light is exchanged by lines, which go on over mirrors, gloss and glass: by some of those lines,
+/// traced again.
 Outcome lineLight(const Solution& s) {
   constexpr std::size_t kLines = 1 << 20;
   const hierarchy::Elements& elements = s.elements;

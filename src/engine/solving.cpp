@@ -7,7 +7,6 @@
 #include "base/parallel.hpp"
 #include "engine/energy_balance.hpp"
 #include "engine/particle_count.hpp"
-#include "engine/solve_lines.hpp"
 #include "engine/state.hpp"
 #include "hierarchy/build.hpp"
 #include "particles/mesh_for_particles.hpp"
@@ -33,11 +32,8 @@ constexpr int kMaxIterations = 64;
 SolveReport Engine::State::step(Progress* progress) {
   const engine::Clock time;
   Solution& s = *solution;
-  if (s.settings.method == SolveMethod::Lines) {
-    engine::solveByLines(s, progress);
-    countParticles();
-    finished = s.report.converged = true;
-    if (s.elements.sceneRoot.valid()) makeTextures(), count();
+  if (byLines()) {
+    lineRound(progress);
     s.report.times.total += time.seconds();
     return s.report;
   }
@@ -48,6 +44,29 @@ SolveReport Engine::State::step(Progress* progress) {
     s.report.converged = finished = true;
   s.report.times.total += time.seconds();
   return s.report;
+}
+
+void Engine::State::lineRound(Progress* progress) {
+  Solution& s = *solution;
+  if (!lineSolve) {
+    budget = engine::TimeBudget(s.settings.seconds, clock.seconds());
+    lineSolve = engine::solveCoarsely(s, budget, progress);
+    countParticles();
+    if (!s.elements.sceneRoot.valid()) {
+      finished = s.report.converged = true;
+      return;
+    }
+    if (previewed) {  // something to look at before the mesh is fine
+      makeTextures(), count();
+      s.report.converged = false;
+      return;
+    }
+  }
+  finished = true;
+  s.report.converged = engine::solveFinely(*lineSolve, budget, progress);
+  lineSolve.reset();
+  makeTextures(), count();
+  budget = engine::TimeBudget(0);  // updates take what time they need
 }
 
 void Engine::State::prepare(Progress* progress) {
@@ -201,7 +220,8 @@ void Engine::State::solveAfresh(Progress* progress) {
   Solution& s = *solution;
   s.tracer = tracing::makeEmbreeTracer(s.scene);
   tracing.reset(), transfer.reset(), upkeep.reset(), settling.reset(), backlog = {}, groups = {};
-  s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.lines = {}, s.deviation.clear(), s.caustics = {}, s.report = {};
+  s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.lines = {}, s.deviation.clear(),
+  lineSolve.reset(), s.caustics = {}, s.report = {};
   finished = false;
   clock = {};
   while (!finished) step(progress);

@@ -12,6 +12,7 @@
 #include "caustics/texture_upkeep.hpp"
 #include "engine/growth.hpp"
 #include "engine/light_settling.hpp"
+#include "engine/line_solve.hpp"
 #include "engine/motion.hpp"
 #include "engine/moving_groups.hpp"
 #include "engine/scene_update.hpp"
@@ -61,6 +62,7 @@ struct Engine::State {
   std::optional<caustics::TextureUpkeep> upkeep;        // of the textures, once there are edits
   engine::Backlog backlog;                              // what edits that were taken in have still to do
   engine::MovingGroups groups;                          // of the tracer
+  std::unique_ptr<engine::LineSolve> lineSolve;         // between rounds of a solve over lines
 
   /// Whether light is exchanged by lines: an update is then a solve of the edited scene.
   bool byLines() const { return solution->settings.method == SolveMethod::Lines; }
@@ -68,6 +70,7 @@ struct Engine::State {
   // Solving.
   SolveReport step(Progress* progress);
   void prepare(Progress* progress);
+  void lineRound(Progress* progress);
   /// Once a geometry: what particles carry follows the light by itself.
   void trace();
   void countParticles();

@@ -11,8 +11,8 @@ class LeafLocator {
   /// All must outlive this.
   LeafLocator(const Elements&, const Scene&, const LeafTable&);
 
-  /// The number of the leaf of a side at surface point `p`, or of the nearest to it; LeafTable::kNone where the side has
-  /// no element that receives.
+  /// The number of the leaf of a side at surface point `p`, or of the nearest to it; LeafTable::kNone where the side
+  /// has no element that receives.
   std::uint32_t at(const Side&, const Vec3f& p) const;
 
  private:

@@ -15,7 +15,11 @@ class LeafSequence {
 
   /// The elements and the scene must outlive this.
   LeafSequence(const Elements& elements, const Scene& scene, ElementId leaf)
-      : elements_(elements), scene_(scene), leaf_(leaf), key_(elements.key[leaf.index()]), places_(combineKeys(key_, kPlaces)) {}
+      : elements_(elements),
+        scene_(scene),
+        leaf_(leaf),
+        key_(elements.key[leaf.index()]),
+        places_(combineKeys(key_, kPlaces)) {}
 
   std::uint64_t key() const { return key_; }
   /// Where point `i` lies in the leaf's rectangle, in [0,1)^2: before what the outline cuts off is drawn again.

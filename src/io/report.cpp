@@ -30,6 +30,7 @@ Json json(const WorkCounts& c) {
           {"leaf_elements", c.leafElements},
           {"links", c.links},
           {"links_ds", c.linksDs},
+          {"lines", c.lines},
           {"particles", c.particles},
           {"impacts", c.impacts},
           {"rays_visibility", c.raysVisibility},
@@ -40,8 +41,12 @@ Json json(const WorkCounts& c) {
 }
 
 Json json(const MemoryBytes& m) {
-  return {{"elements", m.elements}, {"links", m.links},       {"particles", m.particles},
+  return {{"elements", m.elements}, {"links", m.links},       {"lines", m.lines},          {"particles", m.particles},
           {"octree", m.octree},     {"textures", m.textures}, {"peak_rss", m.peakRss}};
+}
+
+Json json(const ErrorEstimate& e) {
+  return {{"asked", e.asked}, {"estimated_median", json(e.estimatedMedian)}, {"estimated_p95", json(e.estimatedP95)}};
 }
 
 Json json(const EnergyLedger& e) {
@@ -100,6 +105,7 @@ std::string toJson(const RunReport& report) {
                 {"time_s", json(report.times)},
                 {"counts", json(report.counts)},
                 {"memory_bytes", json(report.memory)},
+                {"error", json(report.error)},
                 {"energy", json(report.energy)},
                 {"steps", std::move(steps)},
                 {"check", report.check ? json(*report.check) : Json(nullptr)}};

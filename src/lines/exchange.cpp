@@ -151,8 +151,8 @@ void Exchange::scale() {
       forEachExchange(i, [&](std::uint32_t j, float x) { sum += scale_[j] * x; });
       sum *= scale_[i];
       if (sum > 0 && area_[i] > 0)
-        next[i] = std::clamp(scale_[i] * std::sqrt(target_[i] * area_[i] / sum), 1 / tuning::kMostScale,
-                             tuning::kMostScale);
+        next[i] =
+            std::clamp(scale_[i] * std::sqrt(target_[i] * area_[i] / sum), 1 / tuning::kMostScale, tuning::kMostScale);
     });
     scale_.swap(next);
   }
@@ -199,7 +199,9 @@ void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E) {
 void Exchange::deviation(std::span<const Rgb> B, std::span<float> sigma) {
   parallelFor(leaves(), kLeaves, [&](std::size_t i) {
     double sum = 0, squares = 0, lines = 0;
-    const auto add = [&](double count, double each) { sum += count * each, squares += count * each * each, lines += count; };
+    const auto add = [&](double count, double each) {
+      sum += count * each, squares += count * each * each, lines += count;
+    };
     const double own = target_[i] * scale_[i] / e_[i];
     for (std::uint64_t k = begin_[i]; k < begin_[i + 1]; ++k) {
       const std::uint32_t j = id_[k];

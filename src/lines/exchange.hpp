@@ -1,7 +1,7 @@
 #pragma once
-// What leaves exchange over their lines, as rows to iterate over. A line between leaves i and j samples the same measure
-// from either end, so both ends' estimators are combined by the balance heuristic [VG95]: with n = N / A lines by area
-// and e the chance that a line ends on a leaf, it exchanges
+// What leaves exchange over their lines, as rows to iterate over. A line between leaves i and j samples the same
+// measure from either end, so both ends' estimators are combined by the balance heuristic [VG95]: with n = N / A lines
+// by area and e the chance that a line ends on a leaf, it exchanges
 //
 //   x = w / (n_i e_j + n_j e_i)                                                        [unit^2]
 //

@@ -16,18 +16,18 @@ enum class LineFate : std::uint8_t {
 
 struct LineEnd {
   LineFate fate = LineFate::Lost;
-  bool turned = false;  // it has gone on over something else than straight passages
-  bool rough = false;   // some of that were rough lobes: the way back has another chance
-  bool dimmed = false;  // weight is not 1
-  hierarchy::Side side;  // where it ended
+  bool turned = false;                 // it has gone on over something else than straight passages
+  bool rough = false;                  // some of that were rough lobes: the way back has another chance
+  bool dimmed = false;                 // weight is not 1
+  hierarchy::Side side;                // where it ended
   Vec3f position{0.0f}, normal{0.0f};  // the same; of the side
   float distance = std::numeric_limits<float>::infinity();  // to the first surface that it did not pass straight
-  /// Throughput over the chance of going this way, that of ending left out; of a line that escapes straight, `chance` is
-  /// that of its passages.
+  /// Throughput over the chance of going this way, that of ending left out; of a line that escapes straight, `chance`
+  /// is that of its passages.
   Rgb weight{1.0f};
   float chance = 1;
-  /// Of light that is sent along: what mirrors, panes and bodies on its way absorb, and the last event cuts off, over the
-  /// chance of coming there.
+  /// Of light that is sent along: what mirrors, panes and bodies on its way absorb, and the last event cuts off, over
+  /// the chance of coming there.
   Rgb absorbed{0.0f};
 };
 

@@ -6,10 +6,10 @@ namespace deltalux::lines {
 
 /// By leaf.
 struct LeafLight {
-  std::vector<Rgb> rho, tau;       // of its side: diffuse reflectance, and transmittance to the other
-  std::vector<Rgb> source;         // irradiance that is not exchanged: direct light, particles [W/m2]
-  std::vector<Rgb> indirect;       // irradiance over lines [W/m2]; what is there is taken for a start
-  std::vector<Rgb> B;              // radiosity [W/m2]
+  std::vector<Rgb> rho, tau;  // of its side: diffuse reflectance, and transmittance to the other
+  std::vector<Rgb> source;    // irradiance that is not exchanged: direct light, particles [W/m2]
+  std::vector<Rgb> indirect;  // irradiance over lines [W/m2]; what is there is taken for a start
+  std::vector<Rgb> B;         // radiosity [W/m2]
   /// Leaves with transmittance, and the leaves behind them with their shares of its place, which sum to one.
   struct Behind {
     std::uint32_t leaf, other;

@@ -1,13 +1,13 @@
 #pragma once
-// How far a patch sees, by its first lines: what decides how fine the mesh must be for indirect light, whose gradient is
-// bounded by the harmonic mean distance [WH92].
+// How far a patch sees, by its first lines: what decides how fine the mesh must be for indirect light, whose gradient
+// is bounded by the harmonic mean distance [WH92].
 #include "lines/lines.hpp"
 
 namespace deltalux::lines {
 
 struct LeafScale {
   float harmonic = std::numeric_limits<float>::infinity();  // mean distance [scene units]
-  float mean = 0;             // arithmetic; lines out of the scene count as its diagonal
+  float mean = 0;                                           // arithmetic; lines out of the scene count as its diagonal
   std::uint64_t covered = 0;  // bit i: point i of the leaf's sequence lies under something
   std::uint32_t known = 0;    // how many points that is known of, at most 64
   std::uint32_t rays = 0;
@@ -28,12 +28,12 @@ class ScaleMeter {
   float farthest_;
 };
 
-/// Sets the mean free path of receiving input-level patches, which their parts inherit: by their lines, but no less than
-/// a share of what is usual about them.
+/// Sets the mean free path of receiving input-level patches, which their parts inherit: by their lines, but no less
+/// than a share of what is usual about them.
 void setMeanFreePaths(hierarchy::Elements&, const std::vector<LeafScale>&);
 
-/// Whether a patch is too wide for indirect light at such an error. `dim`: its light relative to what still matters; where
-/// that is less than 1 it may be wider.
+/// Whether a patch is too wide for indirect light at such an error. `dim`: its light relative to what still matters;
+/// where that is less than 1 it may be wider.
 bool tooWide(const hierarchy::ElementGeometry&, const LeafScale&, double error, double dim);
 
 }  // namespace deltalux::lines

@@ -37,8 +37,7 @@ std::vector<std::uint32_t> lineCounts(const hierarchy::Elements& elements, const
     if (out[i]) continue;
     double share = elements.shape(leaves[i]).area / std::max(meanArea, 1e-300);
     if (meanPower > 0) share = std::max(share, power[i] / meanPower);
-    const auto octaves =
-        static_cast<int>(std::floor(0.5 * std::log2(std::max(share, 1e-12)) + 0.5));
+    const auto octaves = static_cast<int>(std::floor(0.5 * std::log2(std::max(share, 1e-12)) + 0.5));
     counts[i] = static_cast<std::uint32_t>(
         std::lround(base * std::exp2(std::clamp(octaves, tuning::kFewestOctaves, tuning::kMostOctaves))));
   }

@@ -42,8 +42,8 @@ constexpr double kHollow = 0.2, kHollowOfScene = 0.03;
 /// of what lies close behind something stay dark.
 constexpr double kWidestHollow = 16;
 
-/// Distance at which a surface that lies on another covers it, in roundings of a ray's origin. Less: rugs at floor level
-/// leave the floor lit below them.
+/// Distance at which a surface that lies on another covers it, in roundings of a ray's origin. Less: rugs at floor
+/// level leave the floor lit below them.
 constexpr float kContact = 8;
 
 /// Passes of the symmetric scaling of rows. Fewer: more is left to the scaling that breaks reciprocity.

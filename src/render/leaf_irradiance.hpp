@@ -17,7 +17,8 @@ struct LeafIrradiance {
   bool operator==(const LeafIrradiance&) const = default;
 };
 
-/// `deviation`: by receiving leaf, where light is exchanged by lines. What push-pull left at every element; without the particles' light where caustic textures show that.
+/// `deviation`: by receiving leaf, where light is exchanged by lines. What push-pull left at every element; without the
+/// particles' light where caustic textures show that.
 std::vector<LeafIrradiance> meshIrradiance(const hierarchy::Elements&, const caustics::Caustics&,
                                            const radiosity::LeafTransfers&, std::span<const float> deviation);
 

@@ -114,8 +114,9 @@ ProbeResult LightMeter::overLines(const hierarchy::LeafPoint& at, const SurfaceS
   const radiosity::Receiver receiver{spot.position, spot.normal};
   const Rgb particles = particleLight(spot);
   const hierarchy::ElementLight& about = elements_.radiometry[at.leaf.index()];
-  ProbeResult result = lines_->at(Vec3f(spot.position), Vec3f(spot.normal), gray(about.direct + particles),
-                                  kShare * settings.error, static_cast<std::uint64_t>(settings.maxSamples), combineKeys(key, 3));
+  ProbeResult result =
+      lines_->at(Vec3f(spot.position), Vec3f(spot.normal), gray(about.direct + particles), kShare * settings.error,
+                 static_cast<std::uint64_t>(settings.maxSamples), combineKeys(key, 3));
   const ProbeResult direct =
       reconstruction_.direct.measure(reconstruction_.choices.at(at.leaf), receiver, Rgb(result.irradiance) + particles,
                                      kShare * settings.error, settings.maxSamples, key);

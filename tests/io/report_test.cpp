@@ -21,15 +21,17 @@ TEST(Report, HasTheKeysOfTheContract) {
   report.check.emplace();
   const Json json = Json::parse(toJson(report));
   EXPECT_EQ(keysOf(json), (Keys{"command", "version", "scene", "threads", "seed", "scene_stats", "time_s", "counts",
-                                "memory_bytes", "energy", "steps", "check"}));
+                                "memory_bytes", "error", "energy", "steps", "check"}));
   EXPECT_EQ(keysOf(json["scene_stats"]),
             (Keys{"objects", "primitives", "polygons_if_tessellated", "lights", "ignored"}));
   const Keys times{"import", "hierarchy", "refine", "visibility", "gather", "particles", "textures", "total"};
   EXPECT_EQ(keysOf(json["time_s"]), times);
   EXPECT_EQ(keysOf(json["counts"]),
-            (Keys{"elements", "leaf_elements", "links", "links_ds", "particles", "impacts", "rays_visibility",
+            (Keys{"elements", "leaf_elements", "links", "links_ds", "lines", "particles", "impacts", "rays_visibility",
                   "rays_particles", "iterations", "caustic_textures", "caustic_texture_mean_size"}));
-  EXPECT_EQ(keysOf(json["memory_bytes"]), (Keys{"elements", "links", "particles", "octree", "textures", "peak_rss"}));
+  EXPECT_EQ(keysOf(json["memory_bytes"]),
+            (Keys{"elements", "links", "lines", "particles", "octree", "textures", "peak_rss"}));
+  EXPECT_EQ(keysOf(json["error"]), (Keys{"asked", "estimated_median", "estimated_p95"}));
   EXPECT_EQ(keysOf(json["energy"]), (Keys{"emitted_w", "absorbed_w", "escaped_w", "unsettled_w"}));
   const Json& step = json["steps"][0];
   EXPECT_EQ(keysOf(step),

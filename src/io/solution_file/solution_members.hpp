@@ -20,9 +20,13 @@ void members(auto& archive, Is<EnergyLedger> auto& e) {
   auto& [emitted, absorbed, escaped, unsettled] = e;
   transferAll(archive, emitted, absorbed, escaped, unsettled);
 }
+void members(auto& archive, Is<ErrorEstimate> auto& e) {
+  auto& [asked, median, p95] = e;
+  transferAll(archive, asked, median, p95);
+}
 void members(auto& archive, Is<SolveReport> auto& r) {
-  auto& [times, counts, memory, energy, activeLinks, provenClear, provenBlocked, cutParticles, converged] = r;
-  transferAll(archive, times, counts, memory, energy, activeLinks, provenClear, provenBlocked, cutParticles, converged);
+  auto& [times, counts, memory, error, energy, activeLinks, provenClear, provenBlocked, cutParticles, converged] = r;
+  transferAll(archive, times, counts, memory, error, energy, activeLinks, provenClear, provenBlocked, cutParticles, converged);
 }
 
 void members(auto& archive, Is<hierarchy::Elements> auto& e) {

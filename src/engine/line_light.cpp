@@ -1,0 +1,128 @@
+// The light of leaves over lines: sky light by what lines see of it, exchange, iteration to convergence.
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.hpp"
+#include "base/parallel.hpp"
+#include "engine/line_solve.hpp"
+#include "lines/iterate.hpp"
+#include "lines/line_counts.hpp"
+#include "lines/tuning.hpp"
+
+namespace deltalux::engine {
+
+namespace {
+
+constexpr std::size_t kLeaves = 1024, kSkyLeaves = 16;  // of a task
+
+/// What each leaf sends of the light of its sources but for skies [W, gray].
+std::vector<float> powerOf(const LineSolve& x, const hierarchy::LeafTable& leaves) {
+  std::vector<float> power(leaves.size());
+  parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
+    const std::size_t e = leaves[i].index();
+    const hierarchy::ElementLight& l = x.s.elements.radiometry[e];
+    power[i] = x.s.elements.geometry[e].area * gray((l.rho + l.tau) * (x.samples.direct[e].E + l.particle));
+  });
+  return power;
+}
+
+direct::Openness openness(const LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Lines& lines,
+                          std::span<const std::uint32_t> counts) {
+  return direct::Openness(x.s.elements, leaves, counts, [&](const auto& sink) {
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+      for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k)
+        if (lines.end[k] != lines::kCovered)
+          sink(static_cast<std::uint32_t>(i), direct::SkyCells::of(lines::direction(lines.code[k])),
+               lines.end[k] == lines::kEscaped);
+  });
+}
+
+std::vector<direct::SkyAtLeaf> skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::TracedLines& traced,
+                                     std::span<const std::uint32_t> counts) {
+  std::vector<direct::SkyAtLeaf> sky(leaves.size());
+  if (x.skies.empty()) return sky;
+  const direct::Openness open = openness(x, leaves, traced.lines, counts);
+  std::vector<std::uint32_t> first(leaves.size() + 1, 0);
+  for (const lines::EscapedLine& e : traced.escaped) ++first[e.leaf + 1];
+  for (std::size_t i = 0; i < leaves.size(); ++i) first[i + 1] += first[i];
+  parallelFor(leaves.size(), kSkyLeaves, [&](std::size_t i) {
+    if (counts[i] == traced.covered[i]) return;
+    std::vector<direct::EscapedView> escaped;
+    for (std::uint32_t k = first[i]; k < first[i + 1]; ++k) {
+      const lines::EscapedLine& e = traced.escaped[k];
+      escaped.push_back({e.direction, e.cosine, e.weight, e.chance});
+    }
+    std::vector<std::uint32_t> points;
+    for (std::uint32_t k = 0; k < counts[i] && points.size() < direct::tuning::kSkyRays; ++k)
+      if (traced.lines.end[traced.lines.first[i] + k] != lines::kCovered) points.push_back(k);
+    sky[i] =
+        direct::skyLight(x.skies, open, x.s.elements, x.s.scene, *x.s.tracer,
+                         {static_cast<std::uint32_t>(i), leaves[i], counts[i] - traced.covered[i], escaped, points});
+  });
+  for (const direct::SkyAtLeaf& a : sky) x.s.report.counts.raysVisibility += a.rays;
+  return sky;
+}
+
+}  // namespace
+
+void lightLeaves(LineSolve& x, std::uint32_t base, double converged) {
+  Solution& s = x.s;
+  hierarchy::Elements& elements = s.elements;
+  const hierarchy::LeafTable leaves(elements);
+  const std::size_t n = leaves.size();
+  const std::vector<std::uint32_t> counts = lines::lineCounts(elements, leaves, powerOf(x, leaves), x.enclosed, base);
+  const hierarchy::LeafLocator locator(elements, s.scene, leaves);
+  lines::TracedLines traced = lines::traceLines({elements, leaves, locator, x.tracer, x.cover, x.enclosed}, counts);
+  DELTALUX_VALIDATED(validate(traced.lines));
+  s.report.counts.raysVisibility += traced.rays;
+  lines::Exchange exchange(traced.lines, elements, leaves, x.tracer, traced.covered);
+  const std::vector<direct::SkyAtLeaf> sky = skyOf(x, leaves, traced, counts);
+
+  lines::LeafLight light = lines::leafLight(elements, leaves);
+  parallelFor(n, kLeaves, [&](std::size_t i) {
+    const std::size_t e = leaves[i].index();
+    hierarchy::ElementLight& l = elements.radiometry[e];
+    l.direct = exchange.area(i) > 0 ? x.samples.direct[e].E + sky[i].E : Rgb(0.0f);
+    light.source[i] = l.direct + l.particle;
+  });
+  const lines::IterationReport iterated = lines::iterate(exchange, light, converged, lines::tuning::kMostPasses);
+  s.report.counts.iterations += static_cast<std::uint64_t>(iterated.passes);
+  s.deviation.resize(n);
+  exchange.deviation(light.B, s.deviation);
+  parallelFor(n, kLeaves, [&](std::size_t i) {
+    const std::size_t e = leaves[i].index();
+    elements.radiometry[e].indirect = light.indirect[i], elements.radiometry[e].B = light.B[i];
+    const double own = s.deviation[i], lamps = x.samples.direct[e].deviation, dome = sky[i].deviation;
+    s.deviation[i] = static_cast<float>(std::sqrt(own * own + lamps * lamps + dome * dome));
+  });
+  s.lines = std::move(traced.lines);
+  s.report.counts.lines = s.lines.size();
+  s.report.memory.lines = s.lines.memoryBytes() + exchange.memoryBytes();
+}
+
+ErrorEstimate estimateError(const Solution& s, double floor) {
+  struct Leaf {
+    double error, area;
+  };
+  const hierarchy::LeafTable leaves(s.elements);
+  std::vector<Leaf> all;
+  double area = 0;
+  for (std::size_t i = 0; i < leaves.size() && i < s.deviation.size(); ++i) {
+    const hierarchy::ElementLight& l = s.elements.radiometry[leaves[i].index()];
+    const double E = gray(l.direct + l.indirect + l.particle), A = s.elements.shape(leaves[i]).litArea();
+    if (s.lines.countOf(i) == 0 || !(E > 0)) continue;
+    all.push_back({s.deviation[i] / std::max(E, floor), A});
+    area += A;
+  }
+  std::sort(all.begin(), all.end(), [](const Leaf& a, const Leaf& b) { return a.error < b.error; });
+  ErrorEstimate estimate{s.settings.error, {}, {}};
+  double below = 0;
+  for (const Leaf& leaf : all) {
+    below += leaf.area;
+    if (!estimate.estimatedMedian && below >= 0.5 * area) estimate.estimatedMedian = leaf.error;
+    if (!estimate.estimatedP95 && below >= 0.95 * area) estimate.estimatedP95 = leaf.error;
+  }
+  return estimate;
+}
+
+}  // namespace deltalux::engine

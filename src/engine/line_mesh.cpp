@@ -1,0 +1,109 @@
+// The mesh of a solve over lines: top-down from the input level, by a patch's own first samples.
+#include <algorithm>
+#include <bit>
+
+#include "base/parallel.hpp"
+#include "engine/line_solve.hpp"
+#include "hierarchy/patch.hpp"
+#include "lines/tuning.hpp"
+
+namespace deltalux::engine {
+
+namespace {
+
+constexpr std::size_t kPatches = 16;  // of a task
+
+/// By the points that are known to be open; a little where none is, so that the leaf shows what is beside it.
+void setExposed(LineSolve& x, hierarchy::ElementId patch) {
+  const lines::LeafScale& scale = x.samples.scale[patch.index()];
+  if (scale.known == 0) return;
+  const auto open = static_cast<float>(static_cast<int>(scale.known) - std::popcount(scale.covered));
+  x.s.elements.geometry[patch.index()].exposed = std::max(0.5f, open) / static_cast<float>(scale.known);
+}
+
+/// The samplers of one state of the elements.
+struct Samplers {
+  explicit Samplers(LineSolve& solve)
+      : x(solve),
+        meter(x.s.elements, x.tracer, x.cover, x.enclosed),
+        direct(x.s.elements, x.s.scene, *x.s.tracer, x.lamps) {}
+
+  /// Rays that were traced.
+  std::uint64_t measure(hierarchy::ElementId patch) const {
+    lines::LeafScale& scale = x.samples.scale[patch.index()];
+    if (scale.known > 0) return 0;
+    scale = meter.measure(patch);
+    setExposed(x, patch);
+    return scale.rays;
+  }
+  std::uint64_t light(hierarchy::ElementId patch) const {
+    const lines::LeafScale& scale = x.samples.scale[patch.index()];
+    direct::LeafDirect& light = x.samples.direct[patch.index()];
+    light = direct.at(patch, {scale.covered, scale.known}, true);
+    return light.rays;
+  }
+
+  LineSolve& x;
+  lines::ScaleMeter meter;
+  direct::DirectSampler direct;
+};
+
+/// Whether a patch is to be split; adds the rays that tell.
+bool splits(const Samplers& samplers, hierarchy::ElementId patch, std::uint64_t& rays) {
+  LineSolve& x = samplers.x;
+  const hierarchy::ElementGeometry& g = x.s.elements.shape(patch);
+  const double error = x.s.settings.error;
+  const hierarchy::ElementLight& coarse = x.s.elements.radiometry[patch.index()];
+  rays += samplers.measure(patch);
+  const double dim = x.floor > 0 ? gray(coarse.indirect + coarse.direct) / x.floor : 1.0;
+  if (tooWide(g, x.samples.scale[patch.index()], error, dim)) return true;
+  rays += samplers.light(patch);
+  const direct::LeafDirect& light = x.samples.direct[patch.index()];
+  const double level = std::max<double>(gray(light.E + coarse.indirect), x.floor);
+  return light.tooWideForBeam || variesTooMuch(light, g, g.meanFreePath, level, error) ||
+         (g.radius > lines::tuning::kFinestWidth * g.meanFreePath &&
+          hierarchy::wallsAcross(x.s.elements, x.s.scene, patch));
+}
+
+}  // namespace
+
+void samplePatches(LineSolve& x, std::span<const hierarchy::ElementId> patches) {
+  x.samples.resize(x.s.elements.size());
+  const Samplers samplers(x);
+  x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(patches.size(), kPatches, [&](std::size_t i) {
+    return x.takesPart(patches[i]) ? samplers.measure(patches[i]) + samplers.light(patches[i]) : 0;
+  });
+}
+
+bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const std::function<bool()>& stop) {
+  hierarchy::Elements& elements = x.s.elements;
+  while (!patches.empty()) {
+    x.samples.resize(elements.size());
+    std::vector<char> split(patches.size(), 0);
+    {
+      const Samplers samplers(x);
+      x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(patches.size(), kPatches, [&](std::size_t i) {
+        std::uint64_t rays = 0;
+        if (x.takesPart(patches[i])) split[i] = splits(samplers, patches[i], rays);
+        return rays;
+      });
+    }
+    const bool stopped = stop();
+    std::vector<hierarchy::ElementId> parts, whole;
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      if (!split[i]) continue;
+      if (stopped || !hierarchy::subdivide(elements, x.s.scene, patches[i])) {
+        whole.push_back(patches[i]);
+        continue;
+      }
+      for (std::size_t c = 0; c < elements.at(patches[i]).childCount; ++c)
+        parts.push_back(elements.child(patches[i], c));
+    }
+    samplePatches(x, whole);
+    if (stopped) return false;
+    patches = std::move(parts);
+  }
+  return true;
+}
+
+}  // namespace deltalux::engine

@@ -1,0 +1,176 @@
+#include "engine/line_solve.hpp"
+
+#include <algorithm>
+#include <deltalux/error.hpp>
+
+#include "base/check.hpp"
+#include "caustics/choice.hpp"
+#include "engine/particle_count.hpp"
+#include "engine/stopwatch.hpp"
+#include "hierarchy/build.hpp"
+#include "hierarchy/patch.hpp"
+#include "lines/line_counts.hpp"
+#include "lines/tuning.hpp"
+#include "particles/mesh_for_particles.hpp"
+#include "particles/particle_tracing.hpp"
+#include "particles/transfer.hpp"
+#include "radiosity/push_pull.hpp"
+
+namespace deltalux::engine {
+
+namespace {
+
+constexpr double kCoarseConverged = 1e-3;  // residual of the coarse light, relative to emitted
+constexpr double kMeshTime = 0.5;          // share of all time after which the mesh is split no more
+constexpr double kLineTime = 0.8;          // share of the time that is left then that lines may take
+
+void checkInterrupted(Progress* progress) {
+  if (progress && progress->stopRequested()) throw Interrupted();
+}
+
+/// Into cells of which shadow rays to a point choose.
+void divideSkies(hierarchy::Elements& elements, const Scene& scene) {
+  constexpr int kLevels = 4;
+  std::vector<hierarchy::ElementId> cells = elements.distant;
+  for (int level = 0; level < kLevels; ++level) {
+    std::vector<hierarchy::ElementId> parts;
+    for (const hierarchy::ElementId e : cells)
+      if (hierarchy::subdivide(elements, scene, e))
+        for (std::size_t c = 0; c < elements.at(e).childCount; ++c) parts.push_back(elements.child(e, c));
+    cells = std::move(parts);
+  }
+}
+
+std::vector<hierarchy::ElementId> receivingInputs(const hierarchy::Elements& elements) {
+  std::vector<hierarchy::ElementId> inputs;
+  for (const hierarchy::ElementId e : elements.inputs)
+    if (elements.receives(e)) inputs.push_back(e);
+  return inputs;
+}
+
+/// Mean gray irradiance over all lit area [W/m2].
+double meanIrradiance(const hierarchy::Elements& elements) {
+  double light = 0, area = 0;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (!elements.isReceivingLeaf(hierarchy::ElementId(i))) continue;
+    const hierarchy::ElementLight& l = elements.radiometry[i];
+    const double A = elements.geometry[i].litArea();
+    light += A * gray(l.direct + l.indirect + l.particle), area += A;
+  }
+  return area > 0 ? light / area : 0;
+}
+
+void placeParticles(Solution& s) {
+  particles::ParticleTransfer(s.particles, s.elements, s.scene).apply(s.elements, s.scene);
+}
+
+bool traceParticles(Solution& s, const TimeBudget& budget) {
+  if (s.settings.diffuseOnly) return true;
+  const std::uint64_t wanted = particleCount(s.settings);
+  particles::ParticleSettings settings{wanted, s.settings.seed};
+  settings.ofSurfaces = false;
+  particles::ParticleTracing tracing(s.scene, *s.tracer, settings);
+  s.particles = budget.limited() ? tracing.traceWithin(kParticleTime * budget.seconds()) : tracing.trace();
+  DELTALUX_VALIDATED(validate(s.particles, s.scene));
+  return tracing.count() >= wanted;
+}
+
+/// Sides whose particles textures show need no fine mesh for them.
+void refineForParticles(LineSolve& x) {
+  Solution& s = x.s;
+  if (s.particles.impacts() == 0) return;
+  radiosity::pull(s.elements);
+  caustics::SurfaceSides shown(2 * s.scene.primitives.size(), false);
+  if (s.settings.causticTextures)
+    shown = caustics::sidesWithTextures(s.scene, s.elements, particles::impacts(s.particles, s.elements, s.scene),
+                                        s.settings.error);
+  const std::size_t before = s.elements.size();
+  particles::subdivideForParticles(s.elements, s.scene, s.particles, shown);
+  std::vector<hierarchy::ElementId> parts;
+  for (std::size_t i = before; i < s.elements.size(); ++i)
+    if (s.elements.isReceivingLeaf(hierarchy::ElementId(i))) parts.emplace_back(i);
+  samplePatches(x, parts);
+}
+
+}  // namespace
+
+LineSolve::LineSolve(Solution& solution)
+    : s(solution),
+      responses(s.scene, !s.settings.diffuseOnly),
+      tracer(s.scene, *s.tracer, responses),
+      cover(s.scene, *s.tracer),
+      lamps(s.scene),
+      skies(s.scene) {}
+
+bool LineSolve::takesPart(hierarchy::ElementId patch) const {
+  return !enclosed[hierarchy::surfaceOf(s.elements, patch).index()];
+}
+
+std::unique_ptr<LineSolve> solveCoarsely(Solution& s, const TimeBudget& budget, Progress* progress) {
+  Stopwatch watch;
+  auto solve = std::make_unique<LineSolve>(s);
+  s.report.converged = traceParticles(s, budget);
+  s.report.times.particles += watch.lap();
+  if (progress) progress->report("particles", 1.0);
+  checkInterrupted(progress);
+
+  s.elements = hierarchy::buildElements(s.scene, hierarchy::surfaceSides(s.scene));
+  if (!s.elements.sceneRoot.valid()) return solve;
+  divideSkies(s.elements, s.scene);
+  solve->enclosed = lines::enclosedSides(s.elements, solve->tracer, s.report.counts.raysVisibility);
+  s.report.times.hierarchy += watch.lap();
+  checkInterrupted(progress);
+
+  const std::vector<hierarchy::ElementId> inputs = receivingInputs(s.elements);
+  samplePatches(*solve, inputs);
+  lines::setMeanFreePaths(s.elements, solve->samples.scale);
+  placeParticles(s);
+  lightLeaves(*solve, lines::tuning::kFirstLines, kCoarseConverged);
+  for (const hierarchy::ElementId e : inputs) {
+    hierarchy::ElementLight& l = s.elements.radiometry[e.index()];
+    l.typical = gray(l.direct + l.indirect);
+  }
+  solve->floor = direct::tuning::kFloor * meanIrradiance(s.elements);
+  radiosity::pull(s.elements);
+  DELTALUX_VALIDATED(validate(s.elements));
+  s.report.times.visibility += watch.lap();
+  if (progress) progress->report("coarse light", 1.0);
+  return solve;
+}
+
+bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
+  Solution& s = x.s;
+  Stopwatch watch;
+  checkInterrupted(progress);
+  const bool meshed = refineMesh(x, receivingInputs(s.elements), [&] {
+    checkInterrupted(progress);
+    return budget.limited() && budget.left() < (1 - kMeshTime) * budget.seconds();
+  });
+  if (!budget.up()) refineForParticles(x);
+  placeParticles(s);
+  const double meshSeconds = watch.lap();
+  s.report.times.refine += meshSeconds;
+  if (progress) progress->report("mesh", 1.0);
+  checkInterrupted(progress);
+
+  const std::uint32_t wanted = lines::baseLines(s.settings.error);
+  std::uint32_t base = wanted;
+  if (budget.limited() && s.report.counts.raysVisibility > 0) {
+    // A line takes about what a ray of the mesh took.
+    const double leaves = static_cast<double>(hierarchy::LeafTable(s.elements).size());
+    const double rate = static_cast<double>(s.report.counts.raysVisibility) /
+                        std::max(meshSeconds + s.report.times.visibility + s.report.times.hierarchy, 1e-3);
+    const double affordable = kLineTime * std::max(budget.left(), 0.0) * rate / std::max(leaves, 1.0);
+    base = static_cast<std::uint32_t>(
+        std::clamp(affordable, double(lines::tuning::kFirstLines), static_cast<double>(wanted)));
+  }
+  lightLeaves(x, base, lines::tuning::kConverged);
+  radiosity::pull(s.elements);
+  DELTALUX_VALIDATED(validate(s.elements));
+  s.report.error = estimateError(s, x.floor);
+  s.report.times.gather += watch.lap();
+  if (progress) progress->report("lines", 1.0);
+  return meshed && base >= wanted && s.report.converged;
+}
+
+}  // namespace deltalux::engine

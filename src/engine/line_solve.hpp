@@ -1,0 +1,70 @@
+#pragma once
+// A solve over stored lines: a pipeline of values, each of which is a function of the scene alone. [docs/lines.md]
+//
+//   particles of lights -> sides and hollows -> coarse light -> mesh -> lines -> exchange -> light
+//
+// The coarse light is that of the input level, a solution of its own that is there soon; by it the mesh knows how much
+// light there is about where direct light varies. Stages: line_mesh.cpp, line_light.cpp; their order: line_solve.cpp.
+#include <deltalux/progress.hpp>
+#include <functional>
+#include <memory>
+
+#include "direct/leaf_direct.hpp"
+#include "direct/sky_light.hpp"
+#include "engine/time_budget.hpp"
+#include "lines/leaf_scale.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux::engine {
+
+/// What is known of patches before their lines: by element.
+struct PatchSamples {
+  std::vector<lines::LeafScale> scale;
+  std::vector<direct::LeafDirect> direct;
+
+  void resize(std::size_t elements) { scale.resize(elements), direct.resize(elements); }
+};
+
+/// What the stages share: the scene as each layer sees it, and what they have found so far.
+struct LineSolve {
+  /// The solution must outlive this.
+  explicit LineSolve(Solution&);
+
+  Solution& s;
+  lines::SurfaceResponses responses;
+  lines::LineTracer tracer;
+  lines::Cover cover;
+  direct::Lamps lamps;
+  direct::Skies skies;
+  std::vector<char> enclosed;  // by element of the input level
+  PatchSamples samples;
+  double floor = 0;  // light that still matters [W/m2, gray]
+
+  bool takesPart(hierarchy::ElementId patch) const;
+};
+
+// The mesh.
+
+/// Samples that decide about patches, and their direct light.
+void samplePatches(LineSolve&, std::span<const hierarchy::ElementId> patches);
+/// Splits patches, from these down, until indirect and direct light vary over none by more than the error allows, or
+/// `stop` says that time is up. Returns whether it came to the end.
+bool refineMesh(LineSolve&, std::vector<hierarchy::ElementId> patches, const std::function<bool()>& stop);
+
+// The light.
+
+/// Light of the leaves there are over `base` lines each, from their direct light and particles: writes the elements'
+/// irradiance and radiosity, the solution's lines and their deviation.
+void lightLeaves(LineSolve&, std::uint32_t base, double converged);
+/// What the solution's own samples say of its error, by area.
+ErrorEstimate estimateError(const Solution&, double floor);
+
+// The rounds.
+
+/// The coarse solution. Throws Interrupted.
+std::unique_ptr<LineSolve> solveCoarsely(Solution&, const TimeBudget&, Progress*);
+/// From that to the error that was asked for, as far as the time goes. Returns whether that was all of it. Throws
+/// Interrupted.
+bool solveFinely(LineSolve&, const TimeBudget&, Progress*);
+
+}  // namespace deltalux::engine
