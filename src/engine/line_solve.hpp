@@ -1,5 +1,5 @@
 #pragma once
-// A solve over stored lines: a pipeline of values, each of which is a function of the scene alone. [docs/lines.md]
+// A solve over stored lines: a pipeline of values, each of which is a function of the scene alone. [lines.md]
 //
 //   particles of lights -> sides and hollows -> coarse light -> mesh -> lines -> exchange -> light
 //

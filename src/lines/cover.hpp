@@ -1,6 +1,6 @@
 #pragma once
 // What lies on a surface. A point that another surface covers takes no light and sends none: no lines start there, and
-// the irradiance of its leaf is that of the rest. [docs/lines.md]
+// the irradiance of its leaf is that of the rest. [lines.md]
 #include <span>
 
 #include "base/box_tree.hpp"
@@ -27,7 +27,7 @@ class Cover {
 };
 
 /// By element of the input level: whether walks from it find no light, in a hollow too small to be a room. What lies
-/// there takes no part, and covers what it stands on. [docs/lines.md]
+/// there takes no part, and covers what it stands on. [lines.md]
 std::vector<char> enclosedSides(const hierarchy::Elements&, const class LineTracer&, std::uint64_t& rays);
 
 }  // namespace deltalux::lines

@@ -141,7 +141,7 @@ void Exchange::setTargets(const Lines& lines, std::span<const std::uint32_t> cov
   });
 }
 
-/// [Sinkhorn & Knopp 1967], symmetric: each factor takes half of what its row is off by.
+/// [SK67], symmetric: each factor takes half of what its row is off by.
 void Exchange::scale() {
   std::vector<float> next(leaves());
   for (int pass = 0; pass < tuning::kScalingPasses; ++pass) {

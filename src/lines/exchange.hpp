@@ -13,7 +13,7 @@
 // The factors s are found by symmetric scaling (Sinkhorn & Knopp): what a row sums to then agrees with the share of the
 // leaf's own lines that end on leaves, which is exact where nothing escapes, so no row exceeds one and light in a
 // closed room is kept to the last digit; and the exchange stays reciprocal, so no light is made or lost between two
-// leaves. [docs/lines.md]
+// leaves. [lines.md]
 //
 // Lines of one pair are one entry: leaf, count. Cost: 6 bytes an entry, half a nanosecond a pass on two threads.
 #include "lines/lines.hpp"

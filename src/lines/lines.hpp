@@ -1,6 +1,6 @@
 #pragma once
 // Lines of the leaves, and what came of tracing them: cosine-weighted rays from points of each leaf, which sample the
-// line measure dA cos dw, so that every one of them counts at both of its ends. [BNNPP; docs/lines.md]
+// line measure dA cos dw, so that every one of them counts at both of its ends. [Neu95; lines.md]
 //
 // A line is kept as 8 bytes: the leaf that it ends on, and a code of where it runs, by which an edit finds those it can
 // touch. Lines that pass panes or go on over mirrors, gloss and glass are kept besides as exceptions, with their

@@ -20,7 +20,7 @@ std::uint16_t reachCode(float t) {
   return static_cast<std::uint16_t>((bits + 0xffffu) >> 16);
 }
 
-/// [octahedral map, Meyer10]
+/// Octahedral map. [MSS10]
 LineCode codeOf(const Vec3f& w, float t) {
   const float sum = std::abs(w.x) + std::abs(w.y) + std::abs(w.z);
   float x = w.x / sum, y = w.y / sum;

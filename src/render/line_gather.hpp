@@ -1,6 +1,6 @@
 #pragma once
 // Indirect light at a point by lines of its own, which read the radiosity of the leaves that they end on: until their
-// standard error is what is asked for. [docs/lines.md]
+// standard error is what is asked for. [lines.md]
 #include <deltalux/probe.hpp>
 
 #include "lines/lines.hpp"

@@ -1,0 +1,181 @@
+// Solves over stored lines: known answers, conservation, and that they are functions of the scene alone.
+#include <gtest/gtest.h>
+
+#include <deltalux/io.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/parallel.hpp"
+#include "engine/line_solve.hpp"
+#include "lines/lines.hpp"
+#include "support/furnished_room.hpp"
+#include "support/reference_values.hpp"
+#include "support/residue.hpp"
+#include "support/run_cli.hpp"
+#include "support/shared.hpp"
+#include "support/solved.hpp"
+
+namespace deltalux {
+namespace {
+
+using namespace test;
+
+Engine solvedByLines(Scene scene, double error = 0.05) {
+  SolveSettings settings;
+  settings.error = error, settings.method = SolveMethod::Lines;
+  Engine engine(std::move(scene), settings);
+  engine.solve();
+  return engine;
+}
+
+std::uint64_t hashOf(const Engine& engine) {
+  const SolutionView view = engine.solution();
+  const Solution& s = view.get();
+  const hierarchy::LeafTable leaves(s.elements);
+  std::vector<std::uint64_t> keys;
+  for (const hierarchy::ElementId leaf : leaves.leaves) keys.push_back(s.elements.key[leaf.index()]);
+  return combineKeys(s.lines.hash(keys), s.particles.hash());
+}
+
+TEST(LineSolve, AFurnaceIsExactOnTheMesh) {
+  Scene scene;
+  addBox(scene, addMaterial(scene, "wall", lambert(0.5f), Emission{Rgb(1.0f), false, {}}), Vec3(0), Vec3(1), true);
+  const Engine engine = solvedByLines(std::move(scene));
+  const SolutionView view = engine.solution();
+  const hierarchy::Elements& e = view.get().elements;
+  int leaves = 0;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    if (!e.isReceivingLeaf(hierarchy::ElementId(i)) || !e.topology[i].front) continue;
+    // Emitted light arrives by shadow rays, the rest is reflected: E = pi / (1 - rho).
+    EXPECT_NEAR(gray(e.radiometry[i].indirect), 0.5 / (1 - 0.5) * kPi, 0.06 * kPi);
+    ++leaves;
+  }
+  EXPECT_GT(leaves, 5);
+  const double indirect = meshMean(engine, PrimitiveId(0));
+  EXPECT_NEAR(indirect, 2 * kPi, 0.01 * 2 * kPi);
+}
+
+TEST(LineSolve, PlatesHaveTheirClosedForms) {
+  const std::pair<const char*, double> plates[] = {{"plates/parallel.rad", 0.1998249},
+                                                   {"plates/perpendicular.rad", 0.2000436}};
+  for (const auto& [name, factor] : plates) {
+    Scene scene = loadScene({bundledScene(name)}).scene;
+    PrimitiveId receiver;
+    double M = 0;
+    for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+      const auto& emission = scene.materialOf(PrimitiveId(i)).emission;
+      if (emission)
+        M = kPi * gray(emission->radiance);
+      else
+        receiver = PrimitiveId(i);
+    }
+    EXPECT_NEAR(meshMean(solvedByLines(std::move(scene), 0.01), receiver) / M / factor, 1, 0.01) << name;
+  }
+}
+
+TEST(LineSolve, EnergyIsKeptToAThousandth) {
+  Scene scene;
+  addBox(scene, addMaterial(scene, "wall", lambert(0.5f)), {0, 0, 0}, {1, 1.5, 0.8}, true);
+  addBox(scene, addMaterial(scene, "mirror", Mirror{Rgb(0.8f)}), {0.2, 0.3, 0.1}, {0.5, 0.6, 0.5}, false);
+  addBox(scene,
+         addMaterial(scene, "gloss", Opaque{Rgb(0.3f), {}, {Rgb(0.4f), 0.1f, SpecularLobe::Distribution::Ggx}}),
+         {0.7, 0.2, 0}, {0.9, 0.4, 0.5}, false);
+  addShape(scene, addMaterial(scene, "glass", Dielectric{Rgb(1.0f), 1.5f}), Sphere{{0.6, 1.1, 0.3}, 0.2});
+  addLight(scene, PointLight{{0.7, 0.7, 0.6}, Rgb(1.0f)});
+  const Engine engine = solvedByLines(std::move(scene), 0.02);
+  const EnergyLedger l = engine.solution().report().energy;
+  EXPECT_NEAR(*l.emittedW, 4 * kPi, 0.005 * 4 * kPi);
+  EXPECT_NEAR(*l.escapedW, 0, 1e-6 * 4 * kPi);
+  EXPECT_NEAR(residue(l), 0, 0.002);
+}
+
+TEST(LineSolve, OneHashForAnyNumberOfThreads) {
+  std::vector<std::uint64_t> hashes;
+  for (const std::size_t threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    hashes.push_back(hashOf(solvedByLines(furnishedRoom(), 0.1)));
+  }
+  EXPECT_EQ(hashes[1], hashes[0]);
+  EXPECT_EQ(hashes[2], hashes[0]);
+}
+
+TEST(LineSolve, AnUpdatedSolutionIsTheFreshOne) {
+  Engine edited = solvedByLines(furnishedRoom(), 0.1);
+  const auto editable = editableOfFurnishedRoom();
+  Edit edit;
+  edit.op = TransformEdit{editable.movable.front(), glm::translate(Mat4(1.0), Vec3(0.1, 0.05, 0))};
+  edited.apply(edit);
+  edited.update();
+  Engine fresh = solvedByLines(edited.solution().scene(), 0.1);
+  EXPECT_EQ(hashOf(edited), hashOf(fresh));
+}
+
+TEST(LineSolve, LightThatComesThroughASheetAloneIsThere) {
+  // A long room, parted by a sheet that passes half of the light diffusely; the lamp is on one side.
+  Scene scene;
+  addBox(scene, addMaterial(scene, "white", lambert(0.6f)), {0, 0, 0}, {4, 2, 2}, true);
+  Trans sheet;
+  sheet.diffuseReflectance = Rgb(0.2f), sheet.diffuseTransmittance = Rgb(0.5f);
+  addPolygon(scene, addMaterial(scene, "sheet", sheet), {{2, 0, 0}, {2, 2, 0}, {2, 2, 2}, {2, 0, 2}});
+  addLight(scene, PointLight{{1, 1, 1.5}, Rgb(10.0f)});
+  const std::vector<ProbePoint> points{{{3, 1, 0}, {0, 0, 1}}, {{4, 1, 1}, {-1, 0, 0}}};
+  ReferenceSettings settings;
+  settings.samples = 1 << 14;
+  const std::vector<ProbeResult> expected = referenceIrradiance(scene, points, settings);
+  const auto measured = measure(solvedByLines(std::move(scene)), points);
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(lux(measured[i]) / lux(expected[i]), 1, 0.04) << i;
+}
+
+TEST(LineSolve, TimeBoundsEveryPhase) {
+  SolveSettings settings;
+  settings.error = 0.005, settings.method = SolveMethod::Lines, settings.seconds = 1;
+  Engine engine(furnishedRoom(), settings);
+  const SolveReport report = engine.solve();
+  EXPECT_FALSE(report.converged);
+  EXPECT_GT(report.counts.lines, 0u);
+  EXPECT_TRUE(report.error.estimatedMedian.has_value());
+}
+
+TEST(LineSolve, APreviewIsASolutionOfItsOwn) {
+  SolveSettings settings;
+  settings.method = SolveMethod::Lines;
+  Engine engine(furnishedRoom(), settings);
+  const SolveReport first = engine.preview();
+  EXPECT_FALSE(first.converged);
+  EXPECT_GT(lux(measure(engine, {{{1.0, 1.0, 0.0}, {0, 0, 1}}})[0]), 0);
+  const SolveReport last = engine.solve();
+  EXPECT_TRUE(last.converged);
+  EXPECT_GT(last.counts.leafElements, first.counts.leafElements);
+}
+
+struct Errors {
+  double median, p95;
+};
+Errors errorsAgainst(const std::filesystem::path& rad, const std::filesystem::path& csv) {
+  const Engine engine = solvedByLines(loadScene({rad}).scene);
+  const std::vector<ReferenceValue> values = readReferenceValues(csv);
+  std::vector<ProbePoint> points;
+  for (const ReferenceValue& v : values) points.push_back(v.point);
+  ProbeSettings settings;
+  const std::vector<ProbeResult> results = probe(engine.solution(), points, settings);
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double expected = gray(Rgb(values[i].irradiance));
+    if (expected > 0) errors.push_back(std::abs(gray(Rgb(results[i].irradiance)) / expected - 1));
+  }
+  const Spread spread = spreadOf(errors);
+  return {spread.median, spread.p95};
+}
+
+TEST(LineSolve, CornellBoxesAgreeWithTheReference) {
+  DELTALUX_SHARED_OR_SKIP(shared);
+  const Errors plain = errorsAgainst(shared / "reference/cornell.rad", shared / "reference/cornell.csv");
+  EXPECT_LT(plain.median, 0.01);
+  EXPECT_LT(plain.p95, 0.04);
+  const Errors caustic = errorsAgainst(shared / "reference/cornell-mirror-caustic.rad",
+                                       shared / "reference/cornell-mirror-caustic.csv");
+  EXPECT_LT(caustic.median, 0.01);
+  EXPECT_LT(caustic.p95, 0.05);
+}
+
+}  // namespace
+}  // namespace deltalux
