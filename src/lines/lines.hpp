@@ -3,8 +3,8 @@
 // line measure dA cos dw, so that every one of them counts at both of its ends. [BNNPP; docs/lines.md]
 //
 // A line is kept as 8 bytes: the leaf that it ends on, and a code of where it runs, by which an edit finds those it can
-// touch. Lines that pass panes or go on over mirrors, gloss and glass are kept besides as exceptions, with their weight.
-// They are a function of the scene and the mesh alone: line k of a leaf is the same whatever their number.
+// touch. Lines that pass panes or go on over mirrors, gloss and glass are kept besides as exceptions, with their
+// weight. They are a function of the scene and the mesh alone: line k of a leaf is the same whatever their number.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -46,12 +46,13 @@ struct ExceptionalLine {
   std::uint32_t leaf = 0, end = 0;  // where it starts and ends
   Rgb weight{1.0f};                 // throughput over the chance of its way, that of ending left out
   bool turned = false, rough = false;
+  std::uint16_t unused = 0;  // so that no byte of a stored record is left to chance
 };
 
 struct Lines {
-  LargeArray<std::uint64_t> first{0};  // by leaf: its lines; one more for the end
-  LargeArray<std::uint32_t> end;       // by line
-  LargeArray<LineCode> code;           // by line
+  LargeArray<std::uint64_t> first{0};       // by leaf: its lines; one more for the end
+  LargeArray<std::uint32_t> end;            // by line
+  LargeArray<LineCode> code;                // by line
   std::vector<ExceptionalLine> exceptions;  // ascending
 
   std::size_t leaves() const { return first.size() - 1; }
@@ -76,7 +77,7 @@ struct EscapedLine {
 
 struct TracedLines {
   Lines lines;
-  std::vector<EscapedLine> escaped;   // ascending by leaf
+  std::vector<EscapedLine> escaped;    // ascending by leaf
   std::vector<std::uint32_t> covered;  // by leaf: lines that are not there
   std::uint64_t rays = 0;
 };
@@ -93,6 +94,9 @@ struct LineScene {
 
 /// `counts` lines of each leaf.
 TracedLines traceLines(const LineScene&, std::span<const std::uint32_t> counts);
+
+/// Sets the directions in the lines' codes, which follow from the leaves that they start on.
+void setDirections(Lines&, const hierarchy::Elements&, const hierarchy::LeafTable&, const Scene&);
 
 /// Direction i of a leaf's lines, about its normal there.
 class LineDirections {
