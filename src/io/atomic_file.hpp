@@ -1,5 +1,6 @@
 #pragma once
-// Output that appears complete or not at all: written to a temporary file in the same folder, synced, renamed.
+// Output that appears complete or not at all: written to a temporary file in the same folder, synced, renamed. Whoever
+// writes to a folder removes from it what others were killed at. A temporary file is locked while its writer lives.
 #include <filesystem>
 #include <string_view>
 

@@ -1,11 +1,12 @@
 #include "io/solution_file.hpp"
-#include "io/lower_case.hpp"
 
 #include <deltalux/error.hpp>
 
 #include "io/atomic_file.hpp"
+#include "io/lower_case.hpp"
 #include "io/mapped_file.hpp"
 #include "io/solution_file/caustic_members.hpp"
+#include "io/solution_file/packing.hpp"
 #include "io/solution_file/references.hpp"
 #include "io/solution_file/solution_members.hpp"
 
@@ -56,20 +57,15 @@ bool isSolutionFile(const fs::path& file) { return io::lowerCase(file.extension(
 namespace deltalux::io {
 
 void writeSolution(const SolutionView& view, const ByteSink& sink) {
-  std::vector<std::uint64_t> lengths;
-  forEachSection(view.get(), [&](std::string_view, const auto& part) {
-    ByteCounter counter;
-    transfer(counter, part);
-    lengths.push_back(counter.total());
-  });
-  ContainerWriter writer(sink, lengths);
-  auto length = lengths.begin();
+  std::vector<std::pair<std::string_view, std::string>> packed;
   forEachSection(view.get(), [&](std::string_view tag, const auto& part) {
-    writer.beginSection(tag, *length++);
-    transfer(writer, part);
-    writer.endSection();
+    Packer packer;
+    transfer(packer, part);
+    packed.emplace_back(tag, packer.finish());
   });
-  writer.flush();
+  std::vector<Section> sections;
+  for (const auto& [tag, payload] : packed) sections.push_back({tag, payload});
+  writeContainer(sections, sink);
 }
 
 }  // namespace deltalux::io
@@ -96,6 +92,7 @@ SolutionView readSolution(std::string_view bytes, const std::string& file) {
   }
   solution->elements.listInputs();
   solution->elements.contacts = hierarchy::ContactLines(solution->elements, solution->scene);
+  lines::setDirections(solution->lines, solution->elements, hierarchy::LeafTable(solution->elements), solution->scene);
   solution->links.listArriving();
   solution->transfers.listRows(solution->elements, solution->scene);
   solution->tracer = tracing::makeEmbreeTracer(solution->scene);

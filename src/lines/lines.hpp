@@ -46,6 +46,7 @@ struct ExceptionalLine {
   std::uint32_t leaf = 0, end = 0;  // where it starts and ends
   Rgb weight{1.0f};                 // throughput over the chance of its way, that of ending left out
   bool turned = false, rough = false;
+  std::uint16_t unused = 0;  // so that no byte of a stored record is left to chance
 };
 
 struct Lines {
@@ -93,6 +94,9 @@ struct LineScene {
 
 /// `counts` lines of each leaf.
 TracedLines traceLines(const LineScene&, std::span<const std::uint32_t> counts);
+
+/// Sets the directions in the lines' codes, which follow from the leaves that they start on.
+void setDirections(Lines&, const hierarchy::Elements&, const hierarchy::LeafTable&, const Scene&);
 
 /// Direction i of a leaf's lines, about its normal there.
 class LineDirections {

@@ -131,4 +131,22 @@ TracedLines traceLines(const LineScene& s, std::span<const std::uint32_t> counts
   return out;
 }
 
+void setDirections(Lines& lines, const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
+                   const Scene& scene) {
+  parallelFor(lines.leaves(), kBlock, [&](std::size_t leaf) {
+    const std::uint32_t count = lines.countOf(leaf);
+    if (count == 0) return;
+    const hierarchy::LeafSequence points(elements, scene, leaves[leaf]);
+    const LineDirections directions(points.key());
+    const bool flat = elements.at(leaves[leaf]).flat;
+    Vec3f normal = points.point(0).normal;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (!flat && i > 0) normal = points.point(i).normal;
+      LineCode& code = lines.code[lines.first[leaf] + i];
+      const LineCode direction = codeOf(directions(i, normal), 0);
+      code.x = direction.x, code.y = direction.y;
+    }
+  });
+}
+
 }  // namespace deltalux::lines

@@ -1,8 +1,14 @@
 #include "io/atomic_file.hpp"
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <deltalux/error.hpp>
 #include <deltalux/output.hpp>
 
@@ -71,6 +77,71 @@ TEST(AtomicFile, SaysWhatIsWrongWithTheTarget) {
   EXPECT_NE(messageFor("").find("names no file"), std::string::npos);
   EXPECT_EQ(messageFor(folder / "a.txt"), "");
   EXPECT_TRUE(folder.names().empty());
+}
+
+/// The number of a process that was, and is no more.
+pid_t endedProcess() {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ::waitpid(child, nullptr, 0);
+  return child;
+}
+
+TEST(AtomicFile, WhatKilledWritersLeftIsRemovedByTheNextWrite) {
+  const test::TempFolder folder;
+  const pid_t killed = ::fork();
+  if (killed == 0) {
+    AtomicFile file(folder / "solution.dlx");
+    file.write("half of it");
+    ::kill(::getpid(), SIGKILL);
+  }
+  ::waitpid(killed, nullptr, 0);
+  folder.write(fmt::format(".some.other.csv.{}-99.tmp", endedProcess()), "");
+  folder.write(fmt::format(".own.{}-0.tmp", ::getpid()), "of an earlier process of our number");
+  ASSERT_EQ(folder.names().size(), 3u);
+  writeFile(folder / "a.txt", "new");
+  EXPECT_EQ(folder.names(), Names{"a.txt"});
+}
+
+TEST(AtomicFile, WhatOthersWriteOrNameOtherwiseStays) {
+  const test::TempFolder folder;
+  const pid_t ended = endedProcess();
+  Names names{"a.txt"};
+  const auto keep = [&](const std::string& name) { names.push_back(name), folder.write(name, "theirs"); };
+  keep(fmt::format(".of.a.living.process.{}-0.tmp", ::getppid()));
+  keep(fmt::format("a.{}-0.tmp", ended));
+  keep(fmt::format(".a.{}-0.txt", ended));
+  keep(fmt::format(".a.{}-100.tmp", ended));
+  keep(fmt::format(".a.{}-.tmp", ended));
+  keep(fmt::format(".{}-0.tmp", ended));
+  keep(fmt::format(".a.{}x-0.tmp", ended));
+  keep(".a.-0.tmp");
+  keep(".a.0-0.tmp");
+  keep(".a.99999999999999999999-0.tmp");
+  std::filesystem::create_symlink("a.txt", folder / fmt::format(".link.{}-0.tmp", ended));
+  names.push_back(fmt::format(".link.{}-0.tmp", ended));
+  std::filesystem::create_directory(folder / fmt::format(".folder.{}-0.tmp", ended));
+  names.push_back(fmt::format(".folder.{}-0.tmp", ended));
+  // Of a process that cannot be seen from here, but holds its file locked.
+  keep(fmt::format(".elsewhere.{}-0.tmp", ended));
+  const int held = ::open((folder / names.back()).c_str(), O_RDONLY);
+  ASSERT_EQ(::flock(held, LOCK_EX | LOCK_NB), 0);
+  writeFile(folder / "a.txt", "new");
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(folder.names(), names);
+  ::close(held);
+}
+
+TEST(AtomicFile, WritersToOneFolderLeaveEachOtherAlone) {
+  const test::TempFolder folder;
+  AtomicFile one(folder / "one.txt"), same(folder / "one.txt");
+  one.write("one"), same.write("the same");
+  writeFile(folder / "two.txt", "two");
+  one.commit();
+  EXPECT_EQ(test::readText(folder / "one.txt"), "one");
+  same.commit();
+  EXPECT_EQ(test::readText(folder / "one.txt"), "the same");
+  EXPECT_EQ(folder.names(), (Names{"one.txt", "two.txt"}));
 }
 
 TEST(AtomicFile, ReadOnlyFoldersAreRefused) {

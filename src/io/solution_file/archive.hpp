@@ -52,41 +52,6 @@ struct SharedThings {
   std::map<std::type_index, std::vector<std::shared_ptr<const void>>> shared;
 };
 
-/// Counts the bytes that writing would take.
-class ByteCounter : public SharedThings {
- public:
-  static constexpr bool kReads = false;
-  void bytes(const void*, std::size_t n) { total_ += n; }
-  std::uint64_t total() const { return total_; }
-
- private:
-  std::uint64_t total_ = 0;
-};
-
-/// Reads from memory; every length is checked against what is left before anything is allocated.
-class ArchiveReader : public SharedThings {
- public:
-  static constexpr bool kReads = true;
-  ArchiveReader(std::string_view bytes, std::string file) : left_(bytes), file_(std::move(file)) {}
-
-  void bytes(void* to, std::size_t n) {
-    require(n <= left_.size());
-    std::memcpy(to, left_.data(), n);
-    left_.remove_prefix(n);
-  }
-  std::size_t left() const { return left_.size(); }
-  void require(bool holds) const {
-    if (!holds) fail("is damaged: its contents do not agree");
-  }
-  [[noreturn]] void fail(const std::string& message) const {
-    throw InputError(file_, 0, message, "solve the scene again");
-  }
-
- private:
-  std::string_view left_;
-  std::string file_;
-};
-
 namespace archive_detail {
 
 template <class>
@@ -142,7 +107,7 @@ void transferVector(Archive& archive, Vector& v) {
       if (count >= kLargeTable) v.reserve(count + count / 16);
       v.resize(count);
     }
-    if (count > 0) archive.bytes(v.data(), count * sizeof(Item));
+    if (count > 0) archive.bytes(v.data(), count * sizeof(Item), sizeof(Item));
   } else if constexpr (Archive::kReads) {
     v.clear();
     for (; count > 0; --count) transfer(archive, v.emplace_back());  // grows only as far as there is content

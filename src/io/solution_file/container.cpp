@@ -18,7 +18,6 @@ constexpr std::string_view kMagic =
     "\x89"
     "DLX\r\n\x1a\n";
 constexpr std::size_t kHead = 8 + 4 + 4 + 8 + 4, kTag = 4, kSectionFrame = kTag + 8 + 4;
-constexpr std::size_t kBuffer = 1 << 20;
 
 std::uint32_t crc(std::uint32_t before, const void* data, std::size_t n) {
   const auto* at = static_cast<const unsigned char*>(data);
@@ -36,6 +35,11 @@ T numberAt(std::string_view bytes, std::size_t at) {
   T value;
   std::memcpy(&value, bytes.data() + at, sizeof value);
   return value;
+}
+
+template <class T>
+void append(std::string& to, const T& number) {
+  to.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
 [[noreturn]] void refuse(const std::string& file, const std::string& what,
@@ -82,46 +86,23 @@ std::vector<Section> openContainer(std::string_view bytes, const std::string& fi
   return sections;
 }
 
-ContainerWriter::ContainerWriter(const ByteSink& sink, const std::vector<std::uint64_t>& payloadLengths) : sink_(sink) {
-  buffer_.reserve(kBuffer);
+void writeContainer(const std::vector<Section>& sections, const ByteSink& sink) {
   std::uint64_t length = kHead;
-  for (const std::uint64_t payload : payloadLengths) length += kSectionFrame + payload;
-  const auto sections = static_cast<std::uint32_t>(payloadLengths.size());
-  put(kMagic.data(), kMagic.size());
-  put(&kFormatVersion, sizeof kFormatVersion);
-  put(&sections, sizeof sections);
-  put(&length, sizeof length);
-  putChecksum();
-}
-
-void ContainerWriter::beginSection(std::string_view tag, std::uint64_t payloadLength) {
-  put(tag.data(), kTag);
-  put(&payloadLength, sizeof payloadLength);
-}
-
-void ContainerWriter::bytes(const void* data, std::size_t n) { put(data, n); }
-
-void ContainerWriter::endSection() { putChecksum(); }
-
-void ContainerWriter::flush() {
-  sink_(buffer_);
-  buffer_.clear();
-}
-
-void ContainerWriter::put(const void* data, std::size_t n) {
-  checksum_ = crc(checksum_, data, n);
-  if (buffer_.size() + n > kBuffer) flush();
-  const std::string_view view(static_cast<const char*>(data), n);
-  if (n > kBuffer)
-    sink_(view);
-  else
-    buffer_.append(view);
-}
-
-void ContainerWriter::putChecksum() {
-  const std::uint32_t sum = checksum_;
-  put(&sum, sizeof sum);
-  checksum_ = 0;
+  for (const Section& s : sections) length += kSectionFrame + s.payload.size();
+  std::string head(kMagic);
+  append(head, kFormatVersion);
+  append(head, static_cast<std::uint32_t>(sections.size()));
+  append(head, length);
+  append(head, crc(0, head.data(), head.size()));
+  sink(head);
+  for (const Section& s : sections) {
+    std::string frame(s.tag);
+    append(frame, static_cast<std::uint64_t>(s.payload.size()));
+    const std::uint32_t sum = crc(crc(0, frame.data(), frame.size()), s.payload.data(), s.payload.size());
+    sink(frame);
+    sink(s.payload);
+    sink(std::string_view(reinterpret_cast<const char*>(&sum), sizeof sum));
+  }
 }
 
 }  // namespace deltalux::io

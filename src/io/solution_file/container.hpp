@@ -7,20 +7,20 @@
 //
 // Every byte is under a checksum, the length tells truncation from damage, and the head keeps this form in all versions
 // so that a file from the future is told apart from a damaged one. [PNG 5.2 for the magic]
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "io/solution_file/archive.hpp"
-
 namespace deltalux::io {
 
-inline constexpr std::uint32_t kFormatVersion = 16;
+inline constexpr std::uint32_t kFormatVersion = 17;
 
 /// Takes the bytes of a file in order, in blocks.
 using ByteSink = std::function<void(std::string_view)>;
 
+/// A part of a file; its payload is packed (packing.hpp).
 struct Section {
   std::string_view tag;  // 4 letters
   std::string_view payload;
@@ -29,25 +29,7 @@ struct Section {
 /// The sections of `bytes`, checked. Throws InputError in the name of `file`.
 std::vector<Section> openContainer(std::string_view bytes, const std::string& file);
 
-/// Writes a container section by section, with payloads that nobody holds in memory.
-class ContainerWriter : public SharedThings {
- public:
-  static constexpr bool kReads = false;
-  ContainerWriter(const ByteSink&, const std::vector<std::uint64_t>& payloadLengths);
-
-  void beginSection(std::string_view tag, std::uint64_t payloadLength);
-  void bytes(const void*, std::size_t);
-  void endSection();
-  /// The last bytes leave the buffer.
-  void flush();
-
- private:
-  void put(const void*, std::size_t);
-  void putChecksum();
-
-  const ByteSink& sink_;
-  std::string buffer_;
-  std::uint32_t checksum_ = 0;
-};
+/// Writes a container of these sections.
+void writeContainer(const std::vector<Section>&, const ByteSink&);
 
 }  // namespace deltalux::io

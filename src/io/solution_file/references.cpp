@@ -5,6 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "hierarchy/leaf_table.hpp"
 #include "scene/edit/plan.hpp"
 
 namespace deltalux::io {
@@ -117,6 +118,25 @@ void checkLinkTree(const hierarchy::Links& links) {
   }
 }
 
+/// Lines are of the leaves in order, and lie on shapes that are there.
+void checkLines(const lines::Lines& l, const std::vector<float>& deviation, const hierarchy::Elements& elements,
+                const Scene& scene) {
+  require(!l.first.empty() && l.first[0] == 0, "lines: where the first begin");
+  for (const lines::ExceptionalLine& e : l.exceptions)
+    require(byteAt(e, offsetof(lines::ExceptionalLine, turned)) <= 1 &&
+                byteAt(e, offsetof(lines::ExceptionalLine, rough)) <= 1,
+            "line: flag");
+  validate(l);
+  if (l.leaves() == 0) return require(deviation.empty(), "deviations: of leaves");
+  const hierarchy::LeafTable leaves(elements);
+  require(l.leaves() == leaves.size() && deviation.size() == leaves.size(), "lines: of every leaf");
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const hierarchy::PatchDomain& d = elements.domain[leaves[i].index()];
+    const auto* mesh = std::get_if<Mesh>(&scene[d.primitive].shape);
+    require(l.first[i] == l.first[i + 1] || !mesh || d.triangle < mesh->triangles.size(), "lines: of a shape");
+  }
+}
+
 void checkCaustics(const caustics::Caustics& c, const Scene& scene) {
   require(c.ofPrimitive.empty() || c.ofPrimitive.size() == scene.primitives.size(), "caustics: one entry a primitive");
   for (const auto& sides : c.ofPrimitive)
@@ -142,6 +162,7 @@ void checkReferences(const Solution& s) {
   validate(s.particles, s.scene);
   s.transfers.validate(s.elements, s.links);
   require(s.transfers.empty() || s.sampledScale.size() == s.scene.lights.size(), "scales: one a light");
+  checkLines(s.lines, s.deviation, s.elements, s.scene);
   checkCaustics(s.caustics, s.scene);
 }
 

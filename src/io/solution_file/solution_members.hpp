@@ -43,7 +43,15 @@ void members(auto& archive, Is<hierarchy::Links> auto& l) {
 
 void members(auto& archive, Is<lines::Lines> auto& l) {
   auto& [first, end, code, exceptions] = l;
-  transferAll(archive, first, end, code, exceptions);
+  LargeArray<std::uint16_t> reach(code.size());  // the rest of a code follows from the line's leaf
+  constexpr bool reads = std::remove_reference_t<decltype(archive)>::kReads;
+  if constexpr (!reads)
+    for (std::size_t i = 0; i < code.size(); ++i) reach[i] = code[i].reach;
+  transferAll(archive, first, end, reach, exceptions);
+  if constexpr (reads) {
+    code.resize(reach.size());
+    for (std::size_t i = 0; i < code.size(); ++i) code[i].reach = reach[i];
+  }
 }
 
 void members(auto& archive, Is<particles::Particles> auto& p) {
