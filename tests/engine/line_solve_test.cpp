@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <deltalux/io.hpp>
+#include <deltalux/reference.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/parallel.hpp"
@@ -120,7 +121,7 @@ TEST(LineSolve, LightThatComesThroughASheetAloneIsThere) {
   const std::vector<ProbePoint> points{{{3, 1, 0}, {0, 0, 1}}, {{4, 1, 1}, {-1, 0, 0}}};
   ReferenceSettings settings;
   settings.samples = 1 << 14;
-  const std::vector<ProbeResult> expected = referenceIrradiance(scene, points, settings);
+  const std::vector<ProbeResult> expected = ReferenceIntegrator(scene, settings).probe(points);
   const auto measured = measure(solvedByLines(std::move(scene)), points);
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(lux(measured[i]) / lux(expected[i]), 1, 0.04) << i;
 }
