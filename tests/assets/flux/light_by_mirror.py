@@ -34,7 +34,7 @@ def straight(g, m, o, d, reach):
     return left, met
 
 
-def arrivals(g, m, scene, faces, at, n, rng):
+def arrivals(g, m, scene, at, n, rng):
     """Irradiance at the mirror's points, one sample of every light, as (direction, value) pairs."""
     for direction, angle, radiance in scene.suns:
         half = math.radians(angle / 2)
@@ -86,7 +86,7 @@ def run(scene_path, out_path, mirror, samples, parts, seed):
                 at = np.concatenate([at, g.sample(i, rng.random((count, 2)))])
             at = at[:count]
             n = g.normal(np.full(count, i), at)
-            for d, value in arrivals(g, m, scene, faces, at, n, rng):
+            for d, value in arrivals(g, m, scene, at, n, rng):
                 value = value * m.specular[i] * g.area[i] / count
                 k = np.flatnonzero(value.any(axis=1))
                 output[b] += value[k].sum(0)
