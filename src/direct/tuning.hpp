@@ -7,16 +7,16 @@ namespace deltalux::direct::tuning {
 constexpr int kSunRays = 16, kMixedSunRays = 64;
 /// Shadow rays to a lamp: at first; where it matters; where those disagree. Fewer: lamps' shadows are grainy.
 constexpr int kFirstRays = 1, kLampRays = 4, kMixedRays = 16;
-/// A lamp matters where, unshadowed, it brings more than this share of what has been found. Higher: faint lamps' shadows
-/// are lost.
+/// A lamp matters where, unshadowed, it brings more than this share of what has been found. Higher: faint lamps'
+/// shadows are lost.
 constexpr double kMatters = 0.01;
 /// Points that the unshadowed light of a lamp is averaged over. Fewer: grain near lamps.
 constexpr int kUnshadowedPoints = 64;
 /// Lamps that are asked one by one; of the others' sum some are drawn by what they may bring. Fewer: noise where very
 /// many lamps are equally bright.
 constexpr int kLampsAsked = 24, kLampsDrawn = 8;
-/// Split where direct light varies over quadrants, times area, by more than this many errors of the light there. Higher:
-/// shadows' edges are blurred.
+/// Split where direct light varies over quadrants, times area, by more than this many errors of the light there.
+/// Higher: shadows' edges are blurred.
 constexpr double kVariation = 2;
 /// Side of the area that variation is weighed against, in mean distances of the leaf's lines, and the area of the
 /// finest leaf that is split in those, times the error. Larger: small bright spots are averaged away.
@@ -34,5 +34,13 @@ constexpr int kSkyHeights = 16, kSkyAzimuths = 16;
 constexpr int kSkyRays = 32;
 /// Lines that tell openness below one element. Fewer: guides of chance.
 constexpr int kGuideLines = 4096;
+
+/// Most that one shadow ray of a point may bring where its light is thought to be hidden, in shares of the light there,
+/// and how many times as many rays that may cost. Higher: white specks. Lower: rays into what is hidden.
+constexpr float kSpeck = 8;
+constexpr int kMostGrowth = 2;
+/// Rounds of learning where light comes from, each looking where the one before saw it, and the rays that a point of
+/// its own learns from. Fewer: grain beside windows and in penumbrae.
+constexpr int kLearningRounds = 3, kLearnAtPoint = 768;
 
 }  // namespace deltalux::direct::tuning

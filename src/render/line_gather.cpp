@@ -7,8 +7,8 @@
 namespace deltalux::rendering {
 
 namespace {
-constexpr std::uint32_t kBatch = 64;    // lines of one independent estimate
-constexpr int kFewestBatches = 8;       // before any judgement
+constexpr std::uint32_t kBatch = 64;  // lines of one independent estimate
+constexpr int kFewestBatches = 16;    // before any judgement
 }  // namespace
 
 LineGather::LineGather(const Solution& s)

@@ -175,37 +175,54 @@ std::uint64_t Sights::sideOf(hierarchy::ElementId leaf) const {
   return 2 * std::uint64_t(elements_.domain[leaf.index()].primitive.value) + (elements_.at(leaf).front ? 1 : 0);
 }
 
-void Sights::learn(int raysOfPlace, std::uint64_t key) {
+void Sights::learn(int raysOfPlace, int rays, std::uint64_t key) {
   std::stable_sort(places_.begin(), places_.end(), [&](const Place& a, const Place& b) {
     return std::pair(sideOf(a.leaf), a.leaf) < std::pair(sideOf(b.leaf), b.leaf);
   });
   for (auto first = places_.begin(); first != places_.end();) {
     const std::uint64_t side = sideOf(first->leaf);
     const auto last = std::find_if(first, places_.end(), [&](const Place& p) { return sideOf(p.leaf) != side; });
-    const int rays = std::max(kFewestRays, raysOfPlace * static_cast<int>(last - first));
-    learn({first, last}, rays, combineKeys(key, side));
+    learn({first, last}, std::max(kFewestRays, raysOfPlace * static_cast<int>(last - first)), rays,
+          combineKeys(key, side));
     first = last;
   }
   places_ = {};
 }
 
-void Sights::learn(std::span<const Place> ofSide, int rays, std::uint64_t key) {
+void Sights::learn(std::span<const Place> ofSide, int learning, int rays, std::uint64_t key) {
   std::vector<hierarchy::ElementId> leaves;
-  std::vector<const radiosity::SenderChoice*> choices;
   std::vector<radiosity::Receiver> places;
   for (const Place& p : ofSide) {
     places.push_back(p.at);
-    if (!leaves.empty() && leaves.back() == p.leaf) continue;
-    leaves.push_back(p.leaf), choices.push_back(&reconstruction_.choices.at(p.leaf));
+    if (leaves.empty() || leaves.back() != p.leaf) leaves.push_back(p.leaf);
   }
+  if (const PointSources* points = reconstruction_.points.get()) {
+    std::vector<std::vector<direct::Source>> sources;
+    for (const hierarchy::ElementId leaf : leaves) sources.push_back(points->at(leaf));
+    std::vector<direct::Receiver> receivers;
+    for (const radiosity::Receiver& x : places) receivers.push_back({x.position, x.normal});
+    direct::Aim all(direct::joined(sources));
+    all.learn(points->light(), receivers, learning, key);
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+      aims_.emplace(leaves[i], all.at(sources[i], points->lightAt(leaves[i]), rays));
+    return;
+  }
+  std::vector<const radiosity::SenderChoice*> choices;
+  for (const hierarchy::ElementId leaf : leaves) choices.push_back(&reconstruction_.choices.at(leaf));
   Sight all(elements_, choices);
-  all.learn(reconstruction_.direct, places, rays, key);
+  all.learn(reconstruction_.direct, places, learning, key);
   for (std::size_t i = 0; i < leaves.size(); ++i) known_.emplace(leaves[i], all.of(*choices[i]));
 }
 
 const Sight& Sights::at(hierarchy::ElementId leaf) {
   if (const auto found = known_.find(leaf); found != known_.end()) return found->second;
   return known_.emplace(leaf, Sight(elements_, reconstruction_.choices.at(leaf))).first->second;
+}
+
+/// Of a leaf where no place was noted: learnt all over it.
+const direct::Aim& Sights::aimAt(hierarchy::ElementId leaf, int rays) {
+  if (const auto found = aims_.find(leaf); found != aims_.end()) return found->second;
+  return aims_.emplace(leaf, reconstruction_.points->aimAt(leaf, rays)).first->second;
 }
 
 }  // namespace deltalux::rendering

@@ -1,0 +1,205 @@
+#include "direct/aim.hpp"
+
+#include <algorithm>
+
+namespace deltalux::direct {
+
+namespace {
+
+constexpr float kMostShare = 0.25f;            // of the rays, to one square
+constexpr float kDoubt = 0.5f;                 // rays that what was thought before counts for
+constexpr std::size_t kFewestLooks = 6;        // in a square, to divide it
+constexpr double kUneven = 3;                  // variance between quarters over that within, to divide
+constexpr double kSmallest = 1.0 / 64;         // side of a square
+constexpr float kFaintShare = 1e-3f;           // of all rays: squares that get fewer stay whole
+constexpr int kBatch = 64, kFirstBatches = 4;  // rays of one independent estimate; estimates before any judgement
+
+}  // namespace
+
+Aim::Aim(std::span<const Source> sources) {
+  squares_.reserve(sources.size());
+  for (const Source& s : sources) {
+    const float strength = s.potential * std::sqrt(s.open);
+    squares_.push_back({s.id, Vec2(0.0), 1.0, s.potential, strength, strength, strength});
+  }
+  share();
+}
+
+Aim Aim::at(std::span<const Source> place, float light, int rays) const {
+  Aim own;
+  own.rays_ = rays;
+  auto s = place.begin();
+  for (const Square& square : squares_) {
+    while (s != place.end() && s->id < square.source) ++s;
+    if (s == place.end()) break;
+    if (s->id != square.source) continue;
+    own.squares_.push_back(square);
+    own.squares_.back().potential = s->potential;
+  }
+  own.share();
+  if (own.dark()) return own;
+  // What a ray may bring, over what the weights sum to now, says how often each square must be looked at.
+  const float least = own.total() / (static_cast<float>(rays) * tuning::kSpeck * std::max(light, 1e-20f));
+  for (Square& q : own.squares_) {
+    const float whole = own.total() / (static_cast<float>(rays) * q.area());  // one ray a sample
+    q.weight = std::max(q.weight, std::min(q.potential * least, whole));
+  }
+  const float before = own.total();
+  own.sumWeights();
+  own.rays_ = std::min(static_cast<int>(std::ceil(static_cast<float>(rays) * own.total() / before - 0.01f)),
+                       tuning::kMostGrowth * rays);
+  return own;
+}
+
+/// Weights as the strengths have it, but for a light that outshines the rest: it is known by few rays, and where it is
+/// hidden the others need theirs.
+void Aim::share() {
+  const auto brightest = std::max_element(squares_.begin(), squares_.end(),
+                                          [](const Square& a, const Square& b) { return a.share() < b.share(); });
+  float rest = 0;
+  for (auto s = squares_.begin(); s != squares_.end(); ++s) {
+    s->weight = s->strength;
+    if (s != brightest) rest += s->share();
+  }
+  const float most = kMostShare / (1 - kMostShare) * rest;
+  if (rest > 0 && brightest->share() > most) brightest->weight = most / brightest->area();
+  sumWeights();
+}
+
+void Aim::sumWeights() {
+  cumulative_.clear();
+  cumulative_.reserve(squares_.size());
+  float sum = 0;
+  for (const Square& s : squares_) cumulative_.push_back(sum += s.area() * s.weight);
+}
+
+std::size_t Aim::indexAt(float part) const {
+  const auto it = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, part * total());
+  return static_cast<std::size_t>(it - cumulative_.begin());
+}
+
+void Aim::learn(const PointLight& light, std::span<const Receiver> places, int rays, std::uint64_t key) {
+  std::vector<Look> looks;
+  for (int round = 0; round < tuning::kLearningRounds && !dark(); ++round) {
+    look(light, places, rays / tuning::kLearningRounds, combineKeys(key, static_cast<std::uint64_t>(round)), looks);
+    judge(looks);
+  }
+}
+
+void Aim::look(const PointLight& light, std::span<const Receiver> places, int rays, std::uint64_t key,
+               std::vector<Look>& looks) const {
+  const double shift = toUnit(mix64(key));
+  const ScrambledSobol numbers(combineKeys(key, 1)), choices(combineKeys(key, 2));
+  for (int k = 0; k < rays; ++k) {
+    const std::size_t index = indexAt(static_cast<float>((k + shift) / rays));
+    const Square& square = squares_[index];
+    const auto i = static_cast<std::uint32_t>(k);
+    const Vec2 u = square.at(numbers(i));
+    const Receiver& x = places[static_cast<std::size_t>(choices(i).x * double(places.size()))];
+    const auto arrival = light.arrival(square.source, x, u);
+    const float E = arrival ? static_cast<float>(glm::dot(arrival->direction, x.normal)) * gray(arrival->E) : 0.0f;
+    looks.push_back({static_cast<std::uint32_t>(index), u, E});
+  }
+}
+
+void Aim::judge(std::vector<Look>& looks) {
+  std::sort(looks.begin(), looks.end(), [](const Look& a, const Look& b) { return a.square < b.square; });
+  std::vector<Square> squares;
+  std::vector<Look> kept;
+  squares.reserve(squares_.size());
+  kept.reserve(looks.size());
+  auto at = looks.begin();
+  for (std::size_t i = 0; i < squares_.size(); ++i) {
+    const auto end = std::find_if(at, looks.end(), [&](const Look& l) { return l.square != i; });
+    divide(squares_[i], {at, end}, squares, kept);
+    at = end;
+  }
+  squares_ = std::move(squares), looks = std::move(kept);
+  share();
+}
+
+/// Whether the quarters bring different light, by more than chance would have it (analysis of variance).
+bool Aim::uneven(const Square& square, std::span<const Look> looks) {
+  if (looks.size() < kFewestLooks) return false;
+  const Vec2 middle = square.lower + square.size / 2;
+  double n[4] = {}, sum[4] = {}, squares = 0;
+  for (const Look& l : looks) {
+    const std::size_t q = (l.u.x < middle.x ? 0u : 1u) + (l.u.y < middle.y ? 0u : 2u);
+    n[q] += 1, sum[q] += l.E, squares += double(l.E) * double(l.E);
+  }
+  double all = 0, between = 0, groups = 0;
+  for (int q = 0; q < 4; ++q) {
+    if (!(n[q] > 0)) continue;
+    all += sum[q], between += sum[q] * sum[q] / n[q], groups += 1;
+  }
+  const double count = static_cast<double>(looks.size()), within = squares - between;
+  between -= all * all / count;
+  return between / std::max(groups - 1, 1.0) > kUneven * within / (count - groups) && between > 1e-6 * squares;
+}
+
+/// Appends the square as `looks` have it, or its quarters.
+void Aim::divide(const Square& square, std::span<Look> looks, std::vector<Square>& squares,
+                 std::vector<Look>& kept) const {
+  Square now = square;
+  float sum = 0;
+  for (const Look& l : looks) sum += l.E * l.E;
+  now.strength = std::sqrt((sum + kDoubt * square.guess * square.guess) / (static_cast<float>(looks.size()) + kDoubt));
+  if (square.size <= kSmallest || now.share() < kFaintShare * total() || !uneven(square, looks)) {
+    for (const Look& l : looks) kept.push_back({static_cast<std::uint32_t>(squares.size()), l.u, l.E});
+    squares.push_back(now);
+    return;
+  }
+  const double half = square.size / 2;
+  const Vec2 middle = square.lower + half;
+  const auto upper = std::partition(looks.begin(), looks.end(), [&](const Look& l) { return l.u.y < middle.y; });
+  const auto left = [&](const Look& l) { return l.u.x < middle.x; };
+  const auto a = std::partition(looks.begin(), upper, left), b = std::partition(upper, looks.end(), left);
+  const auto quarter = [&](double x, double y, auto first, auto last) {
+    Square part = now;
+    part.lower = square.lower + half * Vec2(x, y), part.size = half, part.guess = now.strength;
+    divide(part, {first, last}, squares, kept);
+  };
+  quarter(0, 0, looks.begin(), a), quarter(1, 0, a, upper), quarter(0, 1, upper, b), quarter(1, 1, b, looks.end());
+}
+
+std::vector<Source> joined(std::span<const std::vector<Source>> places) {
+  std::vector<Source> all;
+  for (const std::vector<Source>& place : places) all.insert(all.end(), place.begin(), place.end());
+  std::stable_sort(all.begin(), all.end(), [](const Source& a, const Source& b) { return a.id < b.id; });
+  std::vector<Source> out;
+  for (const Source& s : all) {
+    if (out.empty() || out.back().id != s.id)
+      out.push_back(s);
+    else
+      out.back().potential = std::max(out.back().potential, s.potential),
+      out.back().open = std::max(out.back().open, s.open);
+  }
+  return out;
+}
+
+ProbeResult measure(const PointLight& light, std::span<const Source> sources, const Receiver& x, float level,
+                    const Rgb& ambient, double error, int maxSamples, std::uint64_t key) {
+  ProbeResult result;
+  Aim aim(sources);
+  aim.learn(light, {&x, 1}, tuning::kLearnAtPoint, combineKeys(key, 1));
+  aim = aim.at(sources, level, kBatch);
+  if (aim.dark()) return result;
+  RgbSum sum(0.0), squares(0.0);
+  for (int batch = 0; batch < kFirstBatches || result.samples < static_cast<std::uint64_t>(maxSamples); ++batch) {
+    RgbSum E(0.0);
+    aim.sample(light, x, 0, combineKeys(key, 2 + static_cast<std::uint64_t>(batch)),
+               [&](const Arrival& a) { E += RgbSum(static_cast<float>(glm::dot(a.direction, x.normal)) * a.E); });
+    sum += E, squares += E * E;
+    result.samples += static_cast<std::uint64_t>(aim.rays());
+    const double n = batch + 1;
+    result.irradiance = sum / n;
+    const RgbSum variance = glm::max(squares / n - result.irradiance * result.irradiance, RgbSum(0.0));
+    result.standardError = glm::sqrt(variance / std::max(n - 1, 1.0));
+    if (batch + 1 >= kFirstBatches &&
+        gray(result.standardError) <= error * (gray(result.irradiance) + gray(RgbSum(ambient))))
+      break;
+  }
+  return result;
+}
+
+}  // namespace deltalux::direct

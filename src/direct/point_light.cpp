@@ -1,0 +1,99 @@
+#include "direct/point_light.hpp"
+
+#include <algorithm>
+
+#include "base/morton.hpp"
+#include "tracing/shadow_ray.hpp"
+
+namespace deltalux::direct {
+
+namespace {
+
+constexpr float kOpenLamp = 0.5f;  // chance that a lamp is seen, before any ray
+
+}  // namespace
+
+hierarchy::ElementGeometry pointPatch(const Receiver& x) {
+  hierarchy::ElementGeometry g;
+  g.center = g.lower = g.upper = Vec3f(x.position);
+  g.normal = Vec3f(x.normal), g.normalCone = 1;
+  return g;
+}
+
+PointLight::PointLight(const Scene& scene, const tracing::RayTracer& tracer) : tracer_(tracer), lamps_(scene) {
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    const auto* dome = std::get_if<DomeLight>(&light.emitter);
+    if (!dome || isBlack(light.scale)) continue;
+    Sky sky{LightId(i), *dome, light.scale};
+    constexpr int kGrid = 8;
+    for (int cell = 0; cell < SkyCells::kCount; ++cell)
+      for (int k = 0; k < kGrid * kGrid; ++k)
+        sky.strength[static_cast<std::size_t>(cell)] +=
+            gray(sky.scale * skyRadiance(*dome, Vec3(SkyCells::direction(cell, (k % kGrid + 0.5) / kGrid,
+                                                                         (k / kGrid + 0.5) / kGrid)))) /
+            (kGrid * kGrid);
+    skies_.push_back(std::move(sky));
+  }
+  for (int cell = 0; cell < SkyCells::kCount; ++cell) {
+    const auto c = static_cast<std::size_t>(cell);
+    curve_[c] = cell;
+    looks_[c][4] = SkyCells::direction(cell, 0.5, 0.5);
+    for (int corner = 0; corner < 4; ++corner)
+      looks_[c][static_cast<std::size_t>(corner)] = SkyCells::direction(cell, corner & 1, corner >> 1);
+  }
+  const auto place = [](int cell) {
+    return morton(static_cast<std::uint32_t>(cell % tuning::kSkyAzimuths),
+                  static_cast<std::uint32_t>(cell / tuning::kSkyAzimuths));
+  };
+  std::sort(curve_.begin(), curve_.end(), [&](int a, int b) { return place(a) < place(b); });
+}
+
+std::vector<Source> PointLight::lampsOver(const hierarchy::ElementGeometry& patch) const {
+  std::vector<Source> out;
+  for (std::size_t i = 0; i < lamps_.all().size(); ++i)
+    if (const double potential = lamps_.potential(lamps_.all()[i], patch); potential > 0)
+      out.push_back({static_cast<std::uint32_t>(i), static_cast<float>(potential), kOpenLamp});
+  return out;
+}
+
+void PointLight::addSkies(const hierarchy::ElementGeometry& patch, std::vector<Source>& out) const {
+  if (skies_.empty()) return;
+  const bool flat = patch.normalCone > 0.999f;
+  std::array<float, SkyCells::kCount> cosine;
+  cosine.fill(flat ? 0.0f : 1.0f);
+  for (std::size_t cell = 0; flat && cell < SkyCells::kCount; ++cell)
+    for (const Vec3f& w : looks_[cell]) cosine[cell] = std::max(cosine[cell], glm::dot(patch.normal, w));
+  for (std::size_t s = 0; s < skies_.size(); ++s)
+    for (std::size_t k = 0; k < SkyCells::kCount; ++k) {
+      const auto cell = static_cast<std::size_t>(curve_[k]);
+      const float potential = skies_[s].strength[cell] * cosine[cell] * static_cast<float>(SkyCells::solidAngle());
+      if (potential > 0)
+        out.push_back({static_cast<std::uint32_t>(lamps_.all().size() + s * SkyCells::kCount + k), potential, 1.0f});
+    }
+}
+
+std::vector<Source> PointLight::sources(const Receiver& x) const {
+  return sources(pointPatch(x), [](int) { return 1.0f; });
+}
+
+std::optional<Arrival> PointLight::arrival(std::uint32_t source, const Receiver& x, const Vec2& u) const {
+  if (source < lamps_.all().size()) {
+    const LightId id = lamps_.all()[source].id;
+    const auto s = lamps_.sampler().sample(id, x.position, u);
+    if (!s || !(glm::dot(s->direction, x.normal) > 0)) return std::nullopt;
+    const Rgb V = tracer_.transmittance(tracing::shadowRay(x.position, x.normal, s->direction, s->distance, s->normal));
+    if (isBlack(V)) return std::nullopt;
+    return Arrival{s->direction, id, V * s->radiance * static_cast<float>(1 / (s->pdf > 0 ? s->pdf : 1.0))};
+  }
+  const Sky& sky = skies_[(source - lamps_.all().size()) / SkyCells::kCount];
+  const Vec3 w(SkyCells::direction(cellOf(source), u.x, u.y));
+  if (!(glm::dot(w, x.normal) > 0)) return std::nullopt;
+  const Rgb L = sky.scale * skyRadiance(sky.light, w);
+  if (isBlack(L)) return std::nullopt;
+  const Rgb V = tracer_.transmittance(tracing::shadowRay(x.position, x.normal, w, kInfinity, Vec3(0)));
+  if (isBlack(V)) return std::nullopt;
+  return Arrival{w, sky.id, V * L * static_cast<float>(SkyCells::solidAngle())};
+}
+
+}  // namespace deltalux::direct
