@@ -7,7 +7,7 @@ namespace deltalux::direct {
 namespace {
 
 constexpr float kMostShare = 0.25f;            // of the rays, to one square
-constexpr float kDoubt = 0.5f;                 // rays that what was thought before counts for
+constexpr float kDoubt = 1;                    // rays that what was thought before counts for
 constexpr std::size_t kFewestLooks = 6;        // in a square, to divide it
 constexpr double kUneven = 3;                  // variance between quarters over that within, to divide
 constexpr double kSmallest = 1.0 / 64;         // side of a square
@@ -25,44 +25,65 @@ Aim::Aim(std::span<const Source> sources) {
   share();
 }
 
-Aim Aim::at(std::span<const Source> place, float light, int rays) const {
+Aim Aim::of(std::span<const Source> places) const {
   Aim own;
-  own.rays_ = rays;
-  auto s = place.begin();
+  auto s = places.begin();
   for (const Square& square : squares_) {
-    while (s != place.end() && s->id < square.source) ++s;
-    if (s == place.end()) break;
+    while (s != places.end() && s->id < square.source) ++s;
+    if (s == places.end()) break;
     if (s->id != square.source) continue;
-    own.squares_.push_back(square);
-    own.squares_.back().potential = s->potential;
+    Square& q = own.squares_.emplace_back(square);
+    q.strength *= s->potential / q.potential;
+    q.guess = q.strength, q.potential = s->potential;
   }
   own.share();
-  if (own.dark()) return own;
-  // What a ray may bring, over what the weights sum to now, says how often each square must be looked at.
-  const float least = own.total() / (static_cast<float>(rays) * tuning::kSpeck * std::max(light, 1e-20f));
-  for (Square& q : own.squares_) {
-    const float whole = own.total() / (static_cast<float>(rays) * q.area());  // one ray a sample
-    q.weight = std::max(q.weight, std::min(q.potential * least, whole));
-  }
-  const float before = own.total();
-  own.sumWeights();
-  own.rays_ = std::min(static_cast<int>(std::ceil(static_cast<float>(rays) * own.total() / before - 0.01f)),
-                       tuning::kMostGrowth * rays);
   return own;
+}
+
+Aim Aim::at(std::span<const Source> place, float light, int rays) const {
+  Aim own = of(place);
+  own.rays_ = rays;
+  if (!own.dark()) own.keepFromSpecks(light, rays);
+  return own;
+}
+
+bool Aim::holds(std::span<const Source> sources) const {
+  auto q = squares_.begin();
+  for (const Source& s : sources) {
+    while (q != squares_.end() && q->source < s.id) ++q;
+    if (q == squares_.end() || q->source != s.id) return false;
+  }
+  return true;
+}
+
+/// More rays, of about `rays` now, so that none brings much more than `light`.
+void Aim::keepFromSpecks(float light, int rays) {
+  const float before = total(), each = before / static_cast<float>(rays);
+  const float least = each / (tuning::kSpeck * std::max(light, 1e-20f));
+  const auto lacks = [&](const Square& q) {
+    return std::max(0.0f, std::min(q.potential * least, each / q.area()) - q.weight);
+  };
+  float lack = 0;
+  for (const Square& q : squares_) lack += q.area() * lacks(q);
+  const float given = std::min(1.0f, (tuning::kMostGrowth - 1) * before / std::max(lack, 1e-20f));
+  for (Square& q : squares_) q.weight += given * lacks(q);
+  sumWeights();
+  rays_ = static_cast<int>(std::lround(total() / each + 0.499f));
 }
 
 /// Weights as the strengths have it, but for a light that outshines the rest: it is known by few rays, and where it is
 /// hidden the others need theirs.
 void Aim::share() {
-  const auto brightest = std::max_element(squares_.begin(), squares_.end(),
-                                          [](const Square& a, const Square& b) { return a.share() < b.share(); });
-  float rest = 0;
-  for (auto s = squares_.begin(); s != squares_.end(); ++s) {
-    s->weight = s->strength;
-    if (s != brightest) rest += s->share();
+  float all = 0;
+  Square* brightest = nullptr;
+  for (Square& s : squares_) {
+    s.weight = s.strength, all += s.share();
+    if (!brightest || s.share() > brightest->share()) brightest = &s;
   }
-  const float most = kMostShare / (1 - kMostShare) * rest;
-  if (rest > 0 && brightest->share() > most) brightest->weight = most / brightest->area();
+  if (brightest) {
+    const float own = brightest->share(), most = kMostShare / (1 - kMostShare) * (all - own);
+    if (most > 0 && own > most) brightest->weight *= most / own;
+  }
   sumWeights();
 }
 

@@ -6,8 +6,8 @@
 // few rays. That is known from the openness that stored lines have found, and learnt from rays of the very points that
 // will be shaded, never from those that shade them: what these bring stays unbiased.
 //
-// No ray may bring much more than the light there is, unless it is all of its light's: what is thought to be hidden
-// keeps so many rays that where it is seen after all, it is no speck. The number of rays grows for that where it must.
+// No ray is to bring much more than the light there is, unless it is all of its light's: for that the number of rays
+// grows, up to a limit, so that where something is seen after all that was thought to be hidden, it is no speck.
 //
 // Squares are in the order of the sources, whose neighbours stand side by side, and rays are dealt to them by
 // systematic sampling: a pixel's rays are spread over all that it sees. (Adaptive importance sampling, as [Lepage78],
@@ -26,13 +26,17 @@ class Aim {
   /// At one place, or at several together: `sources` ascending by id, each once.
   explicit Aim(std::span<const Source> sources);
 
-  /// What was learnt of the sources that one of the places has, with its own rays: about `rays`, of which none is to
+  /// What was learnt of the sources that some of the places have, to learn more from there.
+  Aim of(std::span<const Source> places) const;
+  /// The same for shadow rays of one of the places: about `rays`, of which none is to
   /// bring much more than `light` [W/m2, gray].
   Aim at(std::span<const Source> place, float light, int rays) const;
 
   /// Learns by `rays` shadow rays from these places.
   void learn(const PointLight&, std::span<const Receiver> places, int rays, std::uint64_t key);
 
+  /// Whether it knows all these sources, ascending by id.
+  bool holds(std::span<const Source>) const;
   bool dark() const { return !(total() > 0); }
   int rays() const { return rays_; }
   /// visit(Arrival) for each of rays() shadow rays that is not blocked: the sum of all of them is the estimate. `index`
@@ -79,6 +83,7 @@ class Aim {
   std::size_t indexAt(float part) const;
   void sumWeights();
   void share();
+  void keepFromSpecks(float light, int rays);
   void look(const PointLight&, std::span<const Receiver> places, int rays, std::uint64_t key, std::vector<Look>&) const;
   void judge(std::vector<Look>&);
   static bool uneven(const Square&, std::span<const Look>);

@@ -9,7 +9,24 @@ namespace deltalux::direct {
 
 namespace {
 
-constexpr float kOpenLamp = 0.5f;  // chance that a lamp is seen, before any ray
+constexpr float kOpenLamp = 0.5f;    // chance that a lamp is seen, before any ray
+constexpr double kNarrowSky = 0.25;  // half angle below which a sky is taken whole [radians]
+
+/// Like a sun of its size.
+Lamp narrow(LightId id, const DomeLight& dome, const Rgb& scale) {
+  constexpr int kGrid = 8;
+  Lamp lamp;
+  lamp.id = id, lamp.sun = true, lamp.axis = dome.axis, lamp.halfAngle = dome.halfAngle;
+  const Frame frame(dome.axis);
+  const double least = std::cos(dome.halfAngle), angle = 2 * kPi * (1 - least);
+  for (int k = 0; k < kGrid * kGrid; ++k) {
+    const double z = least + (1 - least) * (k % kGrid + 0.5) / kGrid, phi = 2 * kPi * (k / kGrid + 0.5) / kGrid;
+    const double r = std::sqrt(std::max(0.0, 1 - z * z));
+    const Vec3 w = frame.toWorld({r * std::cos(phi), r * std::sin(phi), z});
+    lamp.most += angle / (kGrid * kGrid) * gray(scale * skyRadiance(dome, w));
+  }
+  return lamp;
+}
 
 }  // namespace
 
@@ -21,10 +38,15 @@ hierarchy::ElementGeometry pointPatch(const Receiver& x) {
 }
 
 PointLight::PointLight(const Scene& scene, const tracing::RayTracer& tracer) : tracer_(tracer), lamps_(scene) {
+  whole_.assign(lamps_.all().begin(), lamps_.all().end());
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     const auto* dome = std::get_if<DomeLight>(&light.emitter);
     if (!dome || isBlack(light.scale)) continue;
+    if (dome->halfAngle < kNarrowSky) {
+      whole_.push_back(narrow(LightId(i), *dome, light.scale));
+      continue;
+    }
     Sky sky{LightId(i), *dome, light.scale};
     constexpr int kGrid = 8;
     for (int cell = 0; cell < SkyCells::kCount; ++cell)
@@ -51,8 +73,8 @@ PointLight::PointLight(const Scene& scene, const tracing::RayTracer& tracer) : t
 
 std::vector<Source> PointLight::lampsOver(const hierarchy::ElementGeometry& patch) const {
   std::vector<Source> out;
-  for (std::size_t i = 0; i < lamps_.all().size(); ++i)
-    if (const double potential = lamps_.potential(lamps_.all()[i], patch); potential > 0)
+  for (std::size_t i = 0; i < whole_.size(); ++i)
+    if (const double potential = lamps_.potential(whole_[i], patch); potential > 0)
       out.push_back({static_cast<std::uint32_t>(i), static_cast<float>(potential), kOpenLamp});
   return out;
 }
@@ -69,7 +91,7 @@ void PointLight::addSkies(const hierarchy::ElementGeometry& patch, std::vector<S
       const auto cell = static_cast<std::size_t>(curve_[k]);
       const float potential = skies_[s].strength[cell] * cosine[cell] * static_cast<float>(SkyCells::solidAngle());
       if (potential > 0)
-        out.push_back({static_cast<std::uint32_t>(lamps_.all().size() + s * SkyCells::kCount + k), potential, 1.0f});
+        out.push_back({static_cast<std::uint32_t>(whole_.size() + s * SkyCells::kCount + k), potential, 1.0f});
     }
 }
 
@@ -78,15 +100,15 @@ std::vector<Source> PointLight::sources(const Receiver& x) const {
 }
 
 std::optional<Arrival> PointLight::arrival(std::uint32_t source, const Receiver& x, const Vec2& u) const {
-  if (source < lamps_.all().size()) {
-    const LightId id = lamps_.all()[source].id;
+  if (source < whole_.size()) {
+    const LightId id = whole_[source].id;
     const auto s = lamps_.sampler().sample(id, x.position, u);
     if (!s || !(glm::dot(s->direction, x.normal) > 0)) return std::nullopt;
     const Rgb V = tracer_.transmittance(tracing::shadowRay(x.position, x.normal, s->direction, s->distance, s->normal));
     if (isBlack(V)) return std::nullopt;
     return Arrival{s->direction, id, V * s->radiance * static_cast<float>(1 / (s->pdf > 0 ? s->pdf : 1.0))};
   }
-  const Sky& sky = skies_[(source - lamps_.all().size()) / SkyCells::kCount];
+  const Sky& sky = skies_[(source - whole_.size()) / SkyCells::kCount];
   const Vec3 w(SkyCells::direction(cellOf(source), u.x, u.y));
   if (!(glm::dot(w, x.normal) > 0)) return std::nullopt;
   const Rgb L = sky.scale * skyRadiance(sky.light, w);

@@ -1,7 +1,7 @@
 #pragma once
 // Direct light at single points: which suns, lamps and cells of the skies may shine there, about how much each may
 // bring and how likely it is open, and what one shadow ray to one of them finds. Skies are taken by cells, so that rays
-// can go to the part that a window shows.
+// can go to the part that a window shows; such as are no wider than a cell count as lamps.
 #include <deltalux/probe.hpp>
 #include <optional>
 
@@ -45,7 +45,7 @@ class PointLight {
     std::vector<Source> out = lampsOver(patch);
     addSkies(patch, out);
     for (Source& s : out)
-      if (s.id >= lamps_.all().size()) s.open = openOf(cellOf(s.id));
+      if (s.id >= whole_.size()) s.open = openOf(cellOf(s.id));
     return out;
   }
   /// The same on a point, of whose surroundings nothing is known.
@@ -65,11 +65,12 @@ class PointLight {
   std::vector<Source> lampsOver(const hierarchy::ElementGeometry&) const;
   void addSkies(const hierarchy::ElementGeometry&, std::vector<Source>&) const;
   int cellOf(std::uint32_t source) const {
-    return curve_[(source - lamps_.all().size()) % static_cast<std::size_t>(SkyCells::kCount)];
+    return curve_[(source - whole_.size()) % static_cast<std::size_t>(SkyCells::kCount)];
   }
 
   const tracing::RayTracer& tracer_;
   Lamps lamps_;
+  std::vector<Lamp> whole_;  // that are taken whole
   std::vector<Sky> skies_;
   std::array<int, SkyCells::kCount> curve_{};                   // cells in an order that keeps neighbours together
   std::array<std::array<Vec3f, 5>, SkyCells::kCount> looks_{};  // into the middle and the corners of each cell

@@ -33,6 +33,8 @@ class LightMeter {
   ProbeResult measure(const ProbePoint&, const ProbeSettings&, std::uint64_t key) const;
   /// The nearest surface that faces the point's normal, where the point lies on one.
   std::optional<SurfaceSpot> surfaceAt(const ProbePoint&) const;
+  /// Of a solution over lines; null for others.
+  const LineGather* lines() const { return lines_.get(); }
   /// What particles bring there [W/m2].
   Rgb particleLight(const SurfaceSpot&) const;
 

@@ -87,7 +87,7 @@ class Sight {
 };
 
 /// The sights of a part of a picture, by leaf: places are noted, learnt from, and then looked up. The leaves of one
-/// side of a surface learn together.
+/// side of a surface learn together, over lines from what all of the picture's part has learnt before.
 class Sights {
  public:
   /// Both must outlive this.
@@ -119,10 +119,13 @@ class Sights {
   };
   std::vector<Place> places_;
   std::unordered_map<hierarchy::ElementId, Sight> known_;
-  std::unordered_map<hierarchy::ElementId, direct::Aim> aims_;  // of a solution over lines
+  // Of a solution over lines: of all that the picture's part shows, and by leaf.
+  direct::Aim around_;
+  std::unordered_map<hierarchy::ElementId, direct::Aim> aims_;
 
   std::uint64_t sideOf(hierarchy::ElementId leaf) const;
-  void learn(std::span<const Place> ofSide, int raysOfPlace, int rays, std::uint64_t key);
+  void learn(std::span<const Place> ofSide, int learning, std::uint64_t key);
+  void learnOverLines(int raysOfPlace, int rays, std::uint64_t key);
   const direct::Aim& aimAt(hierarchy::ElementId leaf, int rays);
 };
 
