@@ -2,17 +2,19 @@
 
 #include <algorithm>
 
+#include "base/batch_mean.hpp"
+
 namespace deltalux::direct {
 
 namespace {
 
-constexpr float kMostShare = 0.25f;            // of the rays, to one square
-constexpr float kDoubt = 1;                    // rays that what was thought before counts for
-constexpr std::size_t kFewestLooks = 6;        // in a square, to divide it
-constexpr double kUneven = 3;                  // variance between quarters over that within, to divide
-constexpr double kSmallest = 1.0 / 64;         // side of a square
-constexpr float kFaintShare = 1e-3f;           // of all rays: squares that get fewer stay whole
-constexpr int kBatch = 64, kFirstBatches = 4;  // rays of one independent estimate; estimates before any judgement
+constexpr float kMostShare = 0.25f;             // of the rays, to one square
+constexpr float kDoubt = 1;                     // rays that what was thought before counts for
+constexpr std::size_t kFewestLooks = 6;         // in a square, to divide it
+constexpr double kUneven = 3;                   // variance between quarters over that within, to divide
+constexpr double kSmallest = 1.0 / 64;          // side of a square
+constexpr float kFaintShare = 1e-3f;            // of all rays: squares that get fewer stay whole
+constexpr int kBatch = 64, kFewestBatches = 8;  // rays of one independent estimate; estimates before any judgement
 
 }  // namespace
 
@@ -205,21 +207,18 @@ ProbeResult measure(const PointLight& light, std::span<const Source> sources, co
   aim.learn(light, {&x, 1}, tuning::kLearnAtPoint, combineKeys(key, 1));
   aim = aim.at(sources, level, kBatch);
   if (aim.dark()) return result;
-  RgbSum sum(0.0), squares(0.0);
-  for (int batch = 0; batch < kFirstBatches || result.samples < static_cast<std::uint64_t>(maxSamples); ++batch) {
+  BatchMean mean;
+  while (mean.count() < kFewestBatches || result.samples < static_cast<std::uint64_t>(maxSamples)) {
     RgbSum E(0.0);
-    aim.sample(light, x, 0, combineKeys(key, 2 + static_cast<std::uint64_t>(batch)),
+    aim.sample(light, x, 0, combineKeys(key, 2 + static_cast<std::uint64_t>(mean.count())),
                [&](const Arrival& a) { E += RgbSum(static_cast<float>(glm::dot(a.direction, x.normal)) * a.E); });
-    sum += E, squares += E * E;
+    mean.add(E);
     result.samples += static_cast<std::uint64_t>(aim.rays());
-    const double n = batch + 1;
-    result.irradiance = sum / n;
-    const RgbSum variance = glm::max(squares / n - result.irradiance * result.irradiance, RgbSum(0.0));
-    result.standardError = glm::sqrt(variance / std::max(n - 1, 1.0));
-    if (batch + 1 >= kFirstBatches &&
-        gray(result.standardError) <= error * (gray(result.irradiance) + gray(RgbSum(ambient))))
+    if (mean.count() >= kFewestBatches &&
+        gray(mean.standardError()) <= error * (gray(mean.mean()) + gray(RgbSum(ambient))))
       break;
   }
+  result.irradiance = mean.mean(), result.standardError = mean.standardError();
   return result;
 }
 

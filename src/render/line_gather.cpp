@@ -1,14 +1,12 @@
 #include "render/line_gather.hpp"
 
-#include <algorithm>
-
-#include "lines/tuning.hpp"
+#include "base/batch_mean.hpp"
 
 namespace deltalux::rendering {
 
 namespace {
 constexpr std::uint32_t kBatch = 64;  // lines of one independent estimate
-constexpr int kFewestBatches = 16;    // before any judgement
+constexpr int kFewestBatches = 32;    // before any judgement
 }  // namespace
 
 LineGather::LineGather(const Solution& s)
@@ -42,25 +40,18 @@ void LineGather::forEachLine(const Vec3f& p, const Vec3f& normal, std::uint32_t 
 ProbeResult LineGather::at(const Vec3f& p, const Vec3f& normal, double ambient, double error, std::uint64_t most,
                            std::uint64_t key) const {
   ProbeResult result;
-  RgbSum sum(0.0), squares(0.0);
+  BatchMean mean;
   const lines::LineDirections directions(key);
   hierarchy::ElementId leaf;
-  const std::uint64_t batches = std::max<std::uint64_t>(most / kBatch, kFewestBatches);
-  for (std::uint64_t batch = 0; batch < batches; ++batch) {
+  while (mean.count() < kFewestBatches || result.samples < most) {
     RgbSum own(0.0);
-    for (std::uint32_t k = 0; k < kBatch; ++k) {
-      const auto i = static_cast<std::uint32_t>(batch * kBatch + k);
-      own += RgbSum(follow(p, normal, directions, key, i, leaf));
-    }
-    own /= double(kBatch);
-    sum += own, squares += own * own;
+    for (std::uint32_t k = 0; k < kBatch; ++k)
+      own += RgbSum(follow(p, normal, directions, key, static_cast<std::uint32_t>(result.samples) + k, leaf));
+    mean.add(own / double(kBatch));
     result.samples += kBatch;
-    const double n = double(batch + 1);
-    result.irradiance = sum / n;
-    result.standardError =
-        glm::sqrt(glm::max(squares / n - result.irradiance * result.irradiance, RgbSum(0.0)) / std::max(n - 1, 1.0));
-    if (batch + 1 >= kFewestBatches && gray(result.standardError) <= error * (gray(result.irradiance) + ambient)) break;
+    if (mean.count() >= kFewestBatches && gray(mean.standardError()) <= error * (gray(mean.mean()) + ambient)) break;
   }
+  result.irradiance = mean.mean(), result.standardError = mean.standardError();
   return result;
 }
 

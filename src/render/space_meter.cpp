@@ -1,5 +1,6 @@
 #include "render/space_meter.hpp"
 
+#include "base/batch_mean.hpp"
 #include "base/random.hpp"
 #include "solution/solution.hpp"
 
@@ -22,24 +23,19 @@ SpaceMeter::SpaceMeter(const Solution& s, const EyePaths& paths)
 
 ProbeResult SpaceMeter::at(const ProbePoint& x, const ProbeSettings& settings, std::uint64_t key) const {
   ProbeResult result;
-  RgbSum sum(0.0), squares(0.0);
+  BatchMean mean;
   std::uint64_t rays = 0;
-  for (int batch = 0; batch < kFewestBatches || result.samples < static_cast<std::uint64_t>(settings.maxSamples);
-       ++batch) {
+  while (mean.count() < kFewestBatches || result.samples < static_cast<std::uint64_t>(settings.maxSamples)) {
     RgbSum own(0.0);
     for (std::uint32_t i = 0; i < kBatch; ++i) {
-      PathSampler sampler(combineKeys(key, static_cast<std::uint64_t>(batch)), i);
+      PathSampler sampler(combineKeys(key, static_cast<std::uint64_t>(mean.count())), i);
       own += tracer_.irradiance(x.position, x.normal, sampler, rays);
     }
-    own /= double(kBatch);
-    sum += own, squares += own * own;
+    mean.add(own / double(kBatch));
     result.samples += kBatch;
-    const double n = batch + 1;
-    result.irradiance = sum / n;
-    result.standardError =
-        glm::sqrt(glm::max(squares / n - result.irradiance * result.irradiance, RgbSum(0.0)) / std::max(n - 1, 1.0));
-    if (batch + 1 >= kFewestBatches && gray(result.standardError) <= settings.error * gray(result.irradiance)) break;
+    if (mean.count() >= kFewestBatches && gray(mean.standardError()) <= settings.error * gray(mean.mean())) break;
   }
+  result.irradiance = mean.mean(), result.standardError = mean.standardError();
   return result;
 }
 
