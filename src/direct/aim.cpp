@@ -9,7 +9,7 @@ namespace deltalux::direct {
 namespace {
 
 constexpr float kMostShare = 0.25f;             // of the rays, to one square
-constexpr float kDoubt = 1;                     // rays that what was thought before counts for
+constexpr float kDoubt = 2;                     // rays that what was thought before counts for
 constexpr std::size_t kFewestLooks = 6;         // in a square, to divide it
 constexpr double kUneven = 3;                   // variance between quarters over that within, to divide
 constexpr double kSmallest = 1.0 / 64;          // side of a square
@@ -101,7 +101,7 @@ std::size_t Aim::indexAt(float part) const {
   return static_cast<std::size_t>(it - cumulative_.begin());
 }
 
-void Aim::learn(const PointLight& light, std::span<const Receiver> places, int rays, std::uint64_t key) {
+void Aim::learn(const PointSampler& light, std::span<const Receiver> places, int rays, std::uint64_t key) {
   std::vector<Look> looks;
   for (int round = 0; round < tuning::kLearningRounds && !dark(); ++round) {
     look(light, places, rays / tuning::kLearningRounds, combineKeys(key, static_cast<std::uint64_t>(round)), looks);
@@ -109,7 +109,7 @@ void Aim::learn(const PointLight& light, std::span<const Receiver> places, int r
   }
 }
 
-void Aim::look(const PointLight& light, std::span<const Receiver> places, int rays, std::uint64_t key,
+void Aim::look(const PointSampler& light, std::span<const Receiver> places, int rays, std::uint64_t key,
                std::vector<Look>& looks) const {
   const double shift = toUnit(mix64(key));
   const ScrambledSobol numbers(combineKeys(key, 1)), choices(combineKeys(key, 2));
@@ -200,7 +200,7 @@ std::vector<Source> joined(std::span<const std::vector<Source>> places) {
   return out;
 }
 
-ProbeResult measure(const PointLight& light, std::span<const Source> sources, const Receiver& x, float level,
+ProbeResult measure(const PointSampler& light, std::span<const Source> sources, const Receiver& x, float level,
                     const Rgb& ambient, double error, int maxSamples, std::uint64_t key) {
   ProbeResult result;
   Aim aim(sources);

@@ -33,7 +33,7 @@ class Aim {
   Aim at(std::span<const Source> place, float light, int rays) const;
 
   /// Learns by `rays` shadow rays from these places.
-  void learn(const PointLight&, std::span<const Receiver> places, int rays, std::uint64_t key);
+  void learn(const PointSampler&, std::span<const Receiver> places, int rays, std::uint64_t key);
 
   /// Whether it knows all these sources, ascending by id.
   bool holds(std::span<const Source>) const;
@@ -42,7 +42,7 @@ class Aim {
   /// visit(Arrival) for each of rays() shadow rays that is not blocked: the sum of all of them is the estimate. `index`
   /// and `key` name the stratified numbers to use.
   template <class Visit>
-  void sample(const PointLight& light, const Receiver& x, std::uint32_t index, std::uint64_t key,
+  void sample(const PointSampler& light, const Receiver& x, std::uint32_t index, std::uint64_t key,
               const Visit& visit) const {
     if (dark()) return;
     const double shift = scrambledSobol(index, combineKeys(key, 1)).x;
@@ -84,7 +84,8 @@ class Aim {
   void sumWeights();
   void share();
   void keepFromSpecks(float light, int rays);
-  void look(const PointLight&, std::span<const Receiver> places, int rays, std::uint64_t key, std::vector<Look>&) const;
+  void look(const PointSampler&, std::span<const Receiver> places, int rays, std::uint64_t key,
+            std::vector<Look>&) const;
   void judge(std::vector<Look>&);
   static bool uneven(const Square&, std::span<const Look>);
   void divide(const Square&, std::span<Look>, std::vector<Square>& squares, std::vector<Look>& looks) const;
@@ -99,7 +100,7 @@ std::vector<Source> joined(std::span<const std::vector<Source>> places);
 
 /// Irradiance at a point to a relative standard error of `error` of itself plus `ambient`, by batches of rays of their
 /// own. `light`: about how much there is [W/m2, gray].
-ProbeResult measure(const PointLight&, std::span<const Source>, const Receiver&, float light, const Rgb& ambient,
+ProbeResult measure(const PointSampler&, std::span<const Source>, const Receiver&, float light, const Rgb& ambient,
                     double error, int maxSamples, std::uint64_t key);
 
 }  // namespace deltalux::direct

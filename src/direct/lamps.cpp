@@ -78,9 +78,9 @@ Lamps::Lamps(const Scene& scene) : scene_(scene), sampler_(scene) {
     } else {
       lamp.lower = lamp.upper = Vec3f(sampler_.position(lamp.id));
       lamp.axis = axisOf(light);
-      const Beam beam = beamOf(sampler_, lamp.id, lamp.axis, [](const scene::LightSampler& s, LightId id, const Vec3& w) {
-        return s.intensity(id, w);
-      });
+      const Beam beam =
+          beamOf(sampler_, lamp.id, lamp.axis,
+                 [](const scene::LightSampler& s, LightId id, const Vec3& w) { return s.intensity(id, w); });
       lamp.most = beam.most;
       if (const auto* spot = std::get_if<SpotLight>(&light.emitter)) lamp.halfAngle = std::acos(spot->cosOuter);
       if (std::holds_alternative<LambertPointLight>(light.emitter)) lamp.halfAngle = 0.5 * kPi;

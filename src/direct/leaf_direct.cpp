@@ -125,13 +125,13 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
     const double potential = lamps_.potential(lamp, g);
     if (!(potential > 0)) continue;
     asked.push_back({&lamp, potential, 1});
-    result.tooWideForBeam =
-        result.tooWideForBeam || g.radius > tuning::kBeam * lamps_.beamWidth(lamp, g);
+    result.tooWideForBeam = result.tooWideForBeam || g.radius > tuning::kBeam * lamps_.beamWidth(lamp, g);
   }
   if (asked.empty() || !points.have(1)) return result;
   if (asked.size() > tuning::kLampsAsked + tuning::kLampsDrawn) {
     // The many that may bring little stand for each other, drawn in proportion to what that is.
-    std::stable_sort(asked.begin(), asked.end(), [](const Asked& a, const Asked& b) { return a.potential > b.potential; });
+    std::stable_sort(asked.begin(), asked.end(),
+                     [](const Asked& a, const Asked& b) { return a.potential > b.potential; });
     std::vector<Asked> drawn(asked.begin(), asked.begin() + tuning::kLampsAsked);
     for (std::size_t i = tuning::kLampsAsked; i < asked.size(); ++i) rest += asked[i].potential;
     const double offset = toUnit(combineKeys(points.sequence.key(), kDrawKey));
@@ -161,8 +161,8 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
     const Lamp& lamp = *asked[l].lamp;
     Tally& t = tallies[l];
     const double weight = asked[l].weight;
-    const double open = std::max(t.samples > 0 ? double(gray(t.open)) / t.samples : 0.0,
-                                 t.shot == 0 ? asked[l].potential : 0.0);
+    const double open =
+        std::max(t.samples > 0 ? double(gray(t.open)) / t.samples : 0.0, t.shot == 0 ? asked[l].potential : 0.0);
     if (weight * open > tuning::kMatters * found) {
       if (!lamp.sun) shoot(lamp, points, tuning::kLampRays, t);
       if (!lamp.sun && t.mixed()) shoot(lamp, points, tuning::kMixedRays, t);

@@ -15,9 +15,9 @@ struct KnownPoints {
 };
 
 struct LeafDirect {
-  Rgb E{0.0f};              // mean over what is not covered [W/m2]
-  float deviation = 0;      // standard error of it, gray [W/m2]
-  float variation = 0;      // standard deviation over quadrants, gray [W/m2]
+  Rgb E{0.0f};                  // mean over what is not covered [W/m2]
+  float deviation = 0;          // standard error of it, gray [W/m2]
+  float variation = 0;          // standard deviation over quadrants, gray [W/m2]
   bool tooWideForBeam = false;  // a narrow beam would fall between samples
   std::uint32_t rays = 0;
 };
@@ -29,8 +29,8 @@ class DirectSampler {
 
   /// `whole`: with all the rays that its light is worth; without, with those that tell whether it varies.
   LeafDirect at(hierarchy::ElementId patch, const KnownPoints&, bool whole) const;
-  /// Direct light of suns and lamps at one point, unshadowed parts of a light drawn by `index` of the sequence of `key`:
-  /// one shadow ray a light of `rays` each. [W/m2]
+  /// Direct light of suns and lamps at one point, unshadowed parts of a light drawn by `index` of the sequence of
+  /// `key`: one shadow ray a light of `rays` each. [W/m2]
   Rgb atPoint(const Vec3& p, const Vec3& normal, int rays, std::uint32_t index, std::uint64_t key) const;
 
  private:
@@ -47,6 +47,7 @@ class DirectSampler {
 
 /// Whether direct light varies over a patch by more than its surroundings can stand, where there is about as much light
 /// as `level` [W/m2, gray]. `meanDistance`: of its lines.
-bool variesTooMuch(const LeafDirect&, const hierarchy::ElementGeometry&, double meanDistance, double level, double error);
+bool variesTooMuch(const LeafDirect&, const hierarchy::ElementGeometry&, double meanDistance, double level,
+                   double error);
 
 }  // namespace deltalux::direct

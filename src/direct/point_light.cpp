@@ -37,7 +37,7 @@ hierarchy::ElementGeometry pointPatch(const Receiver& x) {
   return g;
 }
 
-PointLight::PointLight(const Scene& scene, const tracing::RayTracer& tracer) : tracer_(tracer), lamps_(scene) {
+PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer) : tracer_(tracer), lamps_(scene) {
   whole_.assign(lamps_.all().begin(), lamps_.all().end());
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
@@ -71,7 +71,7 @@ PointLight::PointLight(const Scene& scene, const tracing::RayTracer& tracer) : t
   std::sort(curve_.begin(), curve_.end(), [&](int a, int b) { return place(a) < place(b); });
 }
 
-std::vector<Source> PointLight::lampsOver(const hierarchy::ElementGeometry& patch) const {
+std::vector<Source> PointSampler::lampsOver(const hierarchy::ElementGeometry& patch) const {
   std::vector<Source> out;
   for (std::size_t i = 0; i < whole_.size(); ++i)
     if (const double potential = lamps_.potential(whole_[i], patch); potential > 0)
@@ -79,7 +79,7 @@ std::vector<Source> PointLight::lampsOver(const hierarchy::ElementGeometry& patc
   return out;
 }
 
-void PointLight::addSkies(const hierarchy::ElementGeometry& patch, std::vector<Source>& out) const {
+void PointSampler::addSkies(const hierarchy::ElementGeometry& patch, std::vector<Source>& out) const {
   if (skies_.empty()) return;
   const bool flat = patch.normalCone > 0.999f;
   std::array<float, SkyCells::kCount> cosine;
@@ -95,11 +95,11 @@ void PointLight::addSkies(const hierarchy::ElementGeometry& patch, std::vector<S
     }
 }
 
-std::vector<Source> PointLight::sources(const Receiver& x) const {
+std::vector<Source> PointSampler::sources(const Receiver& x) const {
   return sources(pointPatch(x), [](int) { return 1.0f; });
 }
 
-std::optional<Arrival> PointLight::arrival(std::uint32_t source, const Receiver& x, const Vec2& u) const {
+std::optional<Arrival> PointSampler::arrival(std::uint32_t source, const Receiver& x, const Vec2& u) const {
   if (source < whole_.size()) {
     const LightId id = whole_[source].id;
     const auto s = lamps_.sampler().sample(id, x.position, u);

@@ -17,7 +17,7 @@ struct Receiver {
 
 /// A lamp, or a cell of a sky, as one place may see it.
 struct Source {
-  std::uint32_t id = 0;  // of PointLight
+  std::uint32_t id = 0;  // of PointSampler
   float potential = 0;   // irradiance that it may bring unshadowed, about [W/m2, gray]; > 0
   float open = 1;        // chance that it is seen, about; > 0
 };
@@ -33,10 +33,10 @@ struct Arrival {
 /// A point as a patch of no extent.
 hierarchy::ElementGeometry pointPatch(const Receiver&);
 
-class PointLight {
+class PointSampler {
  public:
   /// Both must outlive this.
-  PointLight(const Scene&, const tracing::RayTracer&);
+  PointSampler(const Scene&, const tracing::RayTracer&);
 
   const Lamps& lamps() const { return lamps_; }
   /// All that may shine on a patch, ascending by id. `openOf(cell)`: chance that a ray into a cell of the sky escapes.

@@ -92,7 +92,8 @@ SkyAtLeaf skyLight(const Skies& skies, const Openness& openness, const hierarchy
     float cosine = 1;
     if (flat) {
       cosine = glm::dot(g.normal, SkyCells::direction(cell, 0.5, 0.5));
-      for (int q = 0; q < 4; ++q) cosine = std::max(cosine, glm::dot(g.normal, SkyCells::direction(cell, q & 1, q >> 1)));
+      for (int q = 0; q < 4; ++q)
+        cosine = std::max(cosine, glm::dot(g.normal, SkyCells::direction(cell, q & 1, q >> 1)));
     }
     if (cosine > 0) total += skies.strength(cell) * cosine * openness.at(s.leaf, cell);
     cumulative[static_cast<std::size_t>(cell)] = total;
@@ -100,13 +101,16 @@ SkyAtLeaf skyLight(const Skies& skies, const Openness& openness, const hierarchy
   const auto rays = static_cast<double>(s.points.size());
   const auto guided = [&](int cell) { return total > 0 ? rays * weight(cell) / total / SkyCells::solidAngle() : 0.0; };
   // Density of own lines: they pass panes by chance, about what those let through.
-  const auto byLines = [&](float cosine, const Rgb& V) { return double(s.lines) * cosine / kPi * std::max(1e-3f, gray(V)); };
+  const auto byLines = [&](float cosine, const Rgb& V) {
+    return double(s.lines) * cosine / kPi * std::max(1e-3f, gray(V));
+  };
   RgbSum sum(0.0);
   double squares = 0;
   const auto add = [&](const Rgb& x) { sum += RgbSum(x), squares += double(gray(x)) * gray(x); };
   if (total > 0) {
     const hierarchy::LeafSequence sequence(elements, scene, s.element);
-    const ScrambledSobol choices(combineKeys(sequence.key(), kSkyKey)), places(combineKeys(sequence.key(), kSkyKey + 1));
+    const ScrambledSobol choices(combineKeys(sequence.key(), kSkyKey)),
+        places(combineKeys(sequence.key(), kSkyKey + 1));
     for (std::uint32_t k = 0; k < s.points.size(); ++k) {
       const UnitPair choice = choices(k), place = places(k);
       const auto at = std::upper_bound(cumulative.begin(), cumulative.end(), static_cast<float>(choice.x) * total);

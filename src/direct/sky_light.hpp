@@ -41,8 +41,8 @@ class Skies {
 /// Openness by guide: shares of lines into each cell that escape, in octaves.
 class Openness {
  public:
-  /// `forEachLine(sink)` calls sink(leaf, cell, escaped) for every line. Counts below the lowest element above each leaf that
-  /// has enough lines.
+  /// `forEachLine(sink)` calls sink(leaf, cell, escaped) for every line. Counts below the lowest element above each
+  /// leaf that has enough lines.
   template <class ForEachLine>
   Openness(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
            std::span<const std::uint32_t> linesOf, const ForEachLine& forEachLine) {

@@ -16,7 +16,7 @@ class PointSources {
   /// The solution, made by lines, must outlive this.
   explicit PointSources(const Solution&);
 
-  const direct::PointLight& light() const { return light_; }
+  const direct::PointSampler& light() const { return light_; }
   std::vector<direct::Source> at(hierarchy::ElementId leaf) const;
   /// The same for one point of it, or of a surface without leaves.
   std::vector<direct::Source> at(hierarchy::ElementId leaf, const direct::Receiver&) const;
@@ -28,7 +28,7 @@ class PointSources {
  private:
   const Solution& s_;
   hierarchy::LeafTable leaves_;
-  direct::PointLight light_;
+  direct::PointSampler light_;
   direct::Openness openness_;
 };
 

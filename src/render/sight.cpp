@@ -19,7 +19,7 @@ constexpr double kSmallest = 1.0 / 64;   // side of a square
 constexpr float kFaintShare = 1e-3f;     // of all rays: squares that get fewer stay whole
 constexpr int kFewestRays = 256;         // to learn from
 constexpr int kFewestAround = 2048;      // the same, for all of a part of a picture
-constexpr int kAroundShare = 4;          // rays of all sides over those that the whole part learns from
+constexpr int kAroundShare = 2;          // rays of all sides over those that the whole part learns from
 
 /// Senders side by side stand side by side; cells of a sky along a curve that fills it.
 std::pair<std::uint32_t, std::uint64_t> placeInOrder(const hierarchy::Elements& elements, hierarchy::ElementId e) {
