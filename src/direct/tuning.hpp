@@ -35,4 +35,12 @@ constexpr int kSkyRays = 32;
 /// Lines that tell openness below one element. Fewer: guides of chance.
 constexpr int kGuideLines = 4096;
 
+/// Most that one shadow ray of a point may bring where its light is thought to be hidden, in shares of the light there,
+/// and how many times as many rays that may cost. Higher: white specks. Lower: rays into what is hidden.
+constexpr float kSpeck = 8;
+constexpr float kMostGrowth = 1.5f;
+/// Rounds of learning where light comes from, each looking where the one before saw it, and the rays that a point of
+/// its own learns from. Fewer: grain beside windows and in penumbrae.
+constexpr int kLearningRounds = 3, kLearnAtPoint = 768;
+
 }  // namespace deltalux::direct::tuning

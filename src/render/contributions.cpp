@@ -25,20 +25,20 @@ void keepStrongest(std::vector<T>& list, std::size_t most) {
 }
 
 /// Shadow rays until the sum over all lamps is known well enough; each goes to the account of the lamp that it met.
-void measureLamps(const radiosity::DirectLight& direct, const radiosity::SenderChoice& choice,
-                  const radiosity::Receiver& x, const ContributionSettings& settings, Contributions& result) {
-  if (choice.dark()) return;
+/// `sample(key, visit)` shoots those of one independent estimate.
+template <class Sample>
+void measureLamps(const Sample& sample, const Vec3& normal, const ContributionSettings& settings,
+                  Contributions& result) {
   std::map<LightId, RgbSum> lamps;
   RgbSum sum(0.0), squares(0.0);
   double n = 0;
   for (int estimate = 0; estimate < kFirstEstimates || (estimate + 1) * kShadowRays <= settings.maxSamples;
        ++estimate) {
     RgbSum E(0.0);
-    direct.sample(choice, x, kShadowRays, 0, combineKeys(settings.seed, estimate),
-                  [&](const radiosity::LightArrival& a) {
-                    const RgbSum one(static_cast<float>(glm::dot(a.direction, x.normal)) * a.E);
-                    E += one, lamps[a.light] += one;
-                  });
+    sample(combineKeys(settings.seed, static_cast<std::uint64_t>(estimate)), [&](const auto& a) {
+      const RgbSum one(static_cast<float>(glm::dot(a.direction, normal)) * a.E);
+      E += one, lamps[a.light] += one;
+    });
     sum += E, squares += E * E, ++n;
     const RgbSum mean = sum / n, variance = glm::max(squares / n - mean * mean, RgbSum(0.0));
     if (n >= kFirstEstimates && gray(glm::sqrt(variance / (n - 1))) <= settings.error * gray(mean)) break;
@@ -48,22 +48,49 @@ void measureLamps(const radiosity::DirectLight& direct, const radiosity::SenderC
     if (gray(E) > 0) result.lamps.push_back({light, E / n});
 }
 
+/// The same over the links of a leaf, or of a point without one.
+void measureOverLinks(const radiosity::DirectLight& direct, const radiosity::SenderChoice& choice,
+                      const radiosity::Receiver& x, const ContributionSettings& settings, Contributions& result) {
+  if (choice.dark()) return;
+  measureLamps([&](std::uint64_t key, const auto& visit) { direct.sample(choice, x, kShadowRays, 0, key, visit); },
+               x.normal, settings, result);
+}
+
+/// The same where light is exchanged by lines.
+void measureOverLines(const rendering::PointSources& points, std::optional<hierarchy::ElementId> leaf,
+                      const radiosity::Receiver& at, const ContributionSettings& settings, Contributions& result) {
+  const direct::Receiver x{at.position, at.normal};
+  const std::vector<direct::Source> sources = leaf ? points.at(*leaf, x) : points.light().sources(x);
+  direct::Aim aim(sources);
+  aim.learn(points.light(), {&x, 1}, direct::tuning::kLearnAtPoint, combineKeys(settings.seed, 1));
+  aim = aim.at(sources, leaf ? points.lightAt(*leaf) : 0.0f, kShadowRays);
+  if (aim.dark()) return;
+  measureLamps([&](std::uint64_t key, const auto& visit) { aim.sample(points.light(), x, 0, key, visit); }, x.normal,
+               settings, result);
+}
+
 /// Last reflections, by the objects that they are on.
-void gatherSurfaces(const Solution& s, hierarchy::ElementId leaf, const radiosity::Receiver& x, double error,
-                    Contributions& result) {
+void gatherSurfaces(const Solution& s, const rendering::LineGather* lines, hierarchy::ElementId leaf,
+                    const radiosity::Receiver& x, const ContributionSettings& settings, Contributions& result) {
   struct Sent {
     RgbSum E{0.0};
     Vec3 centre{0};
   };
   std::map<ObjectId, Sent> objects;
-  const radiosity::IndirectSampler sampler(s.scene, s.elements, s.links, *s.tracer);
-  for (const auto& share :
-       sampler.sharesAtPoint(leaf, Vec3f(x.position), Vec3f(x.normal), rendering::gatherRays(error))) {
-    const PrimitiveId primitive = s.elements.domain[share.sender.index()].primitive;
+  const auto add = [&](hierarchy::ElementId sender, const Rgb& share) {
+    const PrimitiveId primitive = s.elements.domain[sender.index()].primitive;
     Sent& sent = objects[primitive.valid() ? s.scene[primitive].object : ObjectId()];
-    const RgbSum E(share.E);
-    sent.E += E, sent.centre += gray(E) * Vec3(s.elements.shape(share.sender).center);
+    const RgbSum E(share);
+    sent.E += E, sent.centre += gray(E) * Vec3(s.elements.shape(sender).center);
     result.indirect += E;
+  };
+  const int rays = rendering::gatherRays(settings.error);
+  if (lines) {
+    lines->forEachLine(Vec3f(x.position), Vec3f(x.normal), static_cast<std::uint32_t>(rays), settings.seed, add);
+  } else {
+    const radiosity::IndirectSampler sampler(s.scene, s.elements, s.links, *s.tracer);
+    for (const auto& share : sampler.sharesAtPoint(leaf, Vec3f(x.position), Vec3f(x.normal), rays))
+      add(share.sender, share.E);
   }
   for (const auto& [object, sent] : objects)
     if (gray(sent.E) > 0) result.surfaces.push_back({object, sent.centre / gray(sent.E), sent.E});
@@ -84,13 +111,18 @@ Contributions SolutionReader::contributions(const ProbePoint& point, const Contr
   const hierarchy::ElementId side = reconstruction.locator.side(spot->primitive, spot->triangle, spot->front);
   if (side.valid()) {
     const hierarchy::ElementId leaf = reconstruction.locator.locate(side, spot->position).leaf;
-    measureLamps(reconstruction.direct, reconstruction.choices.at(leaf), x, settings, result);
-    gatherSurfaces(s, leaf, x, settings.error, result);
+    if (reconstruction.points)
+      measureOverLines(*reconstruction.points, leaf, x, settings, result);
+    else
+      measureOverLinks(reconstruction.direct, reconstruction.choices.at(leaf), x, settings, result);
+    gatherSurfaces(s, meter.lines(), leaf, x, settings, result);
     const Rgb particle = meter.particleLight(*spot);
     result.particle = RgbSum(particle);
     if (!isBlack(particle)) result.paths = rendering::particlePathsAt(s, *spot, particle);
+  } else if (reconstruction.points) {
+    measureOverLines(*reconstruction.points, std::nullopt, x, settings, result);
   } else {
-    measureLamps(reconstruction.direct, reconstruction.direct.choiceAt(x), x, settings, result);
+    measureOverLinks(reconstruction.direct, reconstruction.direct.choiceAt(x), x, settings, result);
   }
   keepStrongest(result.lamps, settings.most);
   keepStrongest(result.surfaces, settings.most);

@@ -47,6 +47,13 @@ Rgb EyePaths::radiance(const EyeRay& eye, Sights& sights) const {
   return follow({eye.ray, Rgb(1.0f), eye.emitters, eye.emitters}, eye, sights);
 }
 
+Rgb EyePaths::diffuse(const tracing::Hit& hit, const Vec3& direction) const {
+  const Vertex v{hit, Vec3(hit.position), direction, hit.front ? Vec3(hit.normal) : -Vec3(hit.normal)};
+  Sights sights(elements_, reconstruction_);
+  bool lightsMet = false;
+  return scattered(v, EyeRay{}, 0, sights, lightsMet);
+}
+
 Rgb EyePaths::follow(Way w, const EyeRay& eye, Sights& sights) const {
   Rgb L(0.0f);
   while (w.depth <= settings_.maxDepth) {
@@ -194,15 +201,14 @@ Rgb EyePaths::irradiance(const Vertex& v, bool front, const scene::Bsdf* lobes, 
   const std::uint64_t key = combineKeys(eye.key, (front == v.hit.front ? kShadowKey : kOtherSideKey) + depth);
   const Frame frame(v.normal);
   const Vec3 wo = frame.toLocal(-v.direction);
-  sights.at(at.leaf).sample(reconstruction_.direct, receiver, settings_.shadowRays, eye.index, key,
-                            [&](const radiosity::LightArrival& a) {
-                              E += static_cast<float>(glm::dot(a.direction, receiver.normal)) * a.E;
-                              if (!lobes) return;
-                              const Vec3 wi = frame.toLocal(a.direction);
-                              const SpecularLobe& lobe = wi.z > 0 ? lobes->reflection : lobes->transmission;
-                              if (lobe.roughness > 0 && metByShadowRays(a.light, {v.position, lobe.roughness}))
-                                glossy += scene::evaluate(*lobes, wo, wi) * a.E;
-                            });
+  sights.sample(at.leaf, receiver, settings_.shadowRays, eye.index, key, [&](const auto& a) {
+    E += static_cast<float>(glm::dot(a.direction, receiver.normal)) * a.E;
+    if (!lobes) return;
+    const Vec3 wi = frame.toLocal(a.direction);
+    const SpecularLobe& lobe = wi.z > 0 ? lobes->reflection : lobes->transmission;
+    if (lobe.roughness > 0 && metByShadowRays(a.light, {v.position, lobe.roughness}))
+      glossy += scene::evaluate(*lobes, wo, wi) * a.E;
+  });
   return E;
 }
 

@@ -52,6 +52,12 @@ const ParticleField& LightMeter::particles() const {
   return *particles_;
 }
 
+void LightMeter::prepare(std::span<const ProbePoint> points) const {
+  if (!lines_ || space_) return;
+  const bool inSpace = std::any_of(points.begin(), points.end(), [&](const ProbePoint& p) { return !surfaceAt(p); });
+  if (inSpace) space_ = std::make_unique<const SpaceMeter>(solution_, paths_);
+}
+
 /// How near a surface has to be for a point to lie on it.
 double LightMeter::reachAt(const Vec3& p) const {
   const float rounding = std::numeric_limits<float>::epsilon() * tracing::largestCoordinate(Vec3f(p));
@@ -89,6 +95,7 @@ ProbeResult LightMeter::onSurface(const SurfaceSpot& spot, const ProbeSettings& 
   const radiosity::Receiver receiver{spot.position, spot.normal};
   if (!side.valid()) {
     if (settings.mesh) return {};
+    if (lines_) return directAt(receiver, std::nullopt, Rgb(0.0f), settings.error, settings, key);
     return reconstruction_.direct.measure(reconstruction_.direct.choiceAt(receiver), receiver, Rgb(0.0f),
                                           settings.error, settings.maxSamples, key);
   }
@@ -109,22 +116,29 @@ ProbeResult LightMeter::onSurface(const SurfaceSpot& spot, const ProbeSettings& 
 
 ProbeResult LightMeter::overLines(const hierarchy::LeafPoint& at, const SurfaceSpot& spot,
                                   const ProbeSettings& settings, std::uint64_t key) const {
-  // Each part a half of the quarter of the error that is asked for.
-  constexpr double kShare = 0.17;
   const radiosity::Receiver receiver{spot.position, spot.normal};
   const Rgb particles = particleLight(spot);
   const hierarchy::ElementLight& about = elements_.radiometry[at.leaf.index()];
-  ProbeResult result =
-      lines_->at(Vec3f(spot.position), Vec3f(spot.normal), gray(about.direct + particles), kShare * settings.error,
-                 static_cast<std::uint64_t>(settings.maxSamples), combineKeys(key, 3));
+  const double share = kDirectShare * settings.error;
+  ProbeResult result = lines_->at(Vec3f(spot.position), Vec3f(spot.normal), gray(about.direct + particles), share,
+                                  static_cast<std::uint64_t>(settings.maxSamples), combineKeys(key, 3));
   const ProbeResult direct =
-      reconstruction_.direct.measure(reconstruction_.choices.at(at.leaf), receiver, Rgb(result.irradiance) + particles,
-                                     kShare * settings.error, settings.maxSamples, key);
+      directAt(receiver, at.leaf, Rgb(result.irradiance) + particles, share, settings, combineKeys(key, 4));
   result.irradiance += direct.irradiance + RgbSum(particles);
   result.standardError =
       glm::sqrt(result.standardError * result.standardError + direct.standardError * direct.standardError);
   result.samples += direct.samples;
   return result;
+}
+
+ProbeResult LightMeter::directAt(const radiosity::Receiver& x, std::optional<hierarchy::ElementId> leaf,
+                                 const Rgb& ambient, double error, const ProbeSettings& settings,
+                                 std::uint64_t key) const {
+  const PointSources& points = *reconstruction_.points;
+  const direct::Receiver receiver{x.position, x.normal};
+  const std::vector<direct::Source> sources = leaf ? points.at(*leaf, receiver) : points.light().sources(receiver);
+  return direct::measure(points.light(), sources, receiver, leaf ? points.lightAt(*leaf) : gray(ambient), ambient,
+                         error, settings.maxSamples, key);
 }
 
 Rgb LightMeter::indirectAt(const hierarchy::LeafPoint& at, const SurfaceSpot& spot, double error) const {
@@ -137,6 +151,7 @@ Rgb LightMeter::particleLight(const SurfaceSpot& spot) const {
 }
 
 ProbeResult LightMeter::inFreeSpace(const ProbePoint& point, const ProbeSettings& settings, std::uint64_t key) const {
+  if (lines_) return space_->at(point, settings, combineKeys(key, 1));
   const radiosity::Receiver receiver{point.position, point.normal};
   const ProbeResult gathered = gather(receiver, settings, combineKeys(key, 1));
   ProbeResult result =
@@ -186,6 +201,7 @@ ProbeResult LightMeter::gather(const radiosity::Receiver& x, const ProbeSettings
 std::vector<ProbeResult> measureAll(const LightMeter& meter, std::span<const ProbePoint> points,
                                     const ProbeSettings& settings, Progress* progress) {
   std::vector<ProbeResult> results(points.size());
+  meter.prepare(points);
   WorkProgress work(progress, "probe", points.size());
   parallelFor(points.size(), 1, [&](std::size_t i) {
     work.begin();

@@ -10,6 +10,7 @@
 #include "render/eye_path.hpp"
 #include "render/line_gather.hpp"
 #include "render/particle_field.hpp"
+#include "render/space_meter.hpp"
 
 namespace deltalux::rendering {
 
@@ -26,10 +27,14 @@ class LightMeter {
   /// Both must outlive this.
   LightMeter(const Solution&, const Reconstruction&);
 
+  /// Makes what is needed for these points, if it is not there yet: not while other threads measure.
+  void prepare(std::span<const ProbePoint>) const;
   /// `key` names the random numbers.
   ProbeResult measure(const ProbePoint&, const ProbeSettings&, std::uint64_t key) const;
   /// The nearest surface that faces the point's normal, where the point lies on one.
   std::optional<SurfaceSpot> surfaceAt(const ProbePoint&) const;
+  /// Of a solution over lines; null for others.
+  const LineGather* lines() const { return lines_.get(); }
   /// What particles bring there [W/m2].
   Rgb particleLight(const SurfaceSpot&) const;
 
@@ -40,6 +45,9 @@ class LightMeter {
   ProbeResult gather(const radiosity::Receiver&, const ProbeSettings&, std::uint64_t key) const;
   ProbeResult overLines(const hierarchy::LeafPoint&, const SurfaceSpot&, const ProbeSettings&, std::uint64_t key) const;
   Rgb indirectAt(const hierarchy::LeafPoint&, const SurfaceSpot&, double error) const;
+  /// Direct light of a point where light is exchanged by lines.
+  ProbeResult directAt(const radiosity::Receiver&, std::optional<hierarchy::ElementId> leaf, const Rgb& ambient,
+                       double error, const ProbeSettings&, std::uint64_t key) const;
   /// Made when first asked for.
   const ParticleField& particles() const;
 
@@ -54,6 +62,7 @@ class LightMeter {
   std::unique_ptr<const LineGather> lines_;  // where light is exchanged by lines
   mutable std::once_flag once_;
   mutable std::unique_ptr<const ParticleField> particles_;
+  mutable std::unique_ptr<const SpaceMeter> space_;  // by prepare()
 };
 
 /// Rays over the links of a surface point, for indirect light of that relative error.

@@ -1,14 +1,12 @@
 #include "render/line_gather.hpp"
 
-#include <algorithm>
-
-#include "lines/tuning.hpp"
+#include "base/batch_mean.hpp"
 
 namespace deltalux::rendering {
 
 namespace {
 constexpr std::uint32_t kBatch = 64;  // lines of one independent estimate
-constexpr int kFewestBatches = 8;     // before any judgement
+constexpr int kFewestBatches = 32;    // before any judgement
 }  // namespace
 
 LineGather::LineGather(const Solution& s)
@@ -18,33 +16,42 @@ LineGather::LineGather(const Solution& s)
       responses_(s.scene, !s.settings.diffuseOnly),
       tracer_(s.scene, *s.tracer, responses_) {}
 
+Rgb LineGather::follow(const Vec3f& p, const Vec3f& normal, const lines::LineDirections& directions, std::uint64_t key,
+                       std::uint32_t i, hierarchy::ElementId& leaf) const {
+  leaf = {};
+  const lines::LineEnd end = tracer_.follow(p, normal, directions(i, normal), lines::LineDirections::random(key, i));
+  if (end.fate != lines::LineFate::Ended) return Rgb(0.0f);
+  const std::uint32_t number = locator_.at(end.side, end.position);
+  const float ends = responses_.at(end.side.primitive, end.side.front).ends;
+  if (number == hierarchy::LeafTable::kNone || !(ends > 0)) return Rgb(0.0f);
+  leaf = leaves_[number];
+  return end.weight * s_.elements.radiometry[leaf.index()].B / ends;
+}
+
+void LineGather::forEachLine(const Vec3f& p, const Vec3f& normal, std::uint32_t count, std::uint64_t key,
+                             const std::function<void(hierarchy::ElementId, const Rgb&)>& visit) const {
+  const lines::LineDirections directions(key);
+  hierarchy::ElementId leaf;
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (const Rgb B = follow(p, normal, directions, key, i, leaf); leaf.valid())
+      visit(leaf, B / static_cast<float>(count));
+}
+
 ProbeResult LineGather::at(const Vec3f& p, const Vec3f& normal, double ambient, double error, std::uint64_t most,
                            std::uint64_t key) const {
   ProbeResult result;
-  RgbSum sum(0.0), squares(0.0);
+  BatchMean mean;
   const lines::LineDirections directions(key);
-  const std::uint64_t batches = std::max<std::uint64_t>(most / kBatch, kFewestBatches);
-  for (std::uint64_t batch = 0; batch < batches; ++batch) {
+  hierarchy::ElementId leaf;
+  while (mean.count() < kFewestBatches || result.samples < most) {
     RgbSum own(0.0);
-    for (std::uint32_t k = 0; k < kBatch; ++k) {
-      const auto i = static_cast<std::uint32_t>(batch * kBatch + k);
-      const lines::LineEnd end =
-          tracer_.follow(p, normal, directions(i, normal), lines::LineDirections::random(key, i));
-      if (end.fate != lines::LineFate::Ended) continue;
-      const std::uint32_t leaf = locator_.at(end.side, end.position);
-      if (leaf == hierarchy::LeafTable::kNone) continue;
-      const float ends = responses_.at(end.side.primitive, end.side.front).ends;
-      if (ends > 0) own += RgbSum(end.weight * s_.elements.radiometry[leaves_[leaf].index()].B / ends);
-    }
-    own /= double(kBatch);
-    sum += own, squares += own * own;
+    for (std::uint32_t k = 0; k < kBatch; ++k)
+      own += RgbSum(follow(p, normal, directions, key, static_cast<std::uint32_t>(result.samples) + k, leaf));
+    mean.add(own / double(kBatch));
     result.samples += kBatch;
-    const double n = double(batch + 1);
-    result.irradiance = sum / n;
-    result.standardError =
-        glm::sqrt(glm::max(squares / n - result.irradiance * result.irradiance, RgbSum(0.0)) / std::max(n - 1, 1.0));
-    if (batch + 1 >= kFewestBatches && gray(result.standardError) <= error * (gray(result.irradiance) + ambient)) break;
+    if (mean.count() >= kFewestBatches && gray(mean.standardError()) <= error * (gray(mean.mean()) + ambient)) break;
   }
+  result.irradiance = mean.mean(), result.standardError = mean.standardError();
   return result;
 }
 

@@ -55,7 +55,7 @@ Sights Painter::lookAround(const Tile& t) const {
   for (int y = t.y0; y < t.y1; ++y)
     for (int x = t.x0; x < t.x1; ++x) paths_.survey(eyeRay(x, y, pixelInOrder(x, y), key), sights);
   const int rays = settings_.samplesPerPixel * settings_.shadowRays;
-  sights.learn(std::clamp(rays / kLearningShare, kFewestLearning, kMostLearning),
+  sights.learn(std::clamp(rays / kLearningShare, kFewestLearning, kMostLearning), settings_.shadowRays,
                combineKeys(key, pixelInOrder(t.x0, t.y0)));
   return sights;
 }

@@ -13,6 +13,8 @@ Reconstruction::Reconstruction(const Solution& s, const Reconstruction* before)
       field(s.elements, s.scene, *s.tracer, meshIrradiance(s.elements, s.caustics, s.transfers, s.deviation),
             kNoise * static_cast<float>(s.settings.error), before ? &before->field : nullptr),
       direct(s.scene, s.elements, s.links, *s.tracer),
-      choices(direct, s.elements.size()) {}
+      choices(direct, s.elements.size()) {
+  if (s.settings.method == SolveMethod::Lines) points = std::make_unique<const PointSources>(s);
+}
 
 }  // namespace deltalux::rendering

@@ -8,6 +8,7 @@
 #include "hierarchy/side_locator.hpp"
 #include "radiosity/direct_light.hpp"
 #include "render/irradiance_field.hpp"
+#include "render/point_sources.hpp"
 
 namespace deltalux {
 
@@ -50,6 +51,7 @@ struct Reconstruction {
   IrradianceField field;
   radiosity::DirectLight direct;
   ChoiceCache choices;
+  std::unique_ptr<const PointSources> points;  // of a solution over lines, in place of both
 };
 
 }  // namespace deltalux::rendering

@@ -18,6 +18,8 @@ constexpr double kUneven = 3;            // variance between quarters over that 
 constexpr double kSmallest = 1.0 / 64;   // side of a square
 constexpr float kFaintShare = 1e-3f;     // of all rays: squares that get fewer stay whole
 constexpr int kFewestRays = 256;         // to learn from
+constexpr int kFewestAround = 2048;      // the same, for all of a part of a picture
+constexpr int kAroundShare = 2;          // rays of all sides over those that the whole part learns from
 
 /// Senders side by side stand side by side; cells of a sky along a curve that fills it.
 std::pair<std::uint32_t, std::uint64_t> placeInOrder(const hierarchy::Elements& elements, hierarchy::ElementId e) {
@@ -175,21 +177,22 @@ std::uint64_t Sights::sideOf(hierarchy::ElementId leaf) const {
   return 2 * std::uint64_t(elements_.domain[leaf.index()].primitive.value) + (elements_.at(leaf).front ? 1 : 0);
 }
 
-void Sights::learn(int raysOfPlace, std::uint64_t key) {
+void Sights::learn(int raysOfPlace, int rays, std::uint64_t key) {
   std::stable_sort(places_.begin(), places_.end(), [&](const Place& a, const Place& b) {
     return std::pair(sideOf(a.leaf), a.leaf) < std::pair(sideOf(b.leaf), b.leaf);
   });
-  for (auto first = places_.begin(); first != places_.end();) {
+  if (reconstruction_.points) learnOverLines(raysOfPlace, rays, key);
+  for (auto first = places_.begin(); first != places_.end() && !reconstruction_.points;) {
     const std::uint64_t side = sideOf(first->leaf);
     const auto last = std::find_if(first, places_.end(), [&](const Place& p) { return sideOf(p.leaf) != side; });
-    const int rays = std::max(kFewestRays, raysOfPlace * static_cast<int>(last - first));
-    learn({first, last}, rays, combineKeys(key, side));
+    const int learning = std::max(kFewestRays, raysOfPlace * static_cast<int>(last - first));
+    learn({first, last}, learning, combineKeys(key, side));
     first = last;
   }
   places_ = {};
 }
 
-void Sights::learn(std::span<const Place> ofSide, int rays, std::uint64_t key) {
+void Sights::learn(std::span<const Place> ofSide, int learning, std::uint64_t key) {
   std::vector<hierarchy::ElementId> leaves;
   std::vector<const radiosity::SenderChoice*> choices;
   std::vector<radiosity::Receiver> places;
@@ -199,13 +202,52 @@ void Sights::learn(std::span<const Place> ofSide, int rays, std::uint64_t key) {
     leaves.push_back(p.leaf), choices.push_back(&reconstruction_.choices.at(p.leaf));
   }
   Sight all(elements_, choices);
-  all.learn(reconstruction_.direct, places, rays, key);
+  all.learn(reconstruction_.direct, places, learning, key);
   for (std::size_t i = 0; i < leaves.size(); ++i) known_.emplace(leaves[i], all.of(*choices[i]));
+}
+
+void Sights::learnOverLines(int raysOfPlace, int rays, std::uint64_t key) {
+  if (places_.empty()) return;
+  const PointSources& points = *reconstruction_.points;
+  std::vector<direct::Receiver> receivers;
+  std::vector<std::size_t> first;  // place of each leaf, and of the end
+  std::vector<std::vector<direct::Source>> sources;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    receivers.push_back({places_[i].at.position, places_[i].at.normal});
+    if (i > 0 && places_[i].leaf == places_[i - 1].leaf) continue;
+    first.push_back(i), sources.push_back(points.at(places_[i].leaf));
+  }
+  first.push_back(places_.size());
+  const int shared = std::max(kFewestAround, raysOfPlace * static_cast<int>(places_.size()) / kAroundShare);
+  around_ = direct::Aim(direct::joined(sources));
+  around_.learn(points.light(), receivers, shared, key);
+  for (std::size_t begin = 0, end = 0; begin < sources.size(); begin = end) {
+    const std::uint64_t side = sideOf(places_[first[begin]].leaf);
+    for (end = begin + 1; end < sources.size() && sideOf(places_[first[end]].leaf) == side;) ++end;
+    const auto own = std::span(receivers).subspan(first[begin], first[end] - first[begin]);
+    direct::Aim all = around_.of(direct::joined(std::span(sources).subspan(begin, end - begin)));
+    all.learn(points.light(), own, raysOfPlace * static_cast<int>(own.size()), combineKeys(key, side));
+    for (std::size_t i = begin; i < end; ++i) {
+      const hierarchy::ElementId leaf = places_[first[i]].leaf;
+      aims_.emplace(leaf, all.at(sources[i], points.lightAt(leaf), rays));
+    }
+  }
 }
 
 const Sight& Sights::at(hierarchy::ElementId leaf) {
   if (const auto found = known_.find(leaf); found != known_.end()) return found->second;
   return known_.emplace(leaf, Sight(elements_, reconstruction_.choices.at(leaf))).first->second;
+}
+
+/// Of a leaf where no place was noted: as what is around it has it.
+const direct::Aim& Sights::aimAt(hierarchy::ElementId leaf, int rays) {
+  if (const auto found = aims_.find(leaf); found != aims_.end()) return found->second;
+  const PointSources& points = *reconstruction_.points;
+  const std::vector<direct::Source> sources = points.at(leaf);
+  direct::Aim aim = around_.of(sources);
+  // Too little of what shines there may be known from around.
+  aim = aim.holds(sources) ? aim.at(sources, points.lightAt(leaf), rays) : points.aimAt(leaf, rays);
+  return aims_.emplace(leaf, std::move(aim)).first->second;
 }
 
 }  // namespace deltalux::rendering

@@ -87,7 +87,7 @@ class Sight {
 };
 
 /// The sights of a part of a picture, by leaf: places are noted, learnt from, and then looked up. The leaves of one
-/// side of a surface learn together.
+/// side of a surface learn together, over lines from what all of the picture's part has learnt before.
 class Sights {
  public:
   /// Both must outlive this.
@@ -95,9 +95,20 @@ class Sights {
       : elements_(elements), reconstruction_(reconstruction) {}
 
   void note(hierarchy::ElementId leaf, const radiosity::Receiver& place) { places_.push_back({leaf, place}); }
-  /// By so many rays a place that was noted; places are forgotten then.
-  void learn(int raysOfPlace, std::uint64_t key);
+  /// For `rays` shadow rays a sample, by so many rays a place that was noted; places are forgotten then.
+  void learn(int raysOfPlace, int rays, std::uint64_t key);
   const Sight& at(hierarchy::ElementId leaf);
+
+  /// visit(arrival) for each of about `rays` shadow rays from a point of a leaf that is not blocked: the sum of all is
+  /// the estimate. `index` and `key` name the stratified numbers to use.
+  template <class Visit>
+  void sample(hierarchy::ElementId leaf, const radiosity::Receiver& x, int rays, std::uint32_t index, std::uint64_t key,
+              const Visit& visit) {
+    if (const PointSources* points = reconstruction_.points.get())
+      aimAt(leaf, rays).sample(points->light(), {x.position, x.normal}, index, key, visit);
+    else
+      at(leaf).sample(reconstruction_.direct, x, rays, index, key, visit);
+  }
 
  private:
   const hierarchy::Elements& elements_;
@@ -108,9 +119,14 @@ class Sights {
   };
   std::vector<Place> places_;
   std::unordered_map<hierarchy::ElementId, Sight> known_;
+  // Of a solution over lines: of all that the picture's part shows, and by leaf.
+  direct::Aim around_;
+  std::unordered_map<hierarchy::ElementId, direct::Aim> aims_;
 
   std::uint64_t sideOf(hierarchy::ElementId leaf) const;
-  void learn(std::span<const Place> ofSide, int rays, std::uint64_t key);
+  void learn(std::span<const Place> ofSide, int learning, std::uint64_t key);
+  void learnOverLines(int raysOfPlace, int rays, std::uint64_t key);
+  const direct::Aim& aimAt(hierarchy::ElementId leaf, int rays);
 };
 
 }  // namespace deltalux::rendering

@@ -80,7 +80,7 @@ TEST_F(SightTest, LearningKeepsTheMeanAndTakesNoiseAway) {
       const auto [leaf, x] = place(1.6 + 0.05 * i, 0.4 + 0.05 * j);
       learnt.note(leaf, x);
     }
-  learnt.learn(64, 7);
+  learnt.learn(64, 4, 7);
   for (const double y : {1.63, 1.81, 1.92}) {
     const auto [leaf, x] = place(y, 0.57);
     const Moments a = momentsOf(plain.at(leaf), reconstruction_->direct, x, 1),
@@ -96,7 +96,7 @@ TEST_F(SightTest, WhatItDoesNotExpectIsStillFound) {
   Sights learnt(solution_->elements, *reconstruction_), plain(solution_->elements, *reconstruction_);
   const auto [leaf, x] = place(2.0, 0.5);
   for (int i = 0; i < 32; ++i) learnt.note(leaf, x);
-  learnt.learn(64, 7);
+  learnt.learn(64, 4, 7);
   const hierarchy::ElementGeometry& g = solution_->elements.shape(leaf);
   const radiosity::Receiver corner{Vec3(0.98 * Vec3(g.upper) + 0.02 * Vec3(g.lower)), {1, 0, 0}};
   const Moments a = momentsOf(plain.at(leaf), reconstruction_->direct, corner, 1),

@@ -34,8 +34,8 @@ Rgb passed(const Dielectric* medium, double distance) {
 }  // namespace
 
 PathTracer::PathTracer(const ReferenceScene& scene, const LightConnections& connections, const ConnectionTable& table,
-                       int maxDepth)
-    : scene_(scene), connections_(connections), table_(table), maxDepth_(maxDepth) {}
+                       int maxDepth, KnownRadiance known)
+    : scene_(scene), connections_(connections), table_(table), maxDepth_(maxDepth), known_(std::move(known)) {}
 
 RgbSum PathTracer::irradiance(const Vec3& position, const Vec3& normal, PathSampler& sampler,
                               std::uint64_t& rays) const {
@@ -71,11 +71,15 @@ RgbSum PathTracer::follow(Walk walk, PathSampler& sampler, std::uint64_t& rays) 
 
     const Vec3 normal = glm::normalize(Vec3(hit.normal)) * (hit.front ? 1.0 : -1.0);
     PathVertex vertex{Vec3(hit.position), normal, -walk.direction, &scene_.bsdf(hit.primitive, hit.front), walk.medium};
-    scene::Bsdf textured;
-    if (scene_.isTextured(hit.primitive)) {
-      textured = *vertex.bsdf;
-      textured.diffuseReflection *= scene_.tint(hit.primitive, hit.triangle, vertex.position);
-      vertex.bsdf = &textured;
+    scene::Bsdf own;
+    if (known_) {
+      sum += walk.throughput * known_(hit, walk.direction);
+      own = scene::specularPart(*vertex.bsdf);
+      vertex.bsdf = &own;
+    } else if (scene_.isTextured(hit.primitive)) {
+      own = *vertex.bsdf;
+      own.diffuseReflection *= scene_.tint(hit.primitive, hit.triangle, vertex.position);
+      vertex.bsdf = &own;
     }
     if (maxDepth_ > 0 && walk.depth >= maxDepth_) return sum;
     if (vertex.bsdf->hasFinitePart()) sum += walk.throughput * connect(vertex, 1, sampler, rays);

@@ -18,6 +18,8 @@
 // there.
 //
 // Cost per bounce: one closest hit, one shadow ray (one more per bend).
+#include <functional>
+
 #include "render/reference/connection_table.hpp"
 #include "render/reference/path_sampler.hpp"
 
@@ -32,10 +34,15 @@ struct PathVertex {
   const Dielectric* medium = nullptr;  // that the vertex is in
 };
 
+/// Radiance that the diffuse parts of a surface send back along `direction`, in which it was hit [W/(sr m2)].
+using KnownRadiance = std::function<Rgb(const tracing::Hit&, const Vec3& direction)>;
+
 class PathTracer {
  public:
-  /// `maxDepth`: scatterings after which a path ends in any case; 0: none.
-  PathTracer(const ReferenceScene&, const LightConnections&, const ConnectionTable&, int maxDepth);
+  /// `maxDepth`: scatterings after which a path ends in any case; 0: none. `known`: paths take what diffuse surfaces
+  /// send from there, and go on over what is not diffuse alone.
+  PathTracer(const ReferenceScene&, const LightConnections&, const ConnectionTable&, int maxDepth,
+             KnownRadiance known = {});
 
   /// Irradiance at a point [W/m2], one path's estimate.
   RgbSum irradiance(const Vec3& position, const Vec3& normal, PathSampler&, std::uint64_t& rays) const;
@@ -77,6 +84,7 @@ class PathTracer {
   const LightConnections& connections_;
   const ConnectionTable& table_;
   int maxDepth_;
+  KnownRadiance known_;
 };
 
 }  // namespace deltalux::rendering

@@ -42,8 +42,10 @@ Scene diffuseOnlyScene(Scene scene) {
   return scene;
 }
 
-ReferenceScene::ReferenceScene(const Scene& scene, bool diffuseOnly)
-    : scene_(prepare(scene, diffuseOnly)), lights_(scene_), rays_(tracing::makeEmbreeTracer(scene_)) {
+ReferenceScene::ReferenceScene(const Scene& scene, bool diffuseOnly, std::shared_ptr<const tracing::RayTracer> rays)
+    : scene_(prepare(scene, diffuseOnly)),
+      lights_(scene_),
+      rays_(rays ? std::move(rays) : tracing::makeEmbreeTracer(scene_)) {
   for (const Material& material : scene_.materials) {
     for (bool front : {false, true}) {
       bsdfs_.push_back(scene::makeBsdf(material, front));

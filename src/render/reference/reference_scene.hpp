@@ -16,7 +16,8 @@ Scene diffuseOnlyScene(Scene scene);
 
 class ReferenceScene {
  public:
-  ReferenceScene(const Scene&, bool diffuseOnly);
+  /// `rays`: over a scene of the same primitives; made here where there are none.
+  ReferenceScene(const Scene&, bool diffuseOnly, std::shared_ptr<const tracing::RayTracer> rays = nullptr);
 
   const Scene& scene() const { return scene_; }
   const tracing::RayTracer& rays() const { return *rays_; }
@@ -36,7 +37,7 @@ class ReferenceScene {
  private:
   Scene scene_;
   scene::LightSampler lights_;
-  std::unique_ptr<tracing::RayTracer> rays_;
+  std::shared_ptr<const tracing::RayTracer> rays_;
   std::vector<scene::Bsdf> bsdfs_;
   std::vector<char> textured_;
 };

@@ -1,0 +1,121 @@
+#include "direct/point_light.hpp"
+
+#include <algorithm>
+
+#include "base/morton.hpp"
+#include "tracing/shadow_ray.hpp"
+
+namespace deltalux::direct {
+
+namespace {
+
+constexpr float kOpenLamp = 0.5f;    // chance that a lamp is seen, before any ray
+constexpr double kNarrowSky = 0.25;  // half angle below which a sky is taken whole [radians]
+
+/// Like a sun of its size.
+Lamp narrow(LightId id, const DomeLight& dome, const Rgb& scale) {
+  constexpr int kGrid = 8;
+  Lamp lamp;
+  lamp.id = id, lamp.sun = true, lamp.axis = dome.axis, lamp.halfAngle = dome.halfAngle;
+  const Frame frame(dome.axis);
+  const double least = std::cos(dome.halfAngle), angle = 2 * kPi * (1 - least);
+  for (int k = 0; k < kGrid * kGrid; ++k) {
+    const double z = least + (1 - least) * (k % kGrid + 0.5) / kGrid, phi = 2 * kPi * (k / kGrid + 0.5) / kGrid;
+    const double r = std::sqrt(std::max(0.0, 1 - z * z));
+    const Vec3 w = frame.toWorld({r * std::cos(phi), r * std::sin(phi), z});
+    lamp.most += angle / (kGrid * kGrid) * gray(scale * skyRadiance(dome, w));
+  }
+  return lamp;
+}
+
+}  // namespace
+
+hierarchy::ElementGeometry pointPatch(const Receiver& x) {
+  hierarchy::ElementGeometry g;
+  g.center = g.lower = g.upper = Vec3f(x.position);
+  g.normal = Vec3f(x.normal), g.normalCone = 1;
+  return g;
+}
+
+PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer) : tracer_(tracer), lamps_(scene) {
+  whole_.assign(lamps_.all().begin(), lamps_.all().end());
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    const auto* dome = std::get_if<DomeLight>(&light.emitter);
+    if (!dome || isBlack(light.scale)) continue;
+    if (dome->halfAngle < kNarrowSky) {
+      whole_.push_back(narrow(LightId(i), *dome, light.scale));
+      continue;
+    }
+    Sky sky{LightId(i), *dome, light.scale};
+    constexpr int kGrid = 8;
+    for (int cell = 0; cell < SkyCells::kCount; ++cell)
+      for (int k = 0; k < kGrid * kGrid; ++k)
+        sky.strength[static_cast<std::size_t>(cell)] +=
+            gray(sky.scale * skyRadiance(*dome, Vec3(SkyCells::direction(cell, (k % kGrid + 0.5) / kGrid,
+                                                                         (k / kGrid + 0.5) / kGrid)))) /
+            (kGrid * kGrid);
+    skies_.push_back(std::move(sky));
+  }
+  for (int cell = 0; cell < SkyCells::kCount; ++cell) {
+    const auto c = static_cast<std::size_t>(cell);
+    curve_[c] = cell;
+    looks_[c][4] = SkyCells::direction(cell, 0.5, 0.5);
+    for (int corner = 0; corner < 4; ++corner)
+      looks_[c][static_cast<std::size_t>(corner)] = SkyCells::direction(cell, corner & 1, corner >> 1);
+  }
+  const auto place = [](int cell) {
+    return morton(static_cast<std::uint32_t>(cell % tuning::kSkyAzimuths),
+                  static_cast<std::uint32_t>(cell / tuning::kSkyAzimuths));
+  };
+  std::sort(curve_.begin(), curve_.end(), [&](int a, int b) { return place(a) < place(b); });
+}
+
+std::vector<Source> PointSampler::lampsOver(const hierarchy::ElementGeometry& patch) const {
+  std::vector<Source> out;
+  for (std::size_t i = 0; i < whole_.size(); ++i)
+    if (const double potential = lamps_.potential(whole_[i], patch); potential > 0)
+      out.push_back({static_cast<std::uint32_t>(i), static_cast<float>(potential), kOpenLamp});
+  return out;
+}
+
+void PointSampler::addSkies(const hierarchy::ElementGeometry& patch, std::vector<Source>& out) const {
+  if (skies_.empty()) return;
+  const bool flat = patch.normalCone > 0.999f;
+  std::array<float, SkyCells::kCount> cosine;
+  cosine.fill(flat ? 0.0f : 1.0f);
+  for (std::size_t cell = 0; flat && cell < SkyCells::kCount; ++cell)
+    for (const Vec3f& w : looks_[cell]) cosine[cell] = std::max(cosine[cell], glm::dot(patch.normal, w));
+  for (std::size_t s = 0; s < skies_.size(); ++s)
+    for (std::size_t k = 0; k < SkyCells::kCount; ++k) {
+      const auto cell = static_cast<std::size_t>(curve_[k]);
+      const float potential = skies_[s].strength[cell] * cosine[cell] * static_cast<float>(SkyCells::solidAngle());
+      if (potential > 0)
+        out.push_back({static_cast<std::uint32_t>(whole_.size() + s * SkyCells::kCount + k), potential, 1.0f});
+    }
+}
+
+std::vector<Source> PointSampler::sources(const Receiver& x) const {
+  return sources(pointPatch(x), [](int) { return 1.0f; });
+}
+
+std::optional<Arrival> PointSampler::arrival(std::uint32_t source, const Receiver& x, const Vec2& u) const {
+  if (source < whole_.size()) {
+    const LightId id = whole_[source].id;
+    const auto s = lamps_.sampler().sample(id, x.position, u);
+    if (!s || !(glm::dot(s->direction, x.normal) > 0)) return std::nullopt;
+    const Rgb V = tracer_.transmittance(tracing::shadowRay(x.position, x.normal, s->direction, s->distance, s->normal));
+    if (isBlack(V)) return std::nullopt;
+    return Arrival{s->direction, id, V * s->radiance * static_cast<float>(1 / (s->pdf > 0 ? s->pdf : 1.0))};
+  }
+  const Sky& sky = skies_[(source - whole_.size()) / SkyCells::kCount];
+  const Vec3 w(SkyCells::direction(cellOf(source), u.x, u.y));
+  if (!(glm::dot(w, x.normal) > 0)) return std::nullopt;
+  const Rgb L = sky.scale * skyRadiance(sky.light, w);
+  if (isBlack(L)) return std::nullopt;
+  const Rgb V = tracer_.transmittance(tracing::shadowRay(x.position, x.normal, w, kInfinity, Vec3(0)));
+  if (isBlack(V)) return std::nullopt;
+  return Arrival{w, sky.id, V * L * static_cast<float>(SkyCells::solidAngle())};
+}
+
+}  // namespace deltalux::direct

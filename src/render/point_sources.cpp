@@ -1,0 +1,58 @@
+#include "render/point_sources.hpp"
+
+#include "hierarchy/leaf_sequence.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux::rendering {
+
+namespace {
+
+constexpr int kLeafPoints = 32, kLeafRays = 256;  // to learn from, where nothing is known of a leaf's own pixels
+constexpr std::uint64_t kLeafKey = 0x61696d5f5f5full;
+
+direct::Openness opennessOf(const Solution& s, const hierarchy::LeafTable& leaves) {
+  std::vector<std::uint32_t> counts(leaves.size());
+  for (std::size_t i = 0; i < leaves.size(); ++i) counts[i] = s.lines.countOf(i);
+  return {s.elements, leaves, counts, [&](const auto& sink) {
+            for (std::size_t i = 0; i < leaves.size(); ++i)
+              for (std::uint64_t k = s.lines.first[i]; k < s.lines.first[i + 1]; ++k)
+                if (s.lines.end[k] != lines::kCovered)
+                  sink(static_cast<std::uint32_t>(i), direct::SkyCells::of(lines::direction(s.lines.code[k])),
+                       s.lines.end[k] == lines::kEscaped);
+          }};
+}
+
+}  // namespace
+
+PointSources::PointSources(const Solution& s)
+    : s_(s), leaves_(s.elements), light_(s.scene, *s.tracer), openness_(opennessOf(s, leaves_)) {}
+
+std::vector<direct::Source> PointSources::at(hierarchy::ElementId leaf) const {
+  const std::uint32_t i = leaves_.indexOf[leaf.index()];
+  return light_.sources(s_.elements.shape(leaf), [&](int cell) { return openness_.at(i, cell); });
+}
+
+std::vector<direct::Source> PointSources::at(hierarchy::ElementId leaf, const direct::Receiver& x) const {
+  const std::uint32_t i = leaves_.indexOf[leaf.index()];
+  return light_.sources(direct::pointPatch(x), [&](int cell) { return openness_.at(i, cell); });
+}
+
+float PointSources::lightAt(hierarchy::ElementId leaf) const {
+  const hierarchy::ElementLight& l = s_.elements.radiometry[leaf.index()];
+  return gray(l.direct + l.indirect + l.particle);
+}
+
+direct::Aim PointSources::aimAt(hierarchy::ElementId leaf, int rays) const {
+  const hierarchy::LeafSequence points(s_.elements, s_.scene, leaf);
+  std::vector<direct::Receiver> places;
+  for (std::uint32_t k = 0; k < kLeafPoints; ++k) {
+    const hierarchy::PatchPoint p = points.point(k);
+    places.push_back({Vec3(p.position), Vec3(p.normal)});
+  }
+  const std::vector<direct::Source> sources = at(leaf);
+  direct::Aim aim(sources);
+  aim.learn(light_, places, kLeafRays, combineKeys(points.key(), kLeafKey));
+  return aim.at(sources, lightAt(leaf), rays);
+}
+
+}  // namespace deltalux::rendering

@@ -1,0 +1,42 @@
+#include "render/space_meter.hpp"
+
+#include "base/batch_mean.hpp"
+#include "base/random.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux::rendering {
+
+namespace {
+
+constexpr double kTableBudget = 1e6;   // test samples behind the choice of connections
+constexpr std::uint32_t kBatch = 256;  // paths of one independent estimate
+constexpr int kFewestBatches = 8;      // before any judgement
+
+}  // namespace
+
+SpaceMeter::SpaceMeter(const Solution& s, const EyePaths& paths)
+    : scene_(s.scene, s.settings.diffuseOnly, s.tracer),
+      connections_(scene_),
+      table_(scene_, connections_, kTableBudget),
+      tracer_(scene_, connections_, table_, 0,
+              [&paths](const tracing::Hit& hit, const Vec3& direction) { return paths.diffuse(hit, direction); }) {}
+
+ProbeResult SpaceMeter::at(const ProbePoint& x, const ProbeSettings& settings, std::uint64_t key) const {
+  ProbeResult result;
+  BatchMean mean;
+  std::uint64_t rays = 0;
+  while (mean.count() < kFewestBatches || result.samples < static_cast<std::uint64_t>(settings.maxSamples)) {
+    RgbSum own(0.0);
+    for (std::uint32_t i = 0; i < kBatch; ++i) {
+      PathSampler sampler(combineKeys(key, static_cast<std::uint64_t>(mean.count())), i);
+      own += tracer_.irradiance(x.position, x.normal, sampler, rays);
+    }
+    mean.add(own / double(kBatch));
+    result.samples += kBatch;
+    if (mean.count() >= kFewestBatches && gray(mean.standardError()) <= settings.error * gray(mean.mean())) break;
+  }
+  result.irradiance = mean.mean(), result.standardError = mean.standardError();
+  return result;
+}
+
+}  // namespace deltalux::rendering
