@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostPoints = 64;
 constexpr std::uint64_t kLampKey = 0x6c616d70735f5full, kDrawKey = 0x647261775f5f5full;
-static_assert(tuning::kUnshadowedPoints <= kMostPoints && tuning::kMixedSunRays <= kMostPoints);
+static_assert(tuning::kUnshadowedPoints <= kMostPoints && tuning::kSunPilots + tuning::kMixedSunRays <= kMostPoints);
 
 }  // namespace
 
@@ -52,6 +52,7 @@ struct DirectSampler::Points {
 
 /// What shadow rays to one lamp have found.
 struct DirectSampler::Tally {
+  int first = 0;  // point
   int samples = 0, shot = 0, passed = 0;
   RgbSum open{0.0}, lit{0.0};  // sums of unshadowed and of found light
   std::array<double, 4> quadrants{}, counts{};
@@ -82,8 +83,8 @@ Rgb openLight(const scene::LightSampler& sampler, LightId id, const Vec3& p, con
 
 void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, Tally& t) const {
   const ScrambledSobol numbers(combineKeys(combineKeys(points.sequence.key(), kLampKey), lamp.id.value));
-  for (; t.samples < upTo && points.have(t.samples + 1); ++t.samples) {
-    const auto k = static_cast<std::size_t>(t.samples);
+  for (; t.samples < upTo && points.have(t.first + t.samples + 1); ++t.samples) {
+    const auto k = static_cast<std::size_t>(t.first + t.samples);
     const hierarchy::PatchPoint& x = points.at[k];
     t.counts[points.quadrant[k]] += 1;
     tracing::Ray ray;
@@ -147,34 +148,45 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
     asked = std::move(drawn);
   }
 
-  std::vector<Tally> tallies(asked.size());
+  // Pilot samples decide how many others are worth taking, and take no part in the estimate: where few rays pass, what
+  // is refined because one did would be worth less than it counts, and the rest nothing.
+  std::vector<Tally> pilots(asked.size());
   double found = 0;
   for (std::size_t l = 0; l < asked.size(); ++l) {
     const Lamp& lamp = *asked[l].lamp;
-    Tally& t = tallies[l];
-    shoot(lamp, points, lamp.sun ? tuning::kSunRays : tuning::kFirstRays, t);
+    Tally& t = pilots[l];
+    shoot(lamp, points, lamp.sun ? tuning::kSunPilots : tuning::kLampPilots, t);
     if (t.samples > 0) found += asked[l].weight * gray(t.lit) / t.samples;
+    result.rays += t.rays;
   }
   std::array<double, 4> quadrants{};
   double variance = 0;
   for (std::size_t l = 0; l < asked.size(); ++l) {
     const Lamp& lamp = *asked[l].lamp;
-    Tally& t = tallies[l];
+    const Tally& pilot = pilots[l];
     const double weight = asked[l].weight;
-    const double open =
-        std::max(t.samples > 0 ? double(gray(t.open)) / t.samples : 0.0, t.shot == 0 ? asked[l].potential : 0.0);
-    if (weight * open > tuning::kMatters * found) {
-      if (!lamp.sun) shoot(lamp, points, tuning::kLampRays, t);
-      if (!lamp.sun && t.mixed()) shoot(lamp, points, tuning::kMixedRays, t);
-      if (lamp.sun && whole && t.mixed()) shoot(lamp, points, tuning::kMixedSunRays, t);
+    const double open = pilot.shot > 0 ? gray(pilot.open) / pilot.samples : asked[l].potential;
+    int wanted = lamp.sun ? (whole && pilot.mixed() ? tuning::kMixedSunRays : tuning::kSunRays)
+                 : pilot.mixed() ? tuning::kMixedRays
+                                 : tuning::kLampRays;
+    if (!lamp.sun && !(weight * open > tuning::kMatters * found)) wanted = tuning::kFaintRays;
+    Tally t;
+    t.first = pilot.samples;
+    shoot(lamp, points, wanted, t);
+    if (t.samples == 0) t = pilot;  // there are no more points
+    Rgb E(0.0f);
+    if (lamp.sun || !whole) {
+      if (t.samples > 0) E = Rgb(t.lit / double(t.samples));
+    } else {
+      // Of a narrow beam few points may lie in it: shadow rays start from some that do.
+      Rgb all(0.0f);
+      if (t.shot == 0 || t.passed > 0) all = unshadowed(lamp, points);
+      for (int more = wanted; t.shot == 0 && !isBlack(all) && t.samples == more && more < kMostPoints;)
+        shoot(lamp, points, more = std::min(2 * more, kMostPoints), t);
+      for (int c = 0; c < 3; ++c) E[c] = t.open[c] > 0 ? all[c] * static_cast<float>(t.lit[c] / t.open[c]) : 0.0f;
     }
     result.rays += t.rays;
     if (t.passed == 0) continue;
-    Rgb E = Rgb(t.lit / double(t.samples));
-    if (whole && !lamp.sun) {
-      const Rgb all = unshadowed(lamp, points);
-      for (int c = 0; c < 3; ++c) E[c] = t.open[c] > 0 ? all[c] * static_cast<float>(t.lit[c] / t.open[c]) : 0.0f;
-    }
     result.E += static_cast<float>(weight) * E;
     const double mean = gray(t.lit) / t.samples;
     if (t.samples > 1 && t.mixed())

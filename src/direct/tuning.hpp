@@ -3,10 +3,11 @@
 
 namespace deltalux::direct::tuning {
 
-/// Shadow rays of a leaf to the sun, and where they disagree. Fewer: penumbrae and edges of sunlight are grainy.
-constexpr int kSunRays = 16, kMixedSunRays = 64;
-/// Shadow rays to a lamp: at first; where it matters; where those disagree. Fewer: lamps' shadows are grainy.
-constexpr int kFirstRays = 1, kLampRays = 4, kMixedRays = 16;
+/// Shadow rays of a leaf to the sun: those that tell whether others disagree, and as many more, or more than that where
+/// they do. Fewer: penumbrae and edges of sunlight are grainy.
+constexpr int kSunPilots = 8, kSunRays = 16, kMixedSunRays = 56;
+/// The same to a lamp, and how many where it hardly matters. Fewer: lamps' shadows are grainy.
+constexpr int kLampPilots = 3, kLampRays = 4, kMixedRays = 16, kFaintRays = 1;
 /// A lamp matters where, unshadowed, it brings more than this share of what has been found. Higher: faint lamps'
 /// shadows are lost.
 constexpr double kMatters = 0.01;
