@@ -1,7 +1,7 @@
 #pragma once
 // The mean of independent estimates, and how well it is known.
 #include <cmath>
-#include <deltalux/math.hpp>
+#include <deltalux/units.hpp>
 
 namespace deltalux {
 

@@ -205,7 +205,7 @@ ProbeResult measure(const PointSampler& light, std::span<const Source> sources, 
   ProbeResult result;
   Aim aim(sources);
   aim.learn(light, {&x, 1}, tuning::kLearnAtPoint, combineKeys(key, 1));
-  aim = aim.at(sources, level, kBatch);
+  aim = aim.at(sources, level / kBatch, kBatch);  // no ray may outweigh a whole estimate: few of them would not know
   if (aim.dark()) return result;
   BatchMean mean;
   while (mean.count() < kFewestBatches || result.samples < static_cast<std::uint64_t>(maxSamples)) {

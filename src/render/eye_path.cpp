@@ -47,11 +47,22 @@ Rgb EyePaths::radiance(const EyeRay& eye, Sights& sights) const {
   return follow({eye.ray, Rgb(1.0f), eye.emitters, eye.emitters}, eye, sights);
 }
 
-Rgb EyePaths::diffuse(const tracing::Hit& hit, const Vec3& direction) const {
-  const Vertex v{hit, Vec3(hit.position), direction, hit.front ? Vec3(hit.normal) : -Vec3(hit.normal)};
-  Sights sights(elements_, reconstruction_);
-  bool lightsMet = false;
-  return scattered(v, EyeRay{}, 0, sights, lightsMet);
+Rgb EyePaths::diffuse(const tracing::Hit& hit) const {
+  const Vec3 position(hit.position);
+  const scene::Bsdf& b = bsdf(hit.primitive, hit.front);
+  const auto from = [&](bool front) {
+    const hierarchy::ElementId side = reconstruction_.locator.side(hit.primitive, hit.triangle, front);
+    if (!side.valid()) return Rgb(0.0f);
+    const hierarchy::LeafPoint at = reconstruction_.locator.locate(side, position);
+    Rgb E = elements_.radiometry[at.leaf.index()].direct + reconstruction_.field.indirect(at, Vec3f(position));
+    if (const auto caustic = causticLight(caustics_, scene_, hit.primitive, hit.triangle, front, position))
+      E += *caustic;
+    return E;
+  };
+  Rgb sum(0.0f);
+  if (!isBlack(b.diffuseReflection)) sum += b.diffuseReflection * from(hit.front);
+  if (!isBlack(b.diffuseTransmission)) sum += b.diffuseTransmission * from(!hit.front);
+  return float(1 / kPi) * scene::textureTint(scene_, hit.primitive, hit.triangle, position) * sum;
 }
 
 Rgb EyePaths::follow(Way w, const EyeRay& eye, Sights& sights) const {

@@ -34,9 +34,9 @@ class EyePaths {
 
   /// [W/(sr m2)]; `sights` learn what leaves they do not know.
   Rgb radiance(const EyeRay&, Sights& sights) const;
-  /// What the diffuse parts of a surface send back along `direction`, in which it was hit; direct light from the mesh
-  /// where settings say so.
-  Rgb diffuse(const tracing::Hit&, const Vec3& direction) const;
+  /// What the diffuse parts of a surface send back from where it was hit [W/(sr m2)]. Direct light is the leaf's own,
+  /// not blended: over small bright spots that would make light, or lose it.
+  Rgb diffuse(const tracing::Hit&) const;
   /// Notes the places that radiance() would look at the lights from.
   void survey(const EyeRay&, Sights& sights) const;
 

@@ -73,7 +73,7 @@ RgbSum PathTracer::follow(Walk walk, PathSampler& sampler, std::uint64_t& rays) 
     PathVertex vertex{Vec3(hit.position), normal, -walk.direction, &scene_.bsdf(hit.primitive, hit.front), walk.medium};
     scene::Bsdf own;
     if (known_) {
-      sum += walk.throughput * known_(hit, walk.direction);
+      sum += walk.throughput * known_(hit);
       own = scene::specularPart(*vertex.bsdf);
       vertex.bsdf = &own;
     } else if (scene_.isTextured(hit.primitive)) {

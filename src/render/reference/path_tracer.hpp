@@ -34,8 +34,8 @@ struct PathVertex {
   const Dielectric* medium = nullptr;  // that the vertex is in
 };
 
-/// Radiance that the diffuse parts of a surface send back along `direction`, in which it was hit [W/(sr m2)].
-using KnownRadiance = std::function<Rgb(const tracing::Hit&, const Vec3& direction)>;
+/// Radiance that the diffuse parts of a surface send back from where it was hit [W/(sr m2)].
+using KnownRadiance = std::function<Rgb(const tracing::Hit&)>;
 
 class PathTracer {
  public:
