@@ -20,8 +20,8 @@ struct PhaseTimes {  // [s]
 };
 
 struct WorkCounts {
-  std::uint64_t elements = 0, leafElements = 0, links = 0, linksDs = 0, lines = 0, particles = 0, impacts = 0, raysVisibility = 0,
-                raysParticles = 0, iterations = 0, causticTextures = 0;
+  std::uint64_t elements = 0, leafElements = 0, links = 0, linksDs = 0, lines = 0, particles = 0, impacts = 0,
+                raysVisibility = 0, raysParticles = 0, iterations = 0, causticTextures = 0;
   double causticTextureMeanSize = 0;  // texels a side
 };
 

@@ -166,7 +166,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
     const Tally& pilot = pilots[l];
     const double weight = asked[l].weight;
     const double open = pilot.shot > 0 ? gray(pilot.open) / pilot.samples : asked[l].potential;
-    int wanted = lamp.sun ? (whole && pilot.mixed() ? tuning::kMixedSunRays : tuning::kSunRays)
+    int wanted = lamp.sun        ? (whole && pilot.mixed() ? tuning::kMixedSunRays : tuning::kSunRays)
                  : pilot.mixed() ? tuning::kMixedRays
                                  : tuning::kLampRays;
     if (!lamp.sun && !(weight * open > tuning::kMatters * found)) wanted = tuning::kFaintRays;

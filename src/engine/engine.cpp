@@ -46,7 +46,8 @@ Engine::Engine(SolutionView view) : state_(std::make_unique<State>()) {
     state_->solution = std::make_shared<Solution>(*held);
     state_->solution->tracer = tracing::makeEmbreeTracer(state_->solution->scene);
   }
-  state_->finished = !state_->solution->transfers.empty() || state_->solution->lines.leaves() > 0 || state_->solution->elements.size() == 0;
+  state_->finished = !state_->solution->transfers.empty() || state_->solution->lines.leaves() > 0 ||
+                     state_->solution->elements.size() == 0;
   state_->prepareToFollow();
 }
 

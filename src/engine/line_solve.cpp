@@ -109,7 +109,7 @@ bool LineSolve::takesPart(hierarchy::ElementId patch) const {
 std::unique_ptr<LineSolve> solveCoarsely(Solution& s, const TimeBudget& budget, Progress* progress) {
   Stopwatch watch;
   auto solve = std::make_unique<LineSolve>(s);
-  s.report.converged = traceParticles(s, budget);
+  solve->allParticles = traceParticles(s, budget);
   s.report.times.particles += watch.lap();
   if (progress) progress->report("particles", 1.0);
   checkInterrupted(progress);
@@ -170,7 +170,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
   s.report.error = estimateError(s, x.floor);
   s.report.times.gather += watch.lap();
   if (progress) progress->report("lines", 1.0);
-  return meshed && base >= wanted && s.report.converged;
+  return meshed && base >= wanted && x.allParticles;
 }
 
 }  // namespace deltalux::engine

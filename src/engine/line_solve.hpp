@@ -38,7 +38,8 @@ struct LineSolve {
   direct::Skies skies;
   std::vector<char> enclosed;  // by element of the input level
   PatchSamples samples;
-  double floor = 0;  // light that still matters [W/m2, gray]
+  double floor = 0;          // light that still matters [W/m2, gray]
+  bool allParticles = true;  // as many as the error asks for: there was time
 
   bool takesPart(hierarchy::ElementId patch) const;
 };

@@ -41,7 +41,7 @@ Json json(const WorkCounts& c) {
 }
 
 Json json(const MemoryBytes& m) {
-  return {{"elements", m.elements}, {"links", m.links},       {"lines", m.lines},          {"particles", m.particles},
+  return {{"elements", m.elements}, {"links", m.links},       {"lines", m.lines},     {"particles", m.particles},
           {"octree", m.octree},     {"textures", m.textures}, {"peak_rss", m.peakRss}};
 }
 

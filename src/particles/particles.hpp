@@ -114,7 +114,7 @@ void validate(const Particles&, const Scene&);
 struct ParticleSettings {
   std::uint64_t count = 0;  // target
   std::uint64_t seed = 1;
-  int maxDepth = 64;  // non-diffuse events
+  int maxDepth = 64;       // non-diffuse events
   bool ofSurfaces = true;  // diffuse surfaces send some, too, and not lights alone
 };
 

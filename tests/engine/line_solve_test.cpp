@@ -77,8 +77,7 @@ TEST(LineSolve, EnergyIsKeptToAThousandth) {
   Scene scene;
   addBox(scene, addMaterial(scene, "wall", lambert(0.5f)), {0, 0, 0}, {1, 1.5, 0.8}, true);
   addBox(scene, addMaterial(scene, "mirror", Mirror{Rgb(0.8f)}), {0.2, 0.3, 0.1}, {0.5, 0.6, 0.5}, false);
-  addBox(scene,
-         addMaterial(scene, "gloss", Opaque{Rgb(0.3f), {}, {Rgb(0.4f), 0.1f, SpecularLobe::Distribution::Ggx}}),
+  addBox(scene, addMaterial(scene, "gloss", Opaque{Rgb(0.3f), {}, {Rgb(0.4f), 0.1f, SpecularLobe::Distribution::Ggx}}),
          {0.7, 0.2, 0}, {0.9, 0.4, 0.5}, false);
   addShape(scene, addMaterial(scene, "glass", Dielectric{Rgb(1.0f), 1.5f}), Sphere{{0.6, 1.1, 0.3}, 0.2});
   addLight(scene, PointLight{{0.7, 0.7, 0.6}, Rgb(1.0f)});
@@ -87,6 +86,59 @@ TEST(LineSolve, EnergyIsKeptToAThousandth) {
   EXPECT_NEAR(*l.emittedW, 4 * kPi, 0.005 * 4 * kPi);
   EXPECT_NEAR(*l.escapedW, 0, 1e-6 * 4 * kPi);
   EXPECT_NEAR(residue(l), 0, 0.002);
+}
+
+/// A room with a block and a ball, about the z axis turned by `angle`, and two lamps.
+Scene turnedRoom(double angle, float first, float second) {
+  const glm::dmat3 turn(glm::rotate(Mat4(1.0), angle, Vec3(0, 0, 1)));
+  Scene scene;
+  const MaterialId white = addMaterial(scene, "white", lambert(0.7f));
+  const auto turned = [&](std::vector<Vec3> vertices) {
+    for (Vec3& v : vertices) v = turn * v;
+    return vertices;
+  };
+  const auto box = [&](MaterialId m, const Vec3& a, const Vec3& b, bool inward) {
+    Scene straight;
+    addBox(straight, addMaterial(straight, "m", lambert(0)), a, b, inward);
+    for (const Primitive& p : straight.primitives) addPolygon(scene, m, turned(std::get<Polygon>(p.shape).vertices));
+  };
+  box(white, Vec3(0), {3, 2.5, 2.2}, true);
+  box(addMaterial(scene, "red", Opaque{Rgb(0.6f, 0.2f, 0.1f), {}, {}}), {0.8, 0.7, 0}, {1.4, 1.5, 0.9}, false);
+  addShape(scene, white, Sphere{turn * Vec3(2.2, 1.2, 0.5), 0.3, false});
+  addLight(scene, PointLight{turn * Vec3(0.5, 1.2, 2), Rgb(first)});
+  addLight(scene, PointLight{turn * Vec3(2.4, 1.6, 1.9), Rgb(second)});
+  return scene;
+}
+
+std::vector<double> luxAt(Scene scene, double angle) {
+  const glm::dmat3 turn(glm::rotate(Mat4(1.0), angle, Vec3(0, 0, 1)));
+  std::vector<ProbePoint> points;
+  for (const double x : {0.3, 1.1, 1.9, 2.7})
+    for (const double y : {0.3, 1.8, 2.3}) {
+      points.push_back({turn * Vec3(x, y, 0), {0, 0, 1}});
+      points.push_back({turn * Vec3(x, y, 2.2), {0, 0, -1}});
+      points.push_back({turn * Vec3(x, 0, 0.4 * y), turn * Vec3(0, 1, 0)});
+    }
+  std::vector<double> values;
+  for (const ProbeResult& r : measure(solvedByLines(std::move(scene)), points)) values.push_back(lux(r));
+  return values;
+}
+
+TEST(LineSolve, IsLinearInTheLamps) {
+  const auto first = luxAt(turnedRoom(0, 12, 0), 0), second = luxAt(turnedRoom(0, 0, 5), 0),
+             both = luxAt(turnedRoom(0, 12, 5), 0);
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < both.size(); ++i) differences.push_back(std::abs((first[i] + second[i]) / both[i] - 1));
+  EXPECT_LT(spreadOf(differences).median, 0.01);
+  EXPECT_LT(spreadOf(differences).p95, 0.04);
+}
+
+TEST(LineSolve, IsTheSameInATurnedScene) {
+  const auto straight = luxAt(turnedRoom(0, 12, 5), 0), turned = luxAt(turnedRoom(0.6, 12, 5), 0.6);
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < straight.size(); ++i) differences.push_back(std::abs(turned[i] / straight[i] - 1));
+  EXPECT_LT(spreadOf(differences).median, 0.01);
+  EXPECT_LT(spreadOf(differences).p95, 0.04);
 }
 
 TEST(LineSolve, OneHashForAnyNumberOfThreads) {
@@ -102,9 +154,7 @@ TEST(LineSolve, OneHashForAnyNumberOfThreads) {
 TEST(LineSolve, AnUpdatedSolutionIsTheFreshOne) {
   Engine edited = solvedByLines(furnishedRoom(), 0.1);
   const auto editable = editableOfFurnishedRoom();
-  Edit edit;
-  edit.op = TransformEdit{editable.movable.front(), glm::translate(Mat4(1.0), Vec3(0.1, 0.05, 0))};
-  edited.apply(edit);
+  edited.apply(TransformObject{editable.objects.front(), glm::translate(Mat4(1.0), Vec3(0.1, 0.05, 0))});
   edited.update();
   Engine fresh = solvedByLines(edited.solution().scene(), 0.1);
   EXPECT_EQ(hashOf(edited), hashOf(fresh));
@@ -172,8 +222,8 @@ TEST(LineSolve, CornellBoxesAgreeWithTheReference) {
   const Errors plain = errorsAgainst(shared / "reference/cornell.rad", shared / "reference/cornell.csv");
   EXPECT_LT(plain.median, 0.01);
   EXPECT_LT(plain.p95, 0.04);
-  const Errors caustic = errorsAgainst(shared / "reference/cornell-mirror-caustic.rad",
-                                       shared / "reference/cornell-mirror-caustic.csv");
+  const Errors caustic =
+      errorsAgainst(shared / "reference/cornell-mirror-caustic.rad", shared / "reference/cornell-mirror-caustic.csv");
   EXPECT_LT(caustic.median, 0.01);
   EXPECT_LT(caustic.p95, 0.05);
 }

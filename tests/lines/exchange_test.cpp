@@ -81,8 +81,10 @@ TEST(Exchange, WhatIsSentArrives) {
   Exchanged x(closedRoom());
   std::vector<double> share(x.leaves.size());
   x.exchange->arriving(share);
-  for (std::size_t i = 0; i < share.size(); ++i)
-    if (x.exchange->closed(i) > 0) EXPECT_NEAR(share[i], 1, 0.02) << i;
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const bool inside = x.exchange->closed(i) > 0;
+    EXPECT_NEAR(share[i], inside ? 1 : 0, 0.02) << i;
+  }
 }
 
 TEST(Iterate, ReachesTheSumOfTheGeometricSeries) {

@@ -66,7 +66,7 @@ TEST(FollowLine, APanePassesReflectsAndAbsorbs) {
 TEST(FollowLine, GlossShowsItsDiffusePartAndGoesOn) {
   const Opaque gloss{Rgb(0.3f), {}, {Rgb(0.5f), 0.0f, SpecularLobe::Distribution::Ward}};
   const Tally t = sentUp(under(gloss), 1 << 16);
-  EXPECT_NEAR(t.ended, 1, 1e-2);     // all of it arrives there
+  EXPECT_NEAR(t.ended, 1, 1e-2);      // all of it arrives there
   EXPECT_NEAR(t.escaped, 0.5, 1e-2);  // and half of it goes on
   EXPECT_EQ(t.absorbed, 0);           // which its leaf accounts for
 }

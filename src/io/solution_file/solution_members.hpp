@@ -26,7 +26,8 @@ void members(auto& archive, Is<ErrorEstimate> auto& e) {
 }
 void members(auto& archive, Is<SolveReport> auto& r) {
   auto& [times, counts, memory, error, energy, activeLinks, provenClear, provenBlocked, cutParticles, converged] = r;
-  transferAll(archive, times, counts, memory, error, energy, activeLinks, provenClear, provenBlocked, cutParticles, converged);
+  transferAll(archive, times, counts, memory, error, energy, activeLinks, provenClear, provenBlocked, cutParticles,
+              converged);
 }
 
 void members(auto& archive, Is<hierarchy::Elements> auto& e) {
