@@ -32,10 +32,10 @@ bool segmentMeets(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& ra
 /// box. The centres of those that do lie where the segment meets the box as it is larger by their largest radius: no
 /// others count, and they may be smaller.
 bool ballsMeet(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& axis, float from, float to) {
-  constexpr float kWorth = 0.8f, kRounding = 1.0001f, kLeast = 1e-12f;
+  constexpr float kWorth = 0.8f, kOutward = 1.0001f, kSmallest = 1e-12f;
   Vec3f enter, leave, scale;
   for (int i = 0; i < 3; ++i) {
-    const float d = axis.direction[i], inverse = 1.0f / std::copysign(std::max(std::abs(d), kLeast), d);
+    const float d = axis.direction[i], inverse = 1.0f / std::copysign(std::max(std::abs(d), kSmallest), d);
     const float a = (lower[i] - axis.origin[i]) * inverse, b = (upper[i] - axis.origin[i]) * inverse;
     enter[i] = std::min(a, b), leave[i] = std::max(a, b), scale[i] = std::abs(inverse);
   }
@@ -49,7 +49,7 @@ bool ballsMeet(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& axis,
   };
   const float radius = std::max(from, to);
   if (!meets(radius)) return false;
-  const float slope = (to - from) / axis.tFar, within = kRounding * (from + slope * (slope > 0 ? far : near));
+  const float slope = (to - from) / axis.tFar, within = kOutward * (from + slope * (slope > 0 ? far : near));
   return within > kWorth * radius || meets(within);
 }
 
@@ -172,7 +172,7 @@ bool SpaceChange::behind(const Vec3f& point, const Vec3f& normal) const {
 void SpaceChange::meetsRays(const hierarchy::ElementGeometry& from, std::span<const RayCode> rays,
                             std::vector<std::uint32_t>& out) const {
   if (empty()) return;
-  constexpr float kLeast = 1e-6f;  // of a coordinate of a direction
+  constexpr float kSmallest = 1e-6f;  // of a coordinate of a direction
   constexpr std::size_t kMost = 64;
   // As far as a ray of the box, or one whose direction is not quite the coded one, may be from that of its middle.
   const Vec3f center = 0.5f * (from.lower + from.upper), half = 0.5f * (from.upper - from.lower);
@@ -189,7 +189,7 @@ void SpaceChange::meetsRays(const hierarchy::ElementGeometry& from, std::span<co
       float nearest = (blocked(ray) ? 1 - kRayCodeError : 0.0f) * end(ray);
       float furthest = (1 + kRayCodeError) * end(ray);
       for (int axis = 0; axis < 3; ++axis) {
-        const float inverse = 1.0f / std::copysign(std::max(std::abs(d[axis]), kLeast), d[axis]);
+        const float inverse = 1.0f / std::copysign(std::max(std::abs(d[axis]), kSmallest), d[axis]);
         const float a = lower[axis] * inverse, b = upper[axis] * inverse;
         nearest = std::max(nearest, std::min(a, b));
         furthest = std::min(furthest, std::max(a, b));
