@@ -68,6 +68,12 @@ DirectSampler::DirectSampler(const hierarchy::Elements& elements, const Scene& s
 
 namespace {
 
+/// Whether a lamp is so near that its light varies much over the patch.
+bool nearBy(const Lamp& lamp, const hierarchy::ElementGeometry& g) {
+  const Vec3f center = 0.5f * (lamp.lower + lamp.upper), half = 0.5f * (lamp.upper - lamp.lower);
+  return glm::length(center - g.center) < tuning::kNearBy * (g.radius + glm::length(half));
+}
+
 /// Unshadowed light of a sample at a point [W/m2], and its ray.
 Rgb openLight(const scene::LightSampler& sampler, LightId id, const Vec3& p, const Vec3& normal, const UnitPair& u,
               tracing::Ray& ray) {
@@ -98,11 +104,11 @@ void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, Tally& t) 
   }
 }
 
-Rgb DirectSampler::unshadowed(const Lamp& lamp, Points& points) const {
+Rgb DirectSampler::unshadowed(const Lamp& lamp, Points& points, int wanted) const {
   const ScrambledSobol numbers(combineKeys(combineKeys(points.sequence.key(), kLampKey), lamp.id.value));
   RgbSum sum(0.0);
-  points.have(tuning::kUnshadowedPoints);
-  const int n = std::min(points.count, tuning::kUnshadowedPoints);
+  points.have(wanted);
+  const int n = std::min(points.count, wanted);
   for (int i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
     tracing::Ray ray;
@@ -180,7 +186,8 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
     } else {
       // Of a narrow beam few points may lie in it: shadow rays start from some that do.
       Rgb all(0.0f);
-      if (t.shot == 0 || t.passed > 0) all = unshadowed(lamp, points);
+      if (t.shot == 0 || t.passed > 0)
+        all = unshadowed(lamp, points, t.shot < t.samples || nearBy(lamp, g) ? kMostPoints : tuning::kUnshadowedPoints);
       for (int more = wanted; t.shot == 0 && !isBlack(all) && t.samples == more && more < kMostPoints;)
         shoot(lamp, points, more = std::min(2 * more, kMostPoints), t);
       for (int c = 0; c < 3; ++c) E[c] = t.open[c] > 0 ? all[c] * static_cast<float>(t.lit[c] / t.open[c]) : 0.0f;

@@ -37,7 +37,7 @@ class DirectSampler {
   struct Points;
   struct Tally;
   void shoot(const Lamp&, Points&, int upTo, Tally&) const;
-  Rgb unshadowed(const Lamp&, Points&) const;
+  Rgb unshadowed(const Lamp&, Points&, int wanted) const;
 
   const hierarchy::Elements& elements_;
   const Scene& scene_;

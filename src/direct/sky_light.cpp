@@ -19,6 +19,19 @@ constexpr float kLeastOpen = 1.0f / 64;                 // openness of a cell in
 /// Power of two nearest to a share.
 float octave(float share) { return std::exp2(std::round(std::log2(std::clamp(share, kLeastOpen, 1.0f)))); }
 
+/// The middle and the corners of a cell.
+using CellDirections = std::array<Vec3f, 5>;
+
+std::vector<CellDirections> cellDirections() {
+  std::vector<CellDirections> cells(SkyCells::kCount);
+  for (int cell = 0; cell < SkyCells::kCount; ++cell) {
+    CellDirections& d = cells[static_cast<std::size_t>(cell)];
+    d[4] = SkyCells::direction(cell, 0.5, 0.5);
+    for (int q = 0; q < 4; ++q) d[static_cast<std::size_t>(q)] = SkyCells::direction(cell, q & 1, q >> 1);
+  }
+  return cells;
+}
+
 }  // namespace
 
 int SkyCells::of(const Vec3f& direction) {
@@ -88,12 +101,12 @@ SkyAtLeaf skyLight(const Skies& skies, const Openness& openness, const hierarchy
     const auto c = static_cast<std::size_t>(cell);
     return cumulative[c] - (c > 0 ? cumulative[c - 1] : 0.0f);
   };
+  static const std::vector<CellDirections> cells = cellDirections();
   for (int cell = 0; cell < SkyCells::kCount; ++cell) {
     float cosine = 1;
     if (flat) {
-      cosine = glm::dot(g.normal, SkyCells::direction(cell, 0.5, 0.5));
-      for (int q = 0; q < 4; ++q)
-        cosine = std::max(cosine, glm::dot(g.normal, SkyCells::direction(cell, q & 1, q >> 1)));
+      cosine = -1;
+      for (const Vec3f& w : cells[static_cast<std::size_t>(cell)]) cosine = std::max(cosine, glm::dot(g.normal, w));
     }
     if (cosine > 0) total += skies.strength(cell) * cosine * openness.at(s.leaf, cell);
     cumulative[static_cast<std::size_t>(cell)] = total;

@@ -140,7 +140,7 @@ Outcome diffuseLight(const Solution& s) {
 /// The same where light is exchanged by lines, which go on over mirrors, gloss and glass: by some of those lines,
 /// traced again.
 Outcome lineLight(const Solution& s) {
-  constexpr std::size_t kLines = 1 << 20;
+  constexpr std::size_t kLines = 1 << 19;
   const hierarchy::Elements& elements = s.elements;
   const lines::SurfaceResponses responses(s.scene, !s.settings.diffuseOnly);
   const lines::LineTracer tracer(s.scene, *s.tracer, responses);
