@@ -97,7 +97,7 @@ std::vector<std::uint64_t> keysOfLeaves(const hierarchy::Elements& elements) {
 
 template <class Table>
 bool sameBytes(const Table& a, const Table& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0);
 }
 
 /// Lines, with the directions that are not stored, and particles.
