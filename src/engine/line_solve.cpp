@@ -5,8 +5,8 @@
 
 #include "base/check.hpp"
 #include "caustics/choice.hpp"
+#include "engine/clock.hpp"
 #include "engine/particle_count.hpp"
-#include "engine/stopwatch.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/patch.hpp"
 #include "lines/line_counts.hpp"
@@ -20,9 +20,8 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr double kCoarseConverged = 1e-3;  // residual of the coarse light, relative to emitted
-constexpr double kMeshTime = 0.5;          // share of all time after which the mesh is split no more
-constexpr double kLineTime = 0.8;          // share of the time that is left then that lines may take
+constexpr double kMeshTime = 0.5;  // share of all time after which the mesh is split no more
+constexpr double kLineTime = 0.8;  // share of the time that is left then that lines may take
 
 void checkInterrupted(Progress* progress) {
   if (progress && progress->stopRequested()) throw Interrupted();
@@ -107,7 +106,7 @@ bool LineSolve::takesPart(hierarchy::ElementId patch) const {
 }
 
 std::unique_ptr<LineSolve> solveCoarsely(Solution& s, const TimeBudget& budget, Progress* progress) {
-  Stopwatch watch;
+  Clock watch;
   auto solve = std::make_unique<LineSolve>(s);
   solve->allParticles = traceParticles(s, budget);
   s.report.times.particles += watch.lap();
@@ -125,7 +124,7 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, const TimeBudget& budget, 
   samplePatches(*solve, inputs);
   lines::setMeanFreePaths(s.elements, solve->samples.scale);
   placeParticles(s);
-  lightLeaves(*solve, lines::tuning::kFirstLines, kCoarseConverged);
+  lightLeaves(*solve, lines::tuning::kFirstLines, lines::tuning::kCoarseConverged);
   for (const hierarchy::ElementId e : inputs) {
     hierarchy::ElementLight& l = s.elements.radiometry[e.index()];
     l.typical = gray(l.direct + l.indirect);
@@ -140,7 +139,7 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, const TimeBudget& budget, 
 
 bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
   Solution& s = x.s;
-  Stopwatch watch;
+  Clock watch;
   checkInterrupted(progress);
   const bool meshed = refineMesh(x, receivingInputs(s.elements), [&] {
     checkInterrupted(progress);

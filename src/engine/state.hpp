@@ -1,7 +1,6 @@
 #pragma once
 // What an engine holds between calls, and its three ways to get on: it solves (solving.cpp), takes edits in whole
 // (updating.cpp), or takes them in frame by frame, as far as time goes (frames.cpp).
-#include <chrono>
 #include <deltalux/engine.hpp>
 #include <functional>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "caustics/texture_upkeep.hpp"
+#include "engine/clock.hpp"
 #include "engine/growth.hpp"
 #include "engine/light_settling.hpp"
 #include "engine/line_solve.hpp"
@@ -32,14 +32,6 @@ constexpr double kSettledWell = 1e-6;  // the same, where it shall be right in d
 constexpr double kMissed = 3e-5;       // power that leaves may fail to send after an update, relative to emitted
 constexpr int kMaxRowIterations = 1024;
 constexpr double kMostGaps = 1.5;  // size of particles with gaps, to that without
-
-class Clock {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace deltalux::engine
 
