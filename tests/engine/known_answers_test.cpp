@@ -4,6 +4,7 @@
 #include <deltalux/io.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "support/plates.hpp"
 #include "support/reference_values.hpp"
 #include "support/run_cli.hpp"
 #include "support/shared.hpp"
@@ -17,21 +18,8 @@ using namespace test;
 constexpr double kTolerance = 0.01;
 
 TEST(SolvedPlates, FormFactorsAreTheirClosedForms) {
-  const std::pair<const char*, double> plates[] = {{"plates/parallel.rad", 0.1998249},
-                                                   {"plates/perpendicular.rad", 0.2000436}};
-  for (const auto& [name, factor] : plates) {
-    Scene scene = loadScene({bundledScene(name)}).scene;
-    PrimitiveId receiver;
-    double M = 0;
-    for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
-      const auto& emission = scene.materialOf(PrimitiveId(i)).emission;
-      if (emission)
-        M = kPi * gray(emission->radiance);
-      else
-        receiver = PrimitiveId(i);
-    }
-    EXPECT_NEAR(meshMean(solved(std::move(scene)), receiver) / M / factor, 1, kTolerance) << name;
-  }
+  for (const Plates& p : kPlates)
+    EXPECT_NEAR(factorOf(p, [](Scene s) { return solved(std::move(s)); }) / p.factor, 1, kTolerance) << p.name;
 }
 
 /// A furnished corner: irregular enough that axes matter to the boxes of clusters.

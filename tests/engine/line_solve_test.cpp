@@ -9,6 +9,7 @@
 #include "engine/line_solve.hpp"
 #include "lines/lines.hpp"
 #include "support/furnished_room.hpp"
+#include "support/plates.hpp"
 #include "support/reference_values.hpp"
 #include "support/residue.hpp"
 #include "support/run_cli.hpp"
@@ -56,21 +57,8 @@ TEST(LineSolve, AFurnaceIsExactOnTheMesh) {
 }
 
 TEST(LineSolve, PlatesHaveTheirClosedForms) {
-  const std::pair<const char*, double> plates[] = {{"plates/parallel.rad", 0.1998249},
-                                                   {"plates/perpendicular.rad", 0.2000436}};
-  for (const auto& [name, factor] : plates) {
-    Scene scene = loadScene({bundledScene(name)}).scene;
-    PrimitiveId receiver;
-    double M = 0;
-    for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
-      const auto& emission = scene.materialOf(PrimitiveId(i)).emission;
-      if (emission)
-        M = kPi * gray(emission->radiance);
-      else
-        receiver = PrimitiveId(i);
-    }
-    EXPECT_NEAR(meshMean(solvedByLines(std::move(scene), 0.01), receiver) / M / factor, 1, 0.01) << name;
-  }
+  for (const Plates& p : kPlates)
+    EXPECT_NEAR(factorOf(p, [](Scene s) { return solvedByLines(std::move(s), 0.01); }) / p.factor, 1, 0.01) << p.name;
 }
 
 TEST(LineSolve, EnergyIsKeptToAThousandth) {
