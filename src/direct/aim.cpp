@@ -3,20 +3,9 @@
 #include <algorithm>
 
 #include "base/batch_mean.hpp"
+#include "direct/tuning.hpp"
 
 namespace deltalux::direct {
-
-namespace {
-
-constexpr float kMostShare = 0.25f;             // of the rays, to one square
-constexpr float kDoubt = 2;                     // rays that what was thought before counts for
-constexpr std::size_t kFewestLooks = 6;         // in a square, to divide it
-constexpr double kUneven = 3;                   // variance between quarters over that within, to divide
-constexpr double kSmallest = 1.0 / 64;          // side of a square
-constexpr float kFaintShare = 1e-3f;            // of all rays: squares that get fewer stay whole
-constexpr int kBatch = 64, kFewestBatches = 8;  // rays of one independent estimate; estimates before any judgement
-
-}  // namespace
 
 Aim::Aim(std::span<const Source> sources) {
   squares_.reserve(sources.size());
@@ -83,7 +72,7 @@ void Aim::share() {
     if (!brightest || s.share() > brightest->share()) brightest = &s;
   }
   if (brightest) {
-    const float own = brightest->share(), most = kMostShare / (1 - kMostShare) * (all - own);
+    const float own = brightest->share(), most = tuning::kMostShare / (1 - tuning::kMostShare) * (all - own);
     if (most > 0 && own > most) brightest->weight *= most / own;
   }
   sumWeights();
@@ -143,7 +132,7 @@ void Aim::judge(std::vector<Look>& looks) {
 
 /// Whether the quarters bring different light, by more than chance would have it (analysis of variance).
 bool Aim::uneven(const Square& square, std::span<const Look> looks) {
-  if (looks.size() < kFewestLooks) return false;
+  if (looks.size() < tuning::kFewestLooks) return false;
   const Vec2 middle = square.lower + square.size / 2;
   double n[4] = {}, sum[4] = {}, squares = 0;
   for (const Look& l : looks) {
@@ -157,7 +146,7 @@ bool Aim::uneven(const Square& square, std::span<const Look> looks) {
   }
   const double count = static_cast<double>(looks.size()), within = squares - between;
   between -= all * all / count;
-  return between / std::max(groups - 1, 1.0) > kUneven * within / (count - groups) && between > 1e-6 * squares;
+  return between / std::max(groups - 1, 1.0) > tuning::kUneven * within / (count - groups) && between > 1e-6 * squares;
 }
 
 /// Appends the square as `looks` have it, or its quarters.
@@ -166,8 +155,9 @@ void Aim::divide(const Square& square, std::span<Look> looks, std::vector<Square
   Square now = square;
   float sum = 0;
   for (const Look& l : looks) sum += l.E * l.E;
-  now.strength = std::sqrt((sum + kDoubt * square.guess * square.guess) / (static_cast<float>(looks.size()) + kDoubt));
-  if (square.size <= kSmallest || now.share() < kFaintShare * total() || !uneven(square, looks)) {
+  now.strength = std::sqrt((sum + tuning::kDoubt * square.guess * square.guess) /
+                           (static_cast<float>(looks.size()) + tuning::kDoubt));
+  if (square.size <= tuning::kSmallest || now.share() < tuning::kFaintShare * total() || !uneven(square, looks)) {
     for (const Look& l : looks) kept.push_back({static_cast<std::uint32_t>(squares.size()), l.u, l.E});
     squares.push_back(now);
     return;
@@ -205,16 +195,17 @@ ProbeResult measure(const PointSampler& light, std::span<const Source> sources, 
   ProbeResult result;
   Aim aim(sources);
   aim.learn(light, {&x, 1}, tuning::kLearnAtPoint, combineKeys(key, 1));
-  aim = aim.at(sources, level / kBatch, kBatch);  // no ray may outweigh a whole estimate: few of them would not know
+  aim = aim.at(sources, level / tuning::kBatch,
+               tuning::kBatch);  // no ray may outweigh a whole estimate: few of them would not know
   if (aim.dark()) return result;
   BatchMean mean;
-  while (mean.count() < kFewestBatches || result.samples < static_cast<std::uint64_t>(maxSamples)) {
+  while (mean.count() < tuning::kFewestBatches || result.samples < static_cast<std::uint64_t>(maxSamples)) {
     RgbSum E(0.0);
     aim.sample(light, x, 0, combineKeys(key, 2 + static_cast<std::uint64_t>(mean.count())),
                [&](const Arrival& a) { E += RgbSum(static_cast<float>(glm::dot(a.direction, x.normal)) * a.E); });
     mean.add(E);
     result.samples += static_cast<std::uint64_t>(aim.rays());
-    if (mean.count() >= kFewestBatches &&
+    if (mean.count() >= tuning::kFewestBatches &&
         gray(mean.standardError()) <= error * (gray(mean.mean()) + gray(RgbSum(ambient))))
       break;
   }

@@ -9,9 +9,6 @@ namespace deltalux::direct {
 
 namespace {
 
-constexpr float kOpenLamp = 0.5f;    // chance that a lamp is seen, before any ray
-constexpr double kNarrowSky = 0.25;  // half angle below which a sky is taken whole [radians]
-
 /// Like a sun of its size.
 Lamp narrow(LightId id, const DomeLight& dome, const Rgb& scale) {
   constexpr int kGrid = 8;
@@ -43,7 +40,7 @@ PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer)
     const Light& light = scene.lights[i];
     const auto* dome = std::get_if<DomeLight>(&light.emitter);
     if (!dome || isBlack(light.scale)) continue;
-    if (dome->halfAngle < kNarrowSky) {
+    if (dome->halfAngle < tuning::kNarrowSky) {
       whole_.push_back(narrow(LightId(i), *dome, light.scale));
       continue;
     }
@@ -75,7 +72,7 @@ std::vector<Source> PointSampler::lampsOver(const hierarchy::ElementGeometry& pa
   std::vector<Source> out;
   for (std::size_t i = 0; i < whole_.size(); ++i)
     if (const double potential = lamps_.potential(whole_[i], patch); potential > 0)
-      out.push_back({static_cast<std::uint32_t>(i), static_cast<float>(potential), kOpenLamp});
+      out.push_back({static_cast<std::uint32_t>(i), static_cast<float>(potential), tuning::kOpenLamp});
   return out;
 }
 

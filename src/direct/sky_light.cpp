@@ -13,11 +13,9 @@ namespace {
 
 constexpr int kHeights = tuning::kSkyHeights, kAzimuths = tuning::kSkyAzimuths;
 constexpr std::uint64_t kSkyKey = 0x736b795f5f5full;
-constexpr float kOpenPrior = 0.1f, kLinesPrior = 2.0f;  // lines that a cell is taken to have had before the first
-constexpr float kLeastOpen = 1.0f / 64;                 // openness of a cell in which no line escaped
 
 /// Power of two nearest to a share.
-float octave(float share) { return std::exp2(std::round(std::log2(std::clamp(share, kLeastOpen, 1.0f)))); }
+float octave(float share) { return std::exp2(std::round(std::log2(std::clamp(share, tuning::kLeastOpen, 1.0f)))); }
 
 /// The middle and the corners of a cell.
 using CellDirections = std::array<Vec3f, 5>;
@@ -87,7 +85,8 @@ void Openness::finish(const std::vector<Counts>& counts) {
   share_.resize(guides_ * SkyCells::kCount);
   for (std::size_t g = 0; g < guides_; ++g)
     for (std::size_t c = 0; c < SkyCells::kCount; ++c)
-      share_[g * SkyCells::kCount + c] = octave((counts[g].open[c] + kOpenPrior) / (counts[g].all[c] + kLinesPrior));
+      share_[g * SkyCells::kCount + c] =
+          octave((counts[g].open[c] + tuning::kOpenPrior) / (counts[g].all[c] + tuning::kLinesPrior));
 }
 
 SkyAtLeaf skyLight(const Skies& skies, const Openness& openness, const hierarchy::Elements& elements,

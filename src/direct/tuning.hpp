@@ -1,5 +1,6 @@
 #pragma once
 // The tuned constants of direct light by keyed shadow rays: purpose, unit, normal value, and what breaks.
+#include <cstddef>
 
 namespace deltalux::direct::tuning {
 
@@ -37,6 +38,9 @@ constexpr int kSkyHeights = 16, kSkyAzimuths = 16;
 constexpr int kSkyRays = 32;
 /// Lines that tell openness below one element. Fewer: guides of chance.
 constexpr int kGuideLines = 4096;
+/// Lines that a cell is taken to have had before the first, and those of them that escaped; and the least openness, of
+/// a cell in which no line escaped. Less: what few lines have seen is believed, and slots get no rays.
+constexpr float kLinesPrior = 2, kOpenPrior = 0.1f, kLeastOpen = 1.0f / 64;
 
 /// Most that one shadow ray of a point may bring where its light is thought to be hidden, in shares of the light there,
 /// and how many times as many rays that may cost. Higher: white specks. Lower: rays into what is hidden.
@@ -45,5 +49,21 @@ constexpr float kMostGrowth = 1.5f;
 /// Rounds of learning where light comes from, each looking where the one before saw it, and the rays that a point of
 /// its own learns from. Fewer: grain beside windows and in penumbrae.
 constexpr int kLearningRounds = 3, kLearnAtPoint = 768;
+/// Chance that a lamp is seen, before any ray is known. Lower: white specks where it is.
+constexpr float kOpenLamp = 0.5f;
+/// Half angle below which a sky is taken whole [radians]. Wider: rays of a low sun's glow go anywhere in it.
+constexpr double kNarrowSky = 0.25;
+/// Most of a point's rays that one square of a source gets. More: where the sun is hidden, all else is grain.
+constexpr float kMostShare = 0.25f;
+/// Rays that what was thought of a square before counts for. Fewer: a few rays by chance take it for dark.
+constexpr float kDoubt = 2;
+/// A square is divided from so many rays on, where the variance between its quarters is so many times that within;
+/// not below this side, in shares of the source, nor where it gets fewer of all rays than this. Fewer, less: squares by
+/// chance. More: rays at the wall around the window.
+constexpr std::size_t kFewestLooks = 6;
+constexpr double kUneven = 3, kSmallest = 1.0 / 64;
+constexpr float kFaintShare = 1e-3f;
+/// Rays of one independent estimate of a meter, and estimates before any judgement. Fewer: standard errors by chance.
+constexpr int kBatch = 64, kFewestBatches = 8;
 
 }  // namespace deltalux::direct::tuning

@@ -52,6 +52,8 @@ constexpr int kScalingPasses = 8;
 constexpr float kMostScale = 4;
 /// Power that changes in the last pass, relative to emitted, and the most passes.
 constexpr double kConverged = 1e-6;
+/// The same of the coarse light, by which the mesh is refined. Larger: dark rooms are meshed for too little light.
+constexpr double kCoarseConverged = 1e-3;
 constexpr int kMostPasses = 2048;
 
 }  // namespace deltalux::lines::tuning
