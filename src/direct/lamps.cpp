@@ -46,7 +46,7 @@ Vec3 axisOf(const Light& light) {
 
 }  // namespace
 
-Lamps::Lamps(const Scene& scene) : scene_(scene), sampler_(scene) {
+Lamps::Lamps(const Scene& scene) : sampler_(scene) {
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     if (isBlack(light.scale) || std::holds_alternative<DomeLight>(light.emitter)) continue;

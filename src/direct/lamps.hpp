@@ -31,7 +31,6 @@ class Lamps {
   double beamWidth(const Lamp&, const hierarchy::ElementGeometry&) const;
 
  private:
-  const Scene& scene_;
   scene::LightSampler sampler_;
   std::vector<Lamp> all_;
 };

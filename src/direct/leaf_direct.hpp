@@ -29,9 +29,6 @@ class DirectSampler {
 
   /// `whole`: with all the rays that its light is worth; without, with those that tell whether it varies.
   LeafDirect at(hierarchy::ElementId patch, const KnownPoints&, bool whole) const;
-  /// Direct light of suns and lamps at one point, unshadowed parts of a light drawn by `index` of the sequence of
-  /// `key`: one shadow ray a light of `rays` each. [W/m2]
-  Rgb atPoint(const Vec3& p, const Vec3& normal, int rays, std::uint32_t index, std::uint64_t key) const;
 
  private:
   struct Points;

@@ -42,7 +42,6 @@ class Exchange {
   /// Share of what leaf j sends that arrives at leaves: column sums.
   void arriving(std::span<double> share) const;
 
-  std::size_t entries() const { return id_.size(); }
   std::size_t memoryBytes() const;
 
  private:
