@@ -58,6 +58,8 @@ struct DirectSampler::Tally {
   std::array<double, 4> quadrants{}, counts{};
   double squares = 0;
   std::uint32_t rays = 0;
+  Rgb unshadowed{0.0f};  // mean of what would be found without shadows, where it is
+  bool measured = false;
 
   bool mixed() const { return passed > 0 && passed < samples; }
 };
@@ -118,7 +120,7 @@ Rgb DirectSampler::unshadowed(const Lamp& lamp, Points& points, int wanted) cons
   return n > 0 ? Rgb(sum / double(n)) : Rgb(0.0f);
 }
 
-LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& known, bool whole) const {
+LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& known, const Splits& splits) const {
   LeafDirect result;
   const hierarchy::ElementGeometry& g = elements_.shape(patch);
   Points points(elements_, scene_, patch, known);
@@ -165,6 +167,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
     if (t.samples > 0) found += asked[l].weight * gray(t.lit) / t.samples;
     result.rays += t.rays;
   }
+  std::vector<Tally> tallies(asked.size());
   std::array<double, 4> quadrants{};
   double variance = 0;
   for (std::size_t l = 0; l < asked.size(); ++l) {
@@ -172,29 +175,23 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
     const Tally& pilot = pilots[l];
     const double weight = asked[l].weight;
     const double open = pilot.shot > 0 ? gray(pilot.open) / pilot.samples : asked[l].potential;
-    int wanted = lamp.sun        ? (whole && pilot.mixed() ? tuning::kMixedSunRays : tuning::kSunRays)
+    int wanted = lamp.sun        ? (pilot.mixed() ? tuning::kMixedSunRays : tuning::kSunRays)
                  : pilot.mixed() ? tuning::kMixedRays
                                  : tuning::kLampRays;
     if (!lamp.sun && !(weight * open > tuning::kMatters * found)) wanted = tuning::kFaintRays;
-    Tally t;
+    Tally& t = tallies[l];
     t.first = pilot.samples;
     shoot(lamp, points, wanted, t);
     if (t.samples == 0) t = pilot;  // there are no more points
-    Rgb E(0.0f);
-    if (lamp.sun || !whole) {
-      if (t.samples > 0) E = Rgb(t.lit / double(t.samples));
-    } else {
+    if (!lamp.sun && t.shot == 0) {
       // Of a narrow beam few points may lie in it: shadow rays start from some that do.
-      Rgb all(0.0f);
-      if (t.shot == 0 || t.passed > 0)
-        all = unshadowed(lamp, points, t.shot < t.samples || nearBy(lamp, g) ? kMostPoints : tuning::kUnshadowedPoints);
-      for (int more = wanted; t.shot == 0 && !isBlack(all) && t.samples == more && more < kMostPoints;)
+      t.unshadowed = unshadowed(lamp, points, kMostPoints), t.measured = true;
+      for (int more = wanted; t.shot == 0 && !isBlack(t.unshadowed) && t.samples == more && more < kMostPoints;)
         shoot(lamp, points, more = std::min(2 * more, kMostPoints), t);
-      for (int c = 0; c < 3; ++c) E[c] = t.open[c] > 0 ? all[c] * static_cast<float>(t.lit[c] / t.open[c]) : 0.0f;
     }
     result.rays += t.rays;
     if (t.passed == 0) continue;
-    result.E += static_cast<float>(weight) * E;
+    result.E += static_cast<float>(weight / t.samples) * Rgb(t.lit);
     const double mean = gray(t.lit) / t.samples;
     if (t.samples > 1 && t.mixed())
       variance += weight * weight * std::max(0.0, t.squares / t.samples - mean * mean) / (t.samples - 1);
@@ -206,6 +203,25 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   for (const double q : quadrants) between += (q - mean) * (q - mean) / 3;
   result.variation = static_cast<float>(std::sqrt(between));
   result.deviation = static_cast<float>(std::sqrt(variance));
+  if (splits && splits(result)) return result;
+
+  const double light = gray(result.E);
+  result.E = Rgb(0.0f);
+  for (std::size_t l = 0; l < asked.size(); ++l) {
+    const Lamp& lamp = *asked[l].lamp;
+    Tally& t = tallies[l];
+    if (t.passed == 0) continue;
+    Rgb E(t.lit / double(t.samples));
+    if (!lamp.sun) {
+      const bool much = asked[l].weight * gray(t.lit) > tuning::kMuch * light * t.samples;
+      const bool varied = t.shot < t.samples || nearBy(lamp, g);
+      if (!t.measured)
+        t.unshadowed = unshadowed(lamp, points, much && varied ? kMostPoints : tuning::kUnshadowedPoints);
+      for (int c = 0; c < 3; ++c)
+        E[c] = t.open[c] > 0 ? t.unshadowed[c] * static_cast<float>(t.lit[c] / t.open[c]) : 0.0f;
+    }
+    result.E += static_cast<float>(asked[l].weight) * E;
+  }
   return result;
 }
 

@@ -3,6 +3,8 @@
 // where a light matters, more again where they disagree. What a light brings is the share of it that passes, times what
 // it would bring unshadowed, which takes points but no rays: a ratio, whose error is that of the shadow alone.
 // The same samples tell whether the patch is to be split. Cost: 10 to 20 rays a leaf.
+#include <functional>
+
 #include "direct/lamps.hpp"
 #include "tracing/ray_tracer.hpp"
 
@@ -27,8 +29,10 @@ class DirectSampler {
   /// All must outlive this.
   DirectSampler(const hierarchy::Elements&, const Scene&, const tracing::RayTracer&, const Lamps&);
 
-  /// `whole`: with all the rays that its light is worth; without, with those that tell whether it varies.
-  LeafDirect at(hierarchy::ElementId patch, const KnownPoints&, bool whole) const;
+  /// The light of a patch by all the samples that it is worth, unless `splits` says of what its shadow rays have found
+  /// (of E their mean alone) that this will be told of its parts.
+  using Splits = std::function<bool(const LeafDirect&)>;
+  LeafDirect at(hierarchy::ElementId patch, const KnownPoints&, const Splits& splits = {}) const;
 
  private:
   struct Points;

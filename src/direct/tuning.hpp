@@ -12,9 +12,10 @@ constexpr int kLampPilots = 3, kLampRays = 4, kMixedRays = 16, kFaintRays = 1;
 /// A lamp matters where, unshadowed, it brings more than this share of what has been found. Higher: faint lamps'
 /// shadows are lost.
 constexpr double kMatters = 0.01;
-/// Points that the unshadowed light of a lamp is averaged over, four times as many near it or where not all lie in its
-/// beam; and how near that is, in radii of both. Fewer: grain near lamps.
+/// Points that the unshadowed light of a lamp is averaged over, four times as many where it is more than a share of the
+/// light there and is near or not all lie in its beam; and how near that is, in radii of both. Fewer: grain near lamps.
 constexpr int kUnshadowedPoints = 16;
+constexpr double kMuch = 0.1;
 constexpr float kNearBy = 8;
 /// Lamps that are asked one by one; of the others' sum some are drawn by what they may bring. Fewer: noise where very
 /// many lamps are equally bright.

@@ -36,10 +36,10 @@ struct Samplers {
     setExposed(x, patch);
     return scale.rays;
   }
-  std::uint64_t light(hierarchy::ElementId patch) const {
+  std::uint64_t light(hierarchy::ElementId patch, const direct::DirectSampler::Splits& splits = {}) const {
     const lines::LeafScale& scale = x.samples.scale[patch.index()];
     direct::LeafDirect& light = x.samples.direct[patch.index()];
-    light = direct.at(patch, {scale.covered, scale.known}, true);
+    light = direct.at(patch, {scale.covered, scale.known}, splits);
     return light.rays;
   }
 
@@ -57,12 +57,15 @@ bool splits(const Samplers& samplers, hierarchy::ElementId patch, std::uint64_t&
   rays += samplers.measure(patch);
   const double dim = x.floor > 0 ? gray(coarse.indirect + coarse.direct) / x.floor : 1.0;
   if (tooWide(g, x.samples.scale[patch.index()], error, dim)) return true;
-  rays += samplers.light(patch);
-  const direct::LeafDirect& light = x.samples.direct[patch.index()];
-  const double level = std::max<double>(gray(light.E + coarse.indirect), x.floor);
-  return light.tooWideForBeam || variesTooMuch(light, g, g.meanFreePath, level, error) ||
-         (g.radius > lines::tuning::kFinestWidth * g.meanFreePath &&
-          hierarchy::wallsAcross(x.s.elements, x.s.scene, patch));
+  bool split = false;
+  rays += samplers.light(patch, [&](const direct::LeafDirect& light) {
+    const double level = std::max<double>(gray(light.E + coarse.indirect), x.floor);
+    split = light.tooWideForBeam || variesTooMuch(light, g, g.meanFreePath, level, error) ||
+            (g.radius > lines::tuning::kFinestWidth * g.meanFreePath &&
+             hierarchy::wallsAcross(x.s.elements, x.s.scene, patch));
+    return split;
+  });
+  return split;
 }
 
 }  // namespace
@@ -96,8 +99,14 @@ bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const s
         whole.push_back(patches[i]);
         continue;
       }
-      for (std::size_t c = 0; c < elements.at(patches[i]).childCount; ++c)
-        parts.push_back(elements.child(patches[i], c));
+      // Corners of what sees far are no narrow places.
+      const float wide = lines::tuning::kOfWhole * x.samples.scale[patches[i].index()].mean;
+      for (std::size_t c = 0; c < elements.at(patches[i]).childCount; ++c) {
+        const hierarchy::ElementId part = elements.child(patches[i], c);
+        float& path = elements.geometry[part.index()].meanFreePath;
+        path = std::max(path, wide);
+        parts.push_back(part);
+      }
     }
     samplePatches(x, whole);
     if (stopped) return false;

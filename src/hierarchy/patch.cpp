@@ -96,6 +96,28 @@ double curvedArea(const Shape& shape, const PatchDomain& d) {
   return whole * (d.v1 - d.v0);
 }
 
+/// How a patch of a curved shape turns between neighbouring points of a grid: by what angle, about what radius.
+/// Along the axes of cylinders and cones, and away from the centres of rings, it does not.
+struct Turn {
+  double angle, radius;
+};
+
+Turn turnOf(const Shape& shape, const PatchDomain& d, int grid) {
+  const double around = 2 * kPi * (d.u1 - d.u0) / grid;
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return {around, cylinder->radius};
+  if (const auto* cone = std::get_if<Cone>(&shape)) return {around, std::max(cone->radius0, cone->radius1)};
+  if (const auto* ring = std::get_if<Ring>(&shape)) return {around, ring->outerRadius};
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    double most = around;  // and along meridians, where v goes evenly in height
+    const auto latitude = [&](int j) {
+      return std::asin(std::clamp(2 * (d.v0 + (d.v1 - d.v0) * double(j) / grid) - 1, -1.0, 1.0));
+    };
+    for (int j = 0; j < grid; ++j) most = std::max(most, latitude(j + 1) - latitude(j));
+    return {most, sphere->radius};
+  }
+  return {2 * kPi * std::max(d.u1 - d.u0, d.v1 - d.v0) / grid, 0.5 * bounds(shape).diagonal()};
+}
+
 void shapeCurved(Elements& elements, const Scene& scene, ElementId e) {
   const PatchDomain& d = elements.domain[e.index()];
   const Shape& shape = scene[d.primitive].shape;
@@ -133,8 +155,8 @@ void shapeCurved(Elements& elements, const Scene& scene, ElementId e) {
   elements.moments[e.index()] = moments;
   g.center = center / weights;
   const Box whole = bounds(shape);
-  const double step = 2 * kPi * std::max(du, dv) / kGrid;
-  const double bulge = (1 - std::cos(std::min(kPi / 2, 0.5 * step))) * 0.5 * whole.diagonal();
+  const Turn turn = turnOf(shape, d, kGrid);
+  const double bulge = (1 - std::cos(std::min(kPi / 2, 0.5 * turn.angle))) * turn.radius;
   box = {glm::max(box.lower - bulge, whole.lower), glm::min(box.upper + bulge, whole.upper)};
   setExtent(g, box);
   g.radius = static_cast<float>(0.5 * box.diagonal());
@@ -144,7 +166,8 @@ void shapeCurved(Elements& elements, const Scene& scene, ElementId e) {
   if (length > 0.05f) {
     g.normalCone = 1.0f;
     for (const Vec3f& normal : normals) g.normalCone = std::min(g.normalCone, glm::dot(normal, g.normal));
-    const double widened = std::acos(std::clamp(static_cast<double>(g.normalCone), -1.0, 1.0)) + 0.25 * step;
+    const double turning = std::holds_alternative<Ring>(shape) ? 0 : 0.25 * turn.angle;
+    const double widened = std::acos(std::clamp(static_cast<double>(g.normalCone), -1.0, 1.0)) + turning;
     g.normalCone = widened >= kPi ? -1.0f : static_cast<float>(std::cos(widened));
   }
   for (int q = 0; q < 4; ++q) {

@@ -30,6 +30,7 @@ LeafScale ScaleMeter::measure(hierarchy::ElementId patch) const {
   LeafScale scale;
   double inverse = 0, sum = 0;
   std::uint32_t open = 0;
+  bool hollow = false;  // whether some lines end in enclosed hollows, so that lines alone tell what is covered
   // Where something lies on the patch, how much of it is worth knowing.
   for (; scale.known < (scale.covered ? 64u : kBatch); scale.known += kBatch) {
     std::size_t live = 0;
@@ -39,6 +40,7 @@ LeafScale ScaleMeter::measure(hierarchy::ElementId patch) const {
         scale.covered |= std::uint64_t(1) << i;
         continue;
       }
+      if (i >= kBatch && !hollow) continue;
       const Vec3f w = directions(i, x.normal);
       rays[live].origin = tracing::offsetOrigin(x.position, x.normal, w), rays[live].direction = w;
       which[live++] = i;
@@ -50,7 +52,7 @@ LeafScale ScaleMeter::measure(hierarchy::ElementId patch) const {
       const hierarchy::ElementId side =
           end.fate == LineFate::Ended && !end.turned ? elements_.sides.at(end.side) : hierarchy::ElementId();
       if (side.valid() && enclosed_[side.index()]) {
-        scale.covered |= std::uint64_t(1) << which[k];
+        scale.covered |= std::uint64_t(1) << which[k], hollow = true;
         continue;
       }
       const float t = std::min(end.distance, farthest_);
@@ -75,9 +77,10 @@ void setMeanFreePaths(hierarchy::Elements& elements, const std::vector<LeafScale
   }
   for (const hierarchy::ElementId input : elements.inputs) {
     if (!elements.receives(input)) continue;
-    const hierarchy::ElementId parent = elements.at(input).parent, second = elements.at(parent).parent;
-    const std::size_t about = (second.valid() ? second : parent).index();
-    const double usual = count[about] > 0 ? std::exp(sum[about] / count[about]) : 0.0;
+    hierarchy::ElementId about = elements.at(input).parent;
+    for (int up = 1; up < tuning::kClustersUp && elements.at(about).parent.valid(); ++up)
+      about = elements.at(about).parent;
+    const double n = count[about.index()], usual = n > 0 ? std::exp(sum[about.index()] / n) : 0.0;
     elements.geometry[input.index()].meanFreePath =
         std::max(scales[input.index()].mean, static_cast<float>(tuning::kSurroundings * usual));
   }

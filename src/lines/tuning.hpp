@@ -8,8 +8,9 @@ namespace deltalux::lines::tuning {
 /// on indirect light. More: time and memory in proportion.
 constexpr double kBaseLines = 128;
 constexpr double kBaseError = 0.05;
-/// Octaves of lines below and above the base. Wider: large leaves take most of the time, small ones are noise.
-constexpr int kFewestOctaves = -1, kMostOctaves = 4;
+/// Octaves of lines below and above the base. Fewer below: narrow places take most of the time. More above: large
+/// leaves do.
+constexpr int kFewestOctaves = -2, kMostOctaves = 4;
 /// Lines that tell a leaf's surroundings before there are others. Fewer: splits by chance.
 constexpr int kFirstLines = 16;
 /// Non-diffuse events of a line. Fewer: light between facing mirrors is lost.
@@ -28,9 +29,12 @@ constexpr double kDimWidth = 3;
 /// Mean distance below which a patch lies in a slot, in its radii: it is not split for its width. Less: slots between
 /// boards fill with leaves that nobody sees.
 constexpr double kSlot = 0.5;
-/// Least mean free path of a surface, relative to what is usual below the second cluster above it. Less: narrow places
-/// fill with leaves.
+/// Least mean free path of a surface, relative to what is usual below a cluster so many above it. Less, fewer: narrow
+/// places fill with leaves.
 constexpr double kSurroundings = 0.5;
+constexpr int kClustersUp = 3;
+/// The same of a part, relative to the mean distance of what it is part of. Less: corners fill with leaves.
+constexpr float kOfWhole = 0.5f;
 
 /// Walks that look for light from an input-level side, and their bounces; the first steps tell how wide the hollow is.
 /// Fewer: slots that light reaches after some bounces are taken for closed hollows.

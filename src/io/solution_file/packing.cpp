@@ -3,6 +3,8 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <deltalux/error.hpp>
 
 #include "base/parallel.hpp"
@@ -14,16 +16,42 @@ namespace {
 constexpr std::size_t kBlock = 1 << 18;      // bytes; shorter ones deflate less, longer ones leave threads idle
 constexpr std::size_t kWaiting = 64;         // blocks that are packed at once: 16 MB beside the solution
 constexpr std::size_t kTrial = 1 << 13;      // bytes that tell which form of a block is shorter
+constexpr double kMostBits = 6;              // a byte, above which deflating saves too little
 constexpr std::size_t kMostInflated = 1032;  // times the deflated bytes: no stream holds more [zlib's documentation]
 constexpr std::size_t kBlockFrame = 12;
 
-std::string deflated(std::string_view bytes) {
-  uLongf length = compressBound(static_cast<uLong>(bytes.size()));
-  std::string out(length, '\0');
-  const int result = compress2(reinterpret_cast<Bytef*>(out.data()), &length,
-                               reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), 1);
-  if (result != Z_OK) throw std::bad_alloc();  // compress2 knows no other failure where there is room
-  out.resize(length);
+/// Whether bytes are so much alike in number that deflating them is in vain: by the entropy of a trial.
+bool incompressible(std::string_view bytes) {
+  std::array<std::uint32_t, 256> count{};
+  const std::string_view trial = bytes.substr(bytes.size() / 2 - std::min(bytes.size(), kTrial) / 2, kTrial);
+  for (const char c : trial) ++count[static_cast<unsigned char>(c)];
+  double bits = 0;
+  const auto all = static_cast<double>(trial.size());
+  for (const std::uint32_t n : count)
+    if (n > 0) bits -= n * std::log2(n / all);
+  return trial.size() == kTrial && bits > kMostBits * all;
+}
+
+/// `planes` parts of equal length, each deflated, or stored where that is in vain and only takes time.
+std::string deflated(std::string_view bytes, std::size_t planes) {
+  z_stream stream{};
+  if (deflateInit(&stream, 1) != Z_OK) throw std::bad_alloc();
+  constexpr std::size_t kSwitch = 64;  // bytes that a change of level may take
+  std::string out(deflateBound(&stream, static_cast<uLong>(bytes.size())) + kSwitch * planes, '\0');
+  stream.next_out = reinterpret_cast<Bytef*>(out.data()), stream.avail_out = static_cast<uInt>(out.size());
+  const std::size_t length = bytes.size() / planes;
+  int result = Z_OK;
+  for (std::size_t plane = 0; plane < planes && result == Z_OK; ++plane) {
+    const std::string_view part = bytes.substr(plane * length, plane + 1 < planes ? length : bytes.npos);
+    result = deflateParams(&stream, incompressible(part) ? 0 : 1, Z_DEFAULT_STRATEGY);
+    if (result != Z_OK) break;
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(part.data()));
+    stream.avail_in = static_cast<uInt>(part.size());
+    result = deflate(&stream, plane + 1 < planes ? Z_NO_FLUSH : Z_FINISH);
+  }
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  if (result != Z_STREAM_END) throw std::bad_alloc();  // there is room, so zlib knows no other failure
   return out;
 }
 
@@ -49,9 +77,9 @@ std::size_t numberIn(std::string_view bytes, std::size_t at) {
 std::string packBlock(std::string_view bytes, std::size_t stride) {
   if (stride > 1) {
     const std::string_view trial = bytes.substr(0, std::max(stride, std::min(bytes.size(), kTrial) / stride * stride));
-    if (deflated(trial).size() <= deflated(transposed(trial, stride)).size()) stride = 1;
+    if (deflated(trial, 1).size() <= deflated(transposed(trial, stride), 1).size()) stride = 1;
   }
-  std::string packed = deflated(stride > 1 ? transposed(bytes, stride) : std::string(bytes));
+  std::string packed = stride > 1 ? deflated(transposed(bytes, stride), stride) : deflated(bytes, 1);
   if (packed.size() >= bytes.size()) packed = bytes, stride = 0;
   std::string block;
   block.reserve(kBlockFrame + packed.size());
