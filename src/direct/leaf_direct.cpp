@@ -15,6 +15,12 @@ constexpr int kMostPoints = 64;
 constexpr std::uint64_t kLampKey = 0x6c616d70735f5full, kDrawKey = 0x647261775f5f5full;
 static_assert(tuning::kUnshadowedPoints <= kMostPoints && tuning::kSunPilots + tuning::kMixedSunRays <= kMostPoints);
 
+/// In inverse proportion to the error: the area where rays disagree shrinks with the mesh as well.
+int raysFor(double error, int normal) {
+  return std::clamp(static_cast<int>(std::lround(normal * tuning::kBaseError / error)), tuning::kFaintRays,
+                    kMostPoints - tuning::kSunPilots);
+}
+
 }  // namespace
 
 /// The open points of a patch in order, each made when it is first asked for.
@@ -65,8 +71,14 @@ struct DirectSampler::Tally {
 };
 
 DirectSampler::DirectSampler(const hierarchy::Elements& elements, const Scene& scene, const tracing::RayTracer& tracer,
-                             const Lamps& lamps)
-    : elements_(elements), scene_(scene), tracer_(tracer), lamps_(lamps) {}
+                             const Lamps& lamps, double error)
+    : elements_(elements),
+      scene_(scene),
+      tracer_(tracer),
+      lamps_(lamps),
+      lampRays_(raysFor(error, tuning::kLampRays)),
+      mixedRays_(raysFor(error, tuning::kMixedRays)),
+      mixedSunRays_(std::max(tuning::kSunRays, raysFor(error, tuning::kMixedSunRays))) {}
 
 namespace {
 
@@ -113,6 +125,10 @@ Rgb DirectSampler::unshadowed(const Lamp& lamp, Points& points, int wanted) cons
   const int n = std::min(points.count, wanted);
   for (int i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
+    if (const auto E = lamps_.sampler().irradiance(lamp.id, Vec3(points.at[k].position), Vec3(points.at[k].normal))) {
+      sum += RgbSum(*E);
+      continue;
+    }
     tracing::Ray ray;
     sum += RgbSum(openLight(lamps_.sampler(), lamp.id, Vec3(points.at[k].position), Vec3(points.at[k].normal),
                             numbers(points.number[k]), ray));
@@ -175,9 +191,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
     const Tally& pilot = pilots[l];
     const double weight = asked[l].weight;
     const double open = pilot.shot > 0 ? gray(pilot.open) / pilot.samples : asked[l].potential;
-    int wanted = lamp.sun        ? (pilot.mixed() ? tuning::kMixedSunRays : tuning::kSunRays)
-                 : pilot.mixed() ? tuning::kMixedRays
-                                 : tuning::kLampRays;
+    int wanted = lamp.sun ? (pilot.mixed() ? mixedSunRays_ : tuning::kSunRays) : pilot.mixed() ? mixedRays_ : lampRays_;
     if (!lamp.sun && !(weight * open > tuning::kMatters * found)) wanted = tuning::kFaintRays;
     Tally& t = tallies[l];
     t.first = pilot.samples;

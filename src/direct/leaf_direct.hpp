@@ -26,8 +26,8 @@ struct LeafDirect {
 
 class DirectSampler {
  public:
-  /// All must outlive this.
-  DirectSampler(const hierarchy::Elements&, const Scene&, const tracing::RayTracer&, const Lamps&);
+  /// All must outlive this. `error`: relative, that shadow rays are as many as it needs.
+  DirectSampler(const hierarchy::Elements&, const Scene&, const tracing::RayTracer&, const Lamps&, double error);
 
   /// The light of a patch by all the samples that it is worth, unless `splits` says of what its shadow rays have found
   /// (of E their mean alone) that this will be told of its parts.
@@ -44,6 +44,7 @@ class DirectSampler {
   const Scene& scene_;
   const tracing::RayTracer& tracer_;
   const Lamps& lamps_;
+  int lampRays_, mixedRays_, mixedSunRays_;  // mixed: where others disagree
 };
 
 /// Whether direct light varies over a patch by more than its surroundings can stand, where there is about as much light

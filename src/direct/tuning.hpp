@@ -4,6 +4,8 @@
 
 namespace deltalux::direct::tuning {
 
+/// Error that the numbers below are for.
+constexpr double kBaseError = 0.05;
 /// Shadow rays of a leaf to the sun: those that tell whether others disagree, and as many more, or more than that where
 /// they do. Fewer: penumbrae and edges of sunlight are grainy.
 constexpr int kSunPilots = 8, kSunRays = 16, kMixedSunRays = 56;

@@ -1,6 +1,8 @@
 // The light of leaves over lines: sky light by what lines see of it, exchange, iteration to convergence.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
@@ -14,6 +16,8 @@ namespace deltalux::engine {
 namespace {
 
 constexpr std::size_t kLeaves = 1024, kSkyLeaves = 16;  // of a task
+constexpr double kWidest = 8;                           // standard errors, beyond which no error lies
+constexpr int kSteps = 24;                              // of a bisection
 
 /// What each leaf sends of the light of its sources but for skies [W, gray].
 std::vector<float> powerOf(const LineSolve& x, const hierarchy::LeafTable& leaves) {
@@ -106,23 +110,28 @@ ErrorEstimate estimateError(const Solution& s, double floor) {
   };
   const hierarchy::LeafTable leaves(s.elements);
   std::vector<Leaf> all;
-  double area = 0;
+  double area = 0, widest = 0;
   for (std::size_t i = 0; i < leaves.size() && i < s.deviation.size(); ++i) {
     const hierarchy::ElementLight& l = s.elements.radiometry[leaves[i].index()];
     const double E = gray(l.direct + l.indirect + l.particle), A = s.elements.shape(leaves[i]).litArea();
     if (s.lines.countOf(i) == 0 || !(E > 0)) continue;
     all.push_back({s.deviation[i] / std::max(E, floor), A});
-    area += A;
+    area += A, widest = std::max(widest, all.back().error);
   }
-  std::sort(all.begin(), all.end(), [](const Leaf& a, const Leaf& b) { return a.error < b.error; });
-  ErrorEstimate estimate{s.settings.error, {}, {}};
-  double below = 0;
-  for (const Leaf& leaf : all) {
-    below += leaf.area;
-    if (!estimate.estimatedMedian && below >= 0.5 * area) estimate.estimatedMedian = leaf.error;
-    if (!estimate.estimatedP95 && below >= 0.95 * area) estimate.estimatedP95 = leaf.error;
-  }
-  return estimate;
+  // The errors of leaves are as good as normal: within how much a share of all area lies.
+  const auto quantile = [&](double share) -> std::optional<double> {
+    if (all.empty()) return {};
+    double low = 0, high = kWidest * widest;
+    for (int step = 0; step < kSteps; ++step) {
+      const double middle = 0.5 * (low + high);
+      double within = 0;
+      for (const Leaf& leaf : all)
+        within += leaf.area * (leaf.error > 0 ? std::erf(middle / (std::numbers::sqrt2 * leaf.error)) : 1.0);
+      (within < share * area ? low : high) = middle;
+    }
+    return high;
+  };
+  return {s.settings.error, quantile(0.5), quantile(0.95)};
 }
 
 }  // namespace deltalux::engine

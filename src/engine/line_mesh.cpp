@@ -26,7 +26,7 @@ struct Samplers {
   explicit Samplers(LineSolve& solve)
       : x(solve),
         meter(x.s.elements, x.tracer, x.cover, x.enclosed),
-        direct(x.s.elements, x.s.scene, *x.s.tracer, x.lamps) {}
+        direct(x.s.elements, x.s.scene, *x.s.tracer, x.lamps, x.s.settings.error) {}
 
   /// Rays that were traced.
   std::uint64_t measure(hierarchy::ElementId patch) const {

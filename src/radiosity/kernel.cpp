@@ -6,8 +6,8 @@
 
 #include "hierarchy/patch.hpp"
 #include "radiosity/facing.hpp"
-#include "radiosity/form_factor.hpp"
 #include "radiosity/rounding.hpp"
+#include "scene/form_factor.hpp"
 
 namespace deltalux::radiosity {
 
@@ -173,7 +173,7 @@ double kernelAtPoint(const hierarchy::Elements& elements, const Scene& scene, co
       if (glm::dot(x - g.center, g.normal) <= roundingAlong(g.normal, x, g)) return 0;
       std::array<Vec3f, 64> outline;
       const std::size_t count = worldOutline(elements, sender, outline);
-      const double F = formFactorToPolygon(x, n, {outline.data(), count});
+      const double F = scene::formFactorToPolygon(x, n, {outline.data(), count});
       return directional ? F * meanRadiance(*directional, nodes, x, n) : F;
     }
     return toDistantFlat(elements, scene, x, n, sender);

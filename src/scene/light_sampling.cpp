@@ -1,4 +1,5 @@
 #include "scene/light_sampling.hpp"
+#include "scene/form_factor.hpp"
 
 #include <algorithm>
 #include <mutex>
@@ -229,6 +230,30 @@ std::optional<LightSample> LightSampler::sampleArea(LightId id, const AreaData& 
   }
   const SurfacePoint point = samplePoint(id, u);
   return finishArea(id, data, from, point.position, point.normal, 0.0);
+}
+
+std::optional<Rgb> LightSampler::irradiance(LightId id, const Vec3& at, const Vec3& normal) const {
+  const Prepared& prepared = prepared_[id.index()];
+  if (!prepared.area) return {};
+  const AreaData& data = *prepared.area;
+  const Emission& emission = *emissionOf(scene_, data.primitive);
+  if (emission.spot || emission.pattern) return {};
+  const Rgb exitance = scaleOf(id) * emission.radiance * static_cast<float>(kPi);
+  const Shape& shape = scene_[data.primitive].shape;
+  if (const auto* sphere = std::get_if<Sphere>(&shape); sphere && (!sphere->inward || emission.bothSides)) {
+    const Vec3 to = sphere->center - at;
+    const double squared = glm::dot(to, to), radius = sphere->radius, height = glm::dot(to, normal);
+    if (squared > radius * radius && height >= radius)
+      return exitance * static_cast<float>(radius * radius * height / (squared * std::sqrt(squared)));
+    return {};
+  }
+  const auto* polygon = std::get_if<Polygon>(&shape);
+  if (!polygon || data.triangles.size() > kMaxTrianglesBySolidAngle) return {};
+  if (!emission.bothSides && !(glm::dot(at - data.triangles.front().a, polygon->normal) > 0)) return Rgb(0.0f);
+  double F = 0;
+  for (const Triangle& t : data.triangles)
+    F += formFactorToPolygon(Vec3f(at), Vec3f(normal), std::array<Vec3f, 3>{Vec3f(t.a), Vec3f(t.b), Vec3f(t.c)});
+  return exitance * static_cast<float>(F);
 }
 
 double LightSampler::area(LightId id) const {

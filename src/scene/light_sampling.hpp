@@ -57,6 +57,10 @@ class LightSampler {
   /// (both ignored for lights at infinity) [1/sr].
   double pdf(LightId, const Vec3& from, const Vec3& direction, double distance, const Vec3& normal) const;
 
+  /// Unshadowed irradiance at a point with such a unit normal, where a closed form is known: of polygons and of spheres
+  /// seen from outside and wholly above the horizon, which shine alike into all directions. [W/m2]
+  std::optional<Rgb> irradiance(LightId, const Vec3& at, const Vec3& normal) const;
+
   /// A point uniform by area on an area light; its density is 1 / area().
   SurfacePoint samplePoint(LightId, const Vec2& u) const;
   /// Area of an area light's one side [unit^2]; 0 for all other lights.

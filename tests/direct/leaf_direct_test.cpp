@@ -21,8 +21,8 @@ struct Lit {
     lamps.emplace(scene);
   }
   direct::LeafDirect front(PrimitiveId p) const {
-    const direct::DirectSampler sampler(elements, scene, *tracer, *lamps);
-    return sampler.at(elements.side(p, 0, true), {}, true);
+    const direct::DirectSampler sampler(elements, scene, *tracer, *lamps, 0.05);
+    return sampler.at(elements.side(p, 0, true), {});
   }
 
   Scene scene;

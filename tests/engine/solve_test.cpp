@@ -24,19 +24,26 @@ Scene furnace(float rho) {
   return scene;
 }
 
-class Furnace : public testing::TestWithParam<float> {};
+class Furnace : public testing::TestWithParam<std::tuple<float, SolveMethod>> {};
 
 /// Closed, every wall M = pi and rho: E = pi / (1 - rho) everywhere. [CIE 171]
 TEST_P(Furnace, IsTheSameEverywhere) {
-  const double exact = kPi / (1 - GetParam());
-  Engine engine(furnace(GetParam()));
+  const auto [rho, method] = GetParam();
+  const double exact = kPi / (1 - rho);
+  SolveSettings solve;
+  solve.method = method;
+  Engine engine(furnace(rho), solve);
   EXPECT_TRUE(engine.solve().converged);
   const Solution& s = engine.solution().get();
+  double sum = 0, area = 0;
   forEachLeaf(s, [&](hierarchy::ElementId e) {
     if (!s.elements.at(e).front) return;
     const hierarchy::ElementLight& l = s.elements.radiometry[e.index()];
     EXPECT_NEAR((l.direct + l.indirect).g, exact, 0.005 * exact);
+    sum += double(s.elements.geometry[e.index()].area) * (l.direct + l.indirect).g;
+    area += s.elements.geometry[e.index()].area;
   });
+  EXPECT_NEAR(sum / area, exact, 0.002 * exact);
   EXPECT_NO_THROW(validate(s.elements));
   EXPECT_NO_THROW(validate(s.links, s.elements));
 
@@ -52,7 +59,14 @@ TEST_P(Furnace, IsTheSameEverywhere) {
   for (const ProbeResult& r : probe(engine.solution(), points, settings))
     EXPECT_NEAR(r.irradiance.g, exact, 0.005 * exact);
 }
-INSTANTIATE_TEST_SUITE_P(Reflectances, Furnace, testing::Values(0.1f, 0.5f, 0.9f));
+std::string nameOf(const testing::TestParamInfo<Furnace::ParamType>& info) {
+  const bool lines = std::get<1>(info.param) == SolveMethod::Lines;
+  return std::to_string(std::lround(100 * std::get<0>(info.param))) + (lines ? "lines" : "links");
+}
+INSTANTIATE_TEST_SUITE_P(Reflectances, Furnace,
+                         testing::Combine(testing::Values(0.1f, 0.5f, 0.9f),
+                                          testing::Values(SolveMethod::Links, SolveMethod::Lines)),
+                         nameOf);
 
 /// A room with a lamp below its ceiling and a block that casts shadows.
 Scene room(float lamp = 10.0f, float second = 0.0f) {

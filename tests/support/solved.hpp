@@ -12,9 +12,9 @@ namespace deltalux::test {
 inline double lux(const ProbeResult& r) { return photometric(r.irradiance, kLuminousEfficacy); }
 inline Rgb fromPhotometric(double value) { return Rgb(static_cast<float>(value / kLuminousEfficacy)); }
 
-inline Engine solved(Scene scene, double error = 0.01) {
+inline Engine solved(Scene scene, double error = 0.01, SolveMethod method = SolveMethod::Links) {
   SolveSettings settings;
-  settings.error = error;
+  settings.error = error, settings.method = method;
   Engine engine(std::move(scene), settings);
   engine.solve();
   return engine;

@@ -20,19 +20,36 @@ constexpr double kMostBits = 6;              // a byte, above which deflating sa
 constexpr std::size_t kMostInflated = 1032;  // times the deflated bytes: no stream holds more [zlib's documentation]
 constexpr std::size_t kBlockFrame = 12;
 
-/// Whether bytes are so much alike in number that deflating them is in vain: by the entropy of a trial.
+/// Bits that each byte of a sequence takes by how frequent its values are.
+class Entropy {
+ public:
+  void add(unsigned char value) { ++count_[value], ++all_; }
+  double bits() const {
+    double bits = 0;
+    for (const std::uint32_t n : count_)
+      if (n > 0) bits -= n * std::log2(n / all_);
+    return all_ > 0 ? bits / all_ : 0.0;
+  }
+
+ private:
+  std::array<std::uint32_t, 256> count_{};
+  double all_ = 0;
+};
+
+/// Whether deflating them is in vain: neither values nor steps from one to the next recur, by a trial.
 bool incompressible(std::string_view bytes) {
-  std::array<std::uint32_t, 256> count{};
-  const std::string_view trial = bytes.substr(bytes.size() / 2 - std::min(bytes.size(), kTrial) / 2, kTrial);
-  for (const char c : trial) ++count[static_cast<unsigned char>(c)];
-  double bits = 0;
-  const auto all = static_cast<double>(trial.size());
-  for (const std::uint32_t n : count)
-    if (n > 0) bits -= n * std::log2(n / all);
-  return trial.size() == kTrial && bits > kMostBits * all;
+  if (bytes.size() < kTrial) return false;
+  const std::string_view trial = bytes.substr((bytes.size() - kTrial) / 2, kTrial);
+  Entropy values, steps;
+  unsigned char before = 0;
+  for (const char c : trial) {
+    const auto value = static_cast<unsigned char>(c);
+    values.add(value), steps.add(static_cast<unsigned char>(value - before)), before = value;
+  }
+  return values.bits() > kMostBits && steps.bits() > kMostBits;
 }
 
-/// `planes` parts of equal length, each deflated, or stored where that is in vain and only takes time.
+/// `planes` parts of equal length, each deflated, or (of several) stored where that is in vain and only takes time.
 std::string deflated(std::string_view bytes, std::size_t planes) {
   z_stream stream{};
   if (deflateInit(&stream, 1) != Z_OK) throw std::bad_alloc();
@@ -43,7 +60,7 @@ std::string deflated(std::string_view bytes, std::size_t planes) {
   int result = Z_OK;
   for (std::size_t plane = 0; plane < planes && result == Z_OK; ++plane) {
     const std::string_view part = bytes.substr(plane * length, plane + 1 < planes ? length : bytes.npos);
-    result = deflateParams(&stream, incompressible(part) ? 0 : 1, Z_DEFAULT_STRATEGY);
+    result = deflateParams(&stream, planes > 1 && incompressible(part) ? 0 : 1, Z_DEFAULT_STRATEGY);
     if (result != Z_OK) break;
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(part.data()));
     stream.avail_in = static_cast<uInt>(part.size());

@@ -1,9 +1,9 @@
-#include "radiosity/form_factor.hpp"
+#include "scene/form_factor.hpp"
 
 #include <array>
 #include <cmath>
 
-namespace deltalux::radiosity {
+namespace deltalux::scene {
 
 double formFactorToPolygon(const Vec3f& x, const Vec3f& n, std::span<const Vec3f> polygon) {
   constexpr std::size_t kMax = 64;
@@ -28,4 +28,4 @@ double formFactorToPolygon(const Vec3f& x, const Vec3f& n, std::span<const Vec3f
   return std::min(1.0, std::abs(sum) / (2 * kPi));
 }
 
-}  // namespace deltalux::radiosity
+}  // namespace deltalux::scene

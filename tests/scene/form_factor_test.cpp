@@ -1,4 +1,4 @@
-#include "radiosity/form_factor.hpp"
+#include "scene/form_factor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "base/random.hpp"
 
 namespace deltalux {
-using namespace radiosity;
+using namespace scene;
 
 namespace {
 
