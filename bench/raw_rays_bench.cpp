@@ -3,7 +3,7 @@
 //
 // What a solve over lines, or a picture of 640 x 480 pixels at 16 samples, takes beyond its rays: the same rays are
 // recorded in a run of their own and traced once more, raw, in one batch of each kind. CSV rows: scene, what, value,
-// unit. `COPIES` of the scene stand side by side.
+// unit. `COPIES` of the scene stand side by side; of more than four the rays are not kept.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -21,6 +21,8 @@
 
 namespace deltalux::bench {
 namespace {
+
+constexpr int kMostRecorded = 4;  // copies of a scene whose rays are kept: those of more take too much memory
 
 struct Rays {
   std::vector<tracing::Ray> closest, shadow;
@@ -89,7 +91,7 @@ void compare(const std::string& name, double seconds, const Rays& rays, double r
   row(name, "time over raw rays", seconds / raw, "");
 }
 
-void ofSolve(const std::string& name, Scene scene) {
+void ofSolve(const std::string& name, Scene scene, bool raw) {
   SolveSettings settings;
   settings.method = SolveMethod::Lines;
   const Stopwatch time;
@@ -99,6 +101,7 @@ void ofSolve(const std::string& name, Scene scene) {
   row(name, "leaves", static_cast<double>(report.counts.leafElements), "");
   row(name, "lines", static_cast<double>(report.counts.lines), "");
   row(name, "peak memory", static_cast<double>(peakResidentBytes()) / 1048576.0, "MiB");
+  if (!raw) return row(name, "time", seconds, "s");
 
   Solution again;
   again.scene = engine.solution().scene(), again.settings = settings;
@@ -124,7 +127,8 @@ void ofPicture(const std::string& name, const SolutionView& solution, const View
 
 int run(const std::vector<std::string>& a) {
   if (a.size() == 4 && a[0] == "solve") {
-    ofSolve(a[1], sideBySide(loadScene({a[2]}).scene, std::atoi(a[3].c_str())));
+    const int copies = std::atoi(a[3].c_str());
+    ofSolve(a[1], sideBySide(loadScene({a[2]}).scene, copies), copies <= kMostRecorded);
   } else if (a.size() == 4 && a[0] == "render") {
     ofPicture(a[1], loadSolution(a[2]), loadView(a[3]));
   } else {

@@ -7,6 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "engine/line_solve.hpp"
+#include "hierarchy/leaf_sequence.hpp"
 #include "lines/lines.hpp"
 #include "support/furnished_room.hpp"
 #include "support/plates.hpp"
@@ -203,6 +204,49 @@ Errors errorsAgainst(const std::filesystem::path& rad, const std::filesystem::pa
   }
   const Spread spread = spreadOf(errors);
   return {spread.median, spread.p95};
+}
+
+TEST(LineSolve, TheReportKnowsItsError) {
+  for (const double error : {0.1, 0.05}) {
+    const Engine engine = solvedByLines(loadScene({bundledScene("cornell/cornell.rad")}).scene, error);
+    const Solution& s = engine.solution().get();
+    const hierarchy::LeafTable leaves(s.elements);
+    // Leaves by area, each held against meters at points of its own.
+    constexpr std::size_t kLeaves = 200, kPoints = 24;
+    std::vector<std::size_t> chosen;
+    std::vector<ProbePoint> points;
+    double area = 0, next = 0;
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+      if (s.lines.countOf(i) > 0) area += s.elements.shape(leaves[i]).area;
+    const double step = area / kLeaves;
+    area = 0;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      if (s.lines.countOf(i) == 0) continue;
+      const hierarchy::LeafSequence sequence(s.elements, s.scene, leaves[i]);
+      for (area += s.elements.shape(leaves[i]).area; next < area; next += step) {
+        chosen.push_back(i);
+        for (std::uint32_t k = 0; k < kPoints; ++k) {
+          const hierarchy::PatchPoint x = sequence.point(4096 + k);
+          points.push_back({Vec3(x.position), Vec3(x.normal)});
+        }
+      }
+    }
+    const std::vector<ProbeResult> meters = probe(engine.solution(), points, {.error = 0.04});
+    std::vector<double> differences;
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      double mean = 0;
+      for (std::size_t p = 0; p < kPoints; ++p) mean += gray(Rgb(meters[k * kPoints + p].irradiance)) / kPoints;
+      const hierarchy::ElementLight& l = s.elements.radiometry[leaves[chosen[k]].index()];
+      if (mean > 0) differences.push_back(std::abs(gray(l.direct + l.indirect + l.particle) / mean - 1));
+    }
+    const Spread spread = spreadOf(differences);
+    const ErrorEstimate& estimate = s.report.error;
+    EXPECT_NEAR(std::log2(*estimate.estimatedMedian / spread.median), 0, 1) << "median at " << error;
+    EXPECT_NEAR(std::log2(*estimate.estimatedP95 / spread.p95), 0, 1) << "95th percentile at " << error;
+    // What is asked lies between the two.
+    EXPECT_LT(spread.median, error);
+    EXPECT_LT(error, spread.p95);
+  }
 }
 
 TEST(LineSolve, CornellBoxesAgreeWithTheReference) {

@@ -158,6 +158,27 @@ TEST(LightSampling, IrradianceOfCurvedLamps) {
   EXPECT_NEAR(tube.mean(), 3 * kPi / 4, 5 * tube.standardError());
 }
 
+TEST(LightSampling, ClosedFormsAreWhatSamplesAre) {
+  const Vec3 tilted = glm::normalize(Vec3(1, -0.5, 1.5));
+  for (const Scene& scene : {lit(square(1)), lit(square(1), {Rgb(3.0f), true, {}}), lit(Sphere{{0.3, 0, 2}, 0.4})})
+    for (const auto& [from, normal] :
+         {std::pair(Vec3(0), Vec3(0, 0, 1)), std::pair(Vec3(0.7, 0.2, 0.5), tilted),
+          std::pair(Vec3(3, -2, 1.2), Vec3(0, 0, 1)), std::pair(Vec3(0, 0, 5), Vec3(0, 0, -1)),
+          std::pair(Vec3(1, 0, 1.8), Vec3(-1, 0, 0))}) {
+      const auto exact = LightSampler(scene).irradiance(LightId(0), from, normal);
+      const test::Moments sampled = irradiance(scene, from, normal);
+      ASSERT_TRUE(exact || std::holds_alternative<Sphere>(scene.primitives[0].shape));
+      if (!exact) continue;
+      EXPECT_NEAR(exact->r, sampled.mean(), 5 * sampled.standardError() + 1e-6) << from.x << " " << from.z;
+    }
+  // Part of it below the horizon, from inside, a cone: none is known.
+  const Scene sphere = lit(Sphere{{0, 0, 0.1}, 0.4});
+  EXPECT_FALSE(LightSampler(sphere).irradiance(LightId(0), {2, 0, 0}, {0, 0, 1}));
+  EXPECT_FALSE(LightSampler(sphere).irradiance(LightId(0), {0, 0, 0}, {0, 0, 1}));
+  const Scene spot = lit(square(1), {Rgb(3.0f), false, SpotCone{0.5, {0, 0, -1}}});
+  EXPECT_FALSE(LightSampler(spot).irradiance(LightId(0), Vec3(0), {0, 0, 1}));
+}
+
 TEST(LightSampling, TrianglesOfAMeshByArea) {
   Mesh mesh;
   mesh.positions = {{-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2}};
