@@ -57,12 +57,12 @@ bool splits(const Samplers& samplers, hierarchy::ElementId patch, std::uint64_t&
   rays += samplers.measure(patch);
   const double dim = x.floor > 0 ? gray(coarse.indirect + coarse.direct) / x.floor : 1.0;
   if (tooWide(g, x.samples.scale[patch.index()], error, dim)) return true;
+  // Where a wall crosses a patch, light of one side would come out on the other.
+  if (hierarchy::wallsAcross(x.s.elements, x.s.scene, patch)) return true;
   bool split = false;
   rays += samplers.light(patch, [&](const direct::LeafDirect& light) {
     const double level = std::max<double>(gray(light.E + coarse.indirect), x.floor);
-    split = light.tooWideForBeam || variesTooMuch(light, g, g.meanFreePath, level, error) ||
-            (g.radius > lines::tuning::kFinestWidth * g.meanFreePath &&
-             hierarchy::wallsAcross(x.s.elements, x.s.scene, patch));
+    split = light.tooWideForBeam || variesTooMuch(light, g, g.meanFreePath, level, error);
     return split;
   });
   return split;

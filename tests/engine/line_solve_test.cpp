@@ -165,6 +165,21 @@ TEST(LineSolve, LightThatComesThroughASheetAloneIsThere) {
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(lux(measured[i]) / lux(expected[i]), 1, 0.04) << i;
 }
 
+TEST(LineSolve, WallsKeepLightOnTheirSide) {
+  // A sheet parts the box; floor, ceiling and walls are polygons of both rooms.
+  Scene scene;
+  const MaterialId white = addMaterial(scene, "white", lambert(0.7f));
+  addBox(scene, white, Vec3(0), {4, 2, 2}, true);
+  addPolygon(scene, white, {{2.3, 0, 0}, {2.3, 2, 0}, {2.3, 2, 2}, {2.3, 0, 2}});
+  const MaterialId lamp = addMaterial(scene, "lamp", lambert(0), Emission{Rgb(20.0f), false, {}});
+  addPolygon(scene, lamp, {{0.4, 0.4, 1.98}, {0.4, 1.6, 1.98}, {1.4, 1.6, 1.98}, {1.4, 0.4, 1.98}});
+  const Engine engine = solvedByLines(std::move(scene));
+  const auto E = measure(
+      engine, {{{1, 1, 0}, {0, 0, 1}}, {{3, 1, 0}, {0, 0, 1}}, {{3, 1, 2}, {0, 0, -1}}, {{4, 1, 1}, {-1, 0, 0}}});
+  EXPECT_GT(E[0].irradiance.g, 1);
+  for (std::size_t i = 1; i < E.size(); ++i) EXPECT_LT(E[i].irradiance.g, 1e-5) << i;
+}
+
 TEST(LineSolve, TimeBoundsEveryPhase) {
   SolveSettings settings;
   settings.error = 0.005, settings.method = SolveMethod::Lines, settings.seconds = 1;

@@ -91,12 +91,12 @@ Azimuths roots(const Condition& f) {
   std::array<double, kSteps> values;
   for (int i = 0; i < kSteps; ++i) values[i] = f.value(circle.c[i], circle.s[i]);
   const auto at = [&](int i) { return values[(i + kSteps) % kSteps]; };
-  constexpr double kStep = 2 * kPi / kSteps;
+  constexpr double spacing = 2 * kPi / kSteps;
   Azimuths found;
   for (int i = 0; i < kSteps; ++i) {
     const double left = at(i), right = at(i + 1);
     if ((left > 0) != (right > 0)) {
-      found.add(rootBetween(f, i * kStep, left, (i + 1) * kStep, right));
+      found.add(rootBetween(f, i * spacing, left, (i + 1) * spacing, right));
       continue;
     }
     // The value nearest to zero of a stretch without a change of sign: does it reach across in between?
@@ -104,10 +104,10 @@ Azimuths roots(const Condition& f) {
         std::abs(left) < std::abs(at(i - 1)) && std::abs(left) <= std::abs(right) && (at(i - 1) > 0) == (left > 0);
     if (!dips) continue;
     const double sign = left > 0 ? 1.0 : -1.0;
-    const double bottom = extremumBetween(f, (i - 1) * kStep, (i + 1) * kStep, sign), value = f(bottom);
+    const double bottom = extremumBetween(f, (i - 1) * spacing, (i + 1) * spacing, sign), value = f(bottom);
     if (sign * value >= 0) continue;
-    found.add(rootBetween(f, (i - 1) * kStep, at(i - 1), bottom, value));
-    found.add(rootBetween(f, bottom, value, (i + 1) * kStep, right));
+    found.add(rootBetween(f, (i - 1) * spacing, at(i - 1), bottom, value));
+    found.add(rootBetween(f, bottom, value, (i + 1) * spacing, right));
   }
   return found;
 }
