@@ -18,6 +18,7 @@
 #include "direct/tuning.hpp"
 #include "hierarchy/leaf_sequence.hpp"
 #include "lines/cover.hpp"
+#include "run_main.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::bench {
@@ -104,10 +105,5 @@ int run(const std::vector<std::string>& a) {
 }  // namespace deltalux::bench
 
 int main(int argc, char** argv) {
-  try {
-    return deltalux::bench::run({argv + 1, argv + argc});
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "line_error_bench: {}\n", error.what());
-    return 1;
-  }
+  return deltalux::bench::runMain("line_error_bench", argc, argv, deltalux::bench::run);
 }

@@ -15,6 +15,7 @@
 
 #include "base/per_thread.hpp"
 #include "engine/line_solve.hpp"
+#include "run_main.hpp"
 #include "scene_copies.hpp"
 #include "solution/solution.hpp"
 #include "stopwatch.hpp"
@@ -140,11 +141,4 @@ int run(const std::vector<std::string>& a) {
 }  // namespace
 }  // namespace deltalux::bench
 
-int main(int argc, char** argv) {
-  try {
-    return deltalux::bench::run({argv + 1, argv + argc});
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "raw_rays_bench: {}\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return deltalux::bench::runMain("raw_rays_bench", argc, argv, deltalux::bench::run); }

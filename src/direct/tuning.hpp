@@ -41,8 +41,8 @@ constexpr int kSkyHeights = 16, kSkyAzimuths = 16;
 constexpr int kSkyRays = 32;
 /// Lines that tell openness below one element. Fewer: guides of chance.
 constexpr int kGuideLines = 4096;
-/// Lines that a cell is taken to have had before the first, and those of them that escaped; and the least openness, of
-/// a cell in which no line escaped. Less: what few lines have seen is believed, and slots get no rays.
+/// Prior of a cell's visibility estimate: lines, and those of them that leave the scene; and the least estimate, of a
+/// cell that no line leaves the scene by. Less: what few lines have seen is believed, and slots get no rays.
 constexpr float kLinesPrior = 2, kOpenPrior = 0.1f, kLeastOpen = 1.0f / 64;
 
 /// Most that one shadow ray of a point may bring where its light is thought to be hidden, in shares of the light there,

@@ -1,11 +1,11 @@
 #include "scene/light_sampling.hpp"
-#include "scene/form_factor.hpp"
 
 #include <algorithm>
 #include <mutex>
 
 #include "base/check.hpp"
 #include "base/unit_circle.hpp"
+#include "scene/form_factor.hpp"
 #include "scene/light_sampling_triangle.hpp"
 
 namespace deltalux::scene {
