@@ -67,10 +67,11 @@ class Reporter {
     name_ = name, base_ = base, share_ = share, tasks_ = std::max<std::size_t>(tasks, 1), done_ = 0;
   }
   void taskDone() {
-    const std::size_t done = ++done_;
+    ++done_;
     if (!progress_) return;
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) return;
+    const std::size_t done = done_;  // read under the lock: what is reported never goes back
     progress_->report(name_, std::min(1.0, base_ + share_ * static_cast<double>(done) / static_cast<double>(tasks_)));
     if (progress_->stopRequested()) stopped_ = true;
   }
