@@ -113,7 +113,9 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, const TimeBudget& budget, 
   if (progress) progress->report("particles", 1.0);
   checkInterrupted(progress);
 
-  s.elements = hierarchy::buildElements(s.scene, hierarchy::surfaceSides(s.scene));
+  std::vector<hierarchy::FaceOrder> orders = hierarchy::faceOrders(s.scene);
+  const std::vector<hierarchy::SurfaceSide> sides = hierarchy::surfaceSides(s.scene, orders);
+  s.elements = hierarchy::buildElements(s.scene, sides, std::move(orders));
   if (!s.elements.sceneRoot.valid()) return solve;
   divideSkies(s.elements, s.scene);
   solve->enclosed = lines::enclosedSides(s.elements, solve->tracer, s.report.counts.raysVisibility);

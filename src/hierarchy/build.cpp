@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kLeafGroups = 4;  // surfaces that a cluster may hold directly without looking at their sizes
 constexpr float kSlot = 0.5f;           // least mean free path, relative to that of the surroundings
 constexpr double kLarge = 0.5;          // a surface this large against its cluster stays in it
-constexpr std::uint64_t kSceneKey = 1, kLightKey = 2, kGrownKey = 64;
+constexpr std::uint64_t kSceneKey = 1, kLightKey = 2, kFacesKey = 3, kGrownKey = 64;
 
 /// The sides of one surface (front, back) travel together.
 struct Group {
@@ -35,12 +35,17 @@ struct Node {
 
 /// Where the surface is at rest: edits move things within the clusters that they were built into, and a scene that was
 /// edited gets the same ones.
-Box boundsOf(const Scene& scene, PrimitiveId primitive, std::uint32_t triangle) {
-  const Shape& shape = scene::edits::restShape(scene, primitive);
+Box boundsOf(const Scene& scene, const Elements& elements, const SurfaceSide& side) {
+  const Shape& shape = scene::edits::restShape(scene, side.primitive);
   const auto* mesh = std::get_if<Mesh>(&shape);
   if (!mesh) return bounds(shape);
   Box box;
-  for (const std::uint32_t v : mesh->triangles[triangle]) box.extend(mesh->positions[v]);
+  const auto add = [&](std::uint32_t triangle) {
+    for (const std::uint32_t v : mesh->triangles[triangle]) box.extend(mesh->positions[v]);
+  };
+  if (side.order == 0) add(side.triangle);
+  for (std::uint32_t i = 0; i < side.faces.count; ++i)
+    add(elements.faceOrders[side.order - 1].faceAt(side.faces.first + i));
   return box;
 }
 
@@ -107,7 +112,7 @@ class Builder {
     for (std::uint32_t i = 0; i < sides.size(); ++i) {
       const bool sameSurface =
           i > 0 && sides[i].primitive == sides[i - 1].primitive && sides[i].triangle == sides[i - 1].triangle;
-      if (!sameSurface) groups.push_back({boundsOf(scene_, sides[i].primitive, sides[i].triangle), {}});
+      if (!sameSurface) groups.push_back({boundsOf(scene_, elements_, sides[i]), {}});
       groups.back().sides.push_back(i);
     }
     if (groups.empty() && points.empty()) return {};
@@ -155,7 +160,12 @@ class Builder {
     d.primitive = side.primitive, d.triangle = side.triangle;
     elements_.key[e.index()] =
         combineKeys(combineKeys(side.primitive.value, side.triangle), (side.front ? 4u : 8u) + emitter);
-    addPlane(elements_, scene_, e);
+    if (side.order > 0) {
+      d.order = side.order, d.outline = side.faces.first, d.outlineSize = side.faces.count;
+      elements_.key[e.index()] = combineKeys(elements_.key[e.index()], kFacesKey);
+    } else {
+      addPlane(elements_, scene_, e);
+    }
     shapePatch(elements_, scene_, e);
     // In a slot (a lamp just below the ceiling) the surface's own size is the scale that matters.
     ElementGeometry& g = elements_.geometry[e.index()];
@@ -224,14 +234,36 @@ std::vector<SurfaceSide> surfaceSides(const Scene& scene) {
   std::vector<SurfaceSide> sides;
   sides.reserve(2 * scene.primitives.size());
   for (std::size_t i = 0; i < scene.primitives.size(); ++i)
-    forEachSide(scene, PrimitiveId(i), [&](const Side& s) {
-      sides.push_back({s.primitive, s.triangle, s.front, 0, Rgb(0.0f), 0});
-    });
+    forEachSide(scene, PrimitiveId(i), [&](const Side& s) { sides.push_back({s.primitive, s.triangle, s.front}); });
   return sides;
 }
 
-Elements buildElements(const Scene& scene, const std::vector<SurfaceSide>& reachable) {
+std::vector<SurfaceSide> surfaceSides(const Scene& scene, std::span<const FaceOrder> orders) {
+  std::vector<SurfaceSide> sides;
+  for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+    const PrimitiveId primitive(i);
+    const auto order = std::lower_bound(orders.begin(), orders.end(), primitive,
+                                        [](const FaceOrder& o, PrimitiveId p) { return o.primitive() < p; });
+    if (order == orders.end() || order->primitive() != primitive) {
+      forEachSide(scene, primitive, [&](const Side& s) { sides.push_back({s.primitive, s.triangle, s.front}); });
+      continue;
+    }
+    if (!(area(scene[primitive].shape) > 0)) continue;
+    const bool clear = isClear(scene.materialOf(primitive));
+    for (const FaceRange& r : order->inputs())
+      for (const bool front : {true, false}) {
+        if (clear && !front) continue;
+        SurfaceSide side{primitive, order->faceAt(r.first), front};
+        side.order = static_cast<std::uint32_t>(order - orders.begin()) + 1, side.faces = r;
+        sides.push_back(side);
+      }
+  }
+  return sides;
+}
+
+Elements buildElements(const Scene& scene, const std::vector<SurfaceSide>& reachable, std::vector<FaceOrder> orders) {
   Elements elements;
+  elements.faceOrders = std::move(orders);
   elements.sceneBox = bounds(scene);
   Builder builder(scene, elements);
   elements.sceneRoot = builder.build(reachable, kSceneKey, false, {});
@@ -244,8 +276,8 @@ Elements buildElements(const Scene& scene, const std::vector<SurfaceSide>& reach
       const auto* mesh = std::get_if<Mesh>(&scene[area->primitive].shape);
       const bool bothSides = scene.materialOf(area->primitive).emission->bothSides;
       for (std::uint32_t t = 0; t < (mesh ? mesh->triangles.size() : 1); ++t) {
-        emitting.push_back({area->primitive, t, true, 0, Rgb(0.0f), 0});
-        if (bothSides) emitting.push_back({area->primitive, t, false, 0, Rgb(0.0f), 0});
+        emitting.push_back({area->primitive, t, true});
+        if (bothSides) emitting.push_back({area->primitive, t, false});
       }
     } else if (!std::holds_alternative<SunLight>(emitter) && !std::holds_alternative<DomeLight>(emitter)) {
       points.push_back(LightId(i));
@@ -270,7 +302,9 @@ Elements buildElements(const Scene& scene, const std::vector<SurfaceSide>& reach
 
 std::vector<ElementId> elementsOf(const Elements& elements, std::span<const SurfaceSide> sides) {
   std::vector<ElementId> found;
-  for (const SurfaceSide& s : sides) found.push_back(elements.sides.at(s.side()));
+  for (const SurfaceSide& s : sides)
+    if (const ElementId e = elements.sides.at(s.side()); found.push_back(e), e.valid())
+      found.back() = surfaceOf(elements, e);
   return found;
 }
 

@@ -1,5 +1,9 @@
 #include "hierarchy/element.hpp"
 
+#include <numeric>
+
+#include "hierarchy/below.hpp"
+
 namespace deltalux::hierarchy {
 
 ElementId Elements::addChildren(ElementId parent, ElementKind kind, std::size_t count) {
@@ -48,7 +52,28 @@ void Elements::listInputs() {
 void Elements::listSides(std::size_t firstInput) {
   for (std::size_t i = firstInput; i < inputs.size(); ++i) {
     const ElementId e = inputs[i];
-    if (isPatch(e) && !at(e).emitter) sides.add(sideOf(e)) = e;
+    if (!isPatch(e) || at(e).emitter) continue;
+    forEachBelow(*this, e, [&](ElementId patch) {
+      const bool all = hasFaces(patch), lowest = !all || isLeaf(patch);
+      if (lowest) holdSides(patch);
+      return all;
+    });
+  }
+}
+
+void Elements::holdSides(ElementId patch) {
+  Side side = sideOf(patch);
+  if (!hasFaces(patch)) {
+    sides.add(side) = patch;
+    return;
+  }
+  const FaceOrder& order = orderOf(patch);
+  side.triangle = order.faces() - 1;
+  sides.add(side);  // room for all at once
+  const FaceRange range = facesOf(patch);
+  for (std::uint32_t i = 0; i < range.count; ++i) {
+    side.triangle = order.faceAt(range.first + i);
+    sides.add(side) = patch;
   }
 }
 
@@ -56,7 +81,9 @@ std::size_t Elements::memoryBytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(topology) + bytes(geometry) + bytes(nodes) + bytes(domain) + bytes(moments) + bytes(light) +
          bytes(radiometry) + bytes(slot) + bytes(clusters) + bytes(key) + bytes(outlines) + bytes(frames) +
-         bytes(inputs) + sides.memoryBytes() + contacts.memoryBytes();
+         bytes(inputs) + sides.memoryBytes() + contacts.memoryBytes() +
+         std::transform_reduce(faceOrders.begin(), faceOrders.end(), std::size_t(0), std::plus<>(),
+                               [](const FaceOrder& o) { return o.memoryBytes(); });
 }
 
 }  // namespace deltalux::hierarchy

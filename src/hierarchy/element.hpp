@@ -12,6 +12,7 @@
 
 #include "hierarchy/contact_lines.hpp"
 #include "hierarchy/directional.hpp"
+#include "hierarchy/face_order.hpp"
 #include "hierarchy/side_table.hpp"
 
 namespace deltalux::hierarchy {
@@ -59,13 +60,14 @@ struct ElementNodes {
 };
 
 /// Where a patch lies on its primitive: the rectangle [u0,u1] x [v0,v1] of its parameters and, when flat, its outline.
+/// A patch of many faces of a fine mesh is a range of their order, with the unit square over its area for parameters.
 struct PatchDomain {
   PrimitiveId primitive;
   std::uint32_t triangle = 0;                  // mesh triangle, with its own (u,v): p0 + u (p1 - p0) + v (p2 - p0)
   std::uint32_t frame = 0;                     // flat: index of its plane
-  std::uint32_t outline = 0, outlineSize = 0;  // flat: range in the outline pool, (u,v)
+  std::uint32_t outline = 0, outlineSize = 0;  // flat: range in the outline pool, (u,v); many faces: of their order
   float u0 = 0, v0 = 0, u1 = 1, v1 = 1;
-  std::uint32_t unused = 0;   // so that no byte of a stored record is left to chance
+  std::uint32_t order = 0;    // many faces: one more than the index of their mesh's order
   std::uint64_t address = 1;  // path of quadrants from the input level: two bits a level below a leading 1
 };
 
@@ -110,6 +112,7 @@ class Elements {
   std::vector<std::uint64_t> key;  // stable: what the element is, not where it is stored
   std::vector<Vec2> outlines;
   std::vector<PlaneFrame> frames;
+  std::vector<FaceOrder> faceOrders;  // of fine meshes, where patches hold many of their faces
 
   ElementId sceneRoot;             // receivers and reflecting senders; invalid in an empty scene
   std::vector<ElementId> grown;    // more such roots, of sides that edits brought into the light
@@ -119,7 +122,7 @@ class Elements {
   Box sceneBox;                    // of all surfaces; the far boxes of distant elements are measured from it
   // These follow from the others:
   std::vector<ElementId> inputs;  // all of the input level: patches, points and distant roots
-  SideTable<ElementId> sides;     // its patches in the scene trees, by the sides that they stand for
+  SideTable<ElementId> sides;     // the lowest patch of a scene tree that holds all of a side
   ContactLines contacts;          // where patches are split besides in their middle
 
   std::size_t size() const { return topology.size(); }
@@ -142,12 +145,20 @@ class Elements {
   void listInputs();
   /// Lists the sides of inputs from this one on.
   void listSides(std::size_t firstInput);
-  /// Of a patch: the side of its input-level surface.
+  /// Of patches that hold many faces.
+  bool hasFaces(ElementId e) const { return domain[e.index()].order > 0; }
+  FaceRange facesOf(ElementId e) const { return {domain[e.index()].outline, domain[e.index()].outlineSize}; }
+  const FaceOrder& orderOf(ElementId e) const { return faceOrders[domain[e.index()].order - 1]; }
+  /// A patch now holds all of the sides in it.
+  void holdSides(ElementId patch);
+
+  /// Of a patch: the side of its input-level surface; of many faces the first.
   Side sideOf(ElementId e) const {
     const PatchDomain& d = domain[e.index()];
     return {d.primitive, d.triangle, at(e).front};
   }
-  /// The input-level element of a side; invalid when light does not reach it, when it is glass, or was removed.
+  /// The lowest element that holds all of a side: of the input level, but on fine meshes; invalid when light does not
+  /// reach it, when it is glass, or was removed.
   ElementId side(PrimitiveId primitive, std::uint32_t triangle, bool front) const {
     const ElementId e = sides.at({primitive, triangle, front});
     return e.valid() && receives(e) ? e : ElementId();

@@ -194,7 +194,7 @@ std::vector<ElementId> elementsOf(const Elements& elements, std::span<const Prim
   sortUnique(sorted);
   std::vector<ElementId> out;
   for (const PrimitiveId primitive : sorted)
-    elements.sides.forEachOf(primitive, [&](ElementId e) { out.push_back(e); });
+    elements.sides.forEachOf(primitive, [&](ElementId e) { out.push_back(surfaceOf(elements, e)); });
   if (elements.lightRoot.valid())
     forEachBelow(elements, elements.lightRoot, [&](ElementId e) {
       if (elements.isInputLevel(e) &&
@@ -202,7 +202,7 @@ std::vector<ElementId> elementsOf(const Elements& elements, std::span<const Prim
         out.push_back(e);
       return elements.isCluster(e);
     });
-  std::sort(out.begin(), out.end());
+  sortUnique(out);
   return out;
 }
 
@@ -225,9 +225,12 @@ void reshape(Elements& elements, const Scene& scene, std::span<const ElementId> 
       const Vec3f at = elements.shape(input).center;
       forSubtree(elements, input, [&](ElementId e) { vanish(elements, e, at); });
     } else {
-      if (const auto plane = planeOf(scene, elements.domain[input.index()]))
-        elements.frames[elements.domain[input.index()].frame] = *plane;
-      forSubtree(elements, input, [&](ElementId e) { shapePatch(elements, scene, e); });
+      forSubtree(elements, input, [&](ElementId e) {
+        const PatchDomain& d = elements.domain[e.index()];
+        const bool first = e == input || elements.hasFaces(elements.at(e).parent);  // of those that share a plane
+        if (elements.at(e).flat && first) elements.frames[d.frame] = *planeOf(scene, d);
+        shapePatch(elements, scene, e);
+      });
       if (elements.at(input).emitter)
         setEmission(elements, scene, input);
       else

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "hierarchy/below.hpp"
+
 namespace deltalux::hierarchy {
 
 LeafLocator::LeafLocator(const Elements& elements, const Scene& scene, const LeafTable& leaves)
     : elements_(elements), scene_(scene), planeOf_(elements.size(), LeafTable::kNone) {
-  for (const ElementId input : elements.inputs) {
-    if (!elements.receives(input)) continue;
+  const auto addSide = [&](ElementId input) {
     Plane plane;
     plane.flat = elements.at(input).flat;
     if (plane.flat) {
@@ -20,6 +21,14 @@ LeafLocator::LeafLocator(const Elements& elements, const Scene& scene, const Lea
     plane.root = add(input, elements, leaves);
     planeOf_[input.index()] = static_cast<std::uint32_t>(planes_.size());
     planes_.push_back(plane);
+  };
+  for (const ElementId input : elements.inputs) {
+    if (!elements.receives(input)) continue;
+    forEachBelow(elements, input, [&](ElementId e) {
+      const bool parted = elements.hasFaces(e) && !elements.isLeaf(e);
+      if (!parted) addSide(e);
+      return parted;
+    });
   }
 }
 
@@ -60,9 +69,9 @@ std::int32_t LeafLocator::add(ElementId e, const Elements& elements, const LeafT
 }
 
 std::uint32_t LeafLocator::at(const Side& side, const Vec3f& p) const {
-  const ElementId input = elements_.sides.at(side);
-  if (!input.valid()) return LeafTable::kNone;
-  const std::uint32_t index = planeOf_[input.index()];
+  const ElementId holder = elements_.sides.at(side);
+  if (!holder.valid()) return LeafTable::kNone;
+  const std::uint32_t index = planeOf_[holder.index()];
   if (index == LeafTable::kNone) return LeafTable::kNone;
   const Plane& plane = planes_[index];
   std::int32_t n = plane.root;

@@ -31,7 +31,7 @@ class LeafLocator {
   const Scene& scene_;
   std::vector<Node> nodes_;
   std::vector<Plane> planes_;
-  std::vector<std::uint32_t> planeOf_;  // by element of the input level
+  std::vector<std::uint32_t> planeOf_;  // by element that is the lowest to hold a side
 };
 
 }  // namespace deltalux::hierarchy

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/random.hpp"
+#include "hierarchy/input_level.hpp"
 #include "hierarchy/outline.hpp"
 
 namespace deltalux::hierarchy {
@@ -181,10 +182,61 @@ void shapeCurved(Elements& elements, const Scene& scene, ElementId e) {
   for (float& w : n.weight) w /= sum;
 }
 
+void shapeFaces(Elements& elements, const Scene& scene, ElementId e) {
+  const auto& mesh = std::get<Mesh>(scene[elements.domain[e.index()].primitive].shape);
+  const FaceOrder& order = elements.orderOf(e);
+  const FaceRange range = elements.facesOf(e);
+  const double sign = elements.at(e).front ? 1.0 : -1.0;
+  ElementGeometry& g = elements.geometry[e.index()];
+  ElementNodes& n = elements.nodes[e.index()];
+  /// visit(corners, area vector of length twice the area)
+  const auto forEachFace = [&](const auto& visit) {
+    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+      const auto& [a, b, c] = mesh.triangles[order.faceAt(i)];
+      const std::array<Vec3, 3> p = {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+      visit(p, sign * glm::cross(p[1] - p[0], p[2] - p[0]));
+    }
+  };
+  Box box;
+  Vec3 center(0), mean(0);
+  double twice = 0;
+  forEachFace([&](const std::array<Vec3, 3>& p, const Vec3& v) {
+    const double w = glm::length(v);
+    for (const Vec3& q : p) box.extend(q);
+    center += w / 3 * (p[0] + p[1] + p[2]), mean += v, twice += w;
+  });
+  center /= twice;
+  g.area = static_cast<float>(0.5 * twice);
+  g.center = Vec3f(center);
+  setExtent(g, box);
+  const double length = glm::length(mean) / twice;
+  const Vec3 normal = length > 0.05 ? glm::normalize(mean) : Vec3(0);
+  g.normal = Vec3f(normal);
+  double radius = 0, cone = length > 0.05 ? 1 : -1;
+  NormalMoments moments;
+  forEachFace([&](const std::array<Vec3, 3>& p, const Vec3& v) {
+    const double w = glm::length(v);
+    for (const Vec3& q : p) radius = std::max(radius, glm::dot(q - center, q - center));
+    cone = std::min(cone, glm::dot(v, normal) / w);
+    const auto y = harmonics(Vec3f(v / w));
+    for (int k = 0; k < kHarmonics; ++k) moments.m[k] += static_cast<float>(w / twice) * y[k];
+  });
+  g.radius = static_cast<float>(std::sqrt(radius));
+  // Rounding must not part normals that are all the same from their mean.
+  g.normalCone = cone > 1 - 1e-9 ? 1.0f : length > 0.05 ? static_cast<float>(cone) - 1e-6f : -1.0f;
+  elements.moments[e.index()] = moments;
+  for (int q = 0; q < 4; ++q) {
+    const PatchPoint p = pointOn(elements, scene, e, (q + 0.5) / 4, 1.0 / 3);
+    n.position[q] = p.position, n.normal[q] = p.normal, n.weight[q] = 0.25f;
+  }
+}
+
 }  // namespace
 
 void shapePatch(Elements& elements, const Scene& scene, ElementId patch) {
-  if (elements.at(patch).flat)
+  if (elements.hasFaces(patch))
+    shapeFaces(elements, scene, patch);
+  else if (elements.at(patch).flat)
     shapeFlat(elements, patch);
   else
     shapeCurved(elements, scene, patch);
@@ -246,6 +298,49 @@ Walls wallsAcross(const Elements& elements, const Scene& scene, ElementId e) {
           elements.contacts.across({d.frame, 1, d.v0, d.v1, d.u0, d.u1}, height)};
 }
 
+namespace {
+
+/// What a part has of the patch that it is part of; its domain is set, and its shape follows.
+void inherit(Elements& elements, const Scene& scene, ElementId whole, ElementId part) {
+  const ElementTopology& parent = elements.at(whole);
+  ElementTopology& t = elements.topology[part.index()];
+  t.front = parent.front, t.emitter = parent.emitter;
+  t.flat = elements.domain[part.index()].order > 0 ? false : parent.flat;
+  t.depth = static_cast<std::uint8_t>(parent.depth + 1);
+  elements.light[part.index()] = elements.light[whole.index()];
+  elements.geometry[part.index()].meanFreePath = elements.geometry[whole.index()].meanFreePath;
+  elements.key[part.index()] = combineKeys(elements.key[whole.index()], elements.domain[part.index()].address);
+  ElementLight& r = elements.radiometry[part.index()];
+  r = elements.radiometry[whole.index()];
+  r.directGathered = r.indirectGathered = r.particle = Rgb(0.0f);
+  if (parent.kind == ElementKind::Patch && elements.hasFaces(whole) && !elements.hasFaces(part))
+    addPlane(elements, scene, part);
+  if (parent.kind == ElementKind::Distant)
+    shapeDistant(elements, scene, part);
+  else
+    shapePatch(elements, scene, part);
+}
+
+/// A patch of many faces, into such of fewer and single faces, which are flat patches as others are.
+void partFaces(Elements& elements, const Scene& scene, ElementId e) {
+  const PatchDomain whole = elements.domain[e.index()];
+  const std::vector<FaceRange> parts = elements.orderOf(e).parts(elements.facesOf(e));
+  elements.addChildren(e, ElementKind::Patch, parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const ElementId c = elements.child(e, i);
+    PatchDomain& d = elements.domain[c.index()];
+    d = whole;
+    d.triangle = elements.orderOf(e).faceAt(parts[i].first);
+    d.outline = parts[i].first, d.outlineSize = parts[i].count;
+    d.address = whole.address << 2 | i;
+    if (parts[i].count == 1) d.order = d.outline = d.outlineSize = 0;
+    inherit(elements, scene, e, c);
+    elements.holdSides(c);
+  }
+}
+
+}  // namespace
+
 bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
   if (!elements.isLeaf(e)) return true;
   const ElementTopology parent = elements.at(e);
@@ -254,6 +349,10 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
     return false;
   if (parent.kind == ElementKind::Distant && std::holds_alternative<SunLight>(scene[elements.light[e.index()]].emitter))
     return false;
+  if (parent.kind == ElementKind::Patch && elements.hasFaces(e)) {
+    partFaces(elements, scene, e);
+    return true;
+  }
 
   bool splitU = true, splitV = true;
   float um = 0.5f * (whole.u0 + whole.u1), vm = 0.5f * (whole.v0 + whole.v1);
@@ -289,27 +388,14 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
   if (parts.empty()) return false;
 
   elements.addChildren(e, parent.kind, parts.size());
-  const ElementLight inherited = elements.radiometry[e.index()];
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const ElementId c = elements.child(e, i);
-    ElementTopology& t = elements.topology[c.index()];
-    t.front = parent.front, t.emitter = parent.emitter, t.flat = parent.flat;
-    t.depth = static_cast<std::uint8_t>(parent.depth + 1);
     PatchDomain& d = elements.domain[c.index()];
     d = parts[i];
     d.outline = static_cast<std::uint32_t>(elements.outlines.size());
     d.outlineSize = static_cast<std::uint32_t>(outlines[i].size());
     elements.outlines.insert(elements.outlines.end(), outlines[i].begin(), outlines[i].end());
-    elements.light[c.index()] = elements.light[e.index()];
-    elements.geometry[c.index()].meanFreePath = elements.geometry[e.index()].meanFreePath;
-    elements.key[c.index()] = combineKeys(elements.key[e.index()], d.address);
-    ElementLight& r = elements.radiometry[c.index()];
-    r = inherited;
-    r.directGathered = r.indirectGathered = r.particle = Rgb(0.0f);
-    if (parent.kind == ElementKind::Distant)
-      shapeDistant(elements, scene, c);
-    else
-      shapePatch(elements, scene, c);
+    inherit(elements, scene, e, c);
   }
   return true;
 }

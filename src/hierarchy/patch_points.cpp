@@ -6,8 +6,20 @@
 #include "base/unit_circle.hpp"
 #include "hierarchy/outline.hpp"
 #include "hierarchy/patch.hpp"
+#include "scene/shape_kinds.hpp"
 
 namespace deltalux::hierarchy {
+
+namespace {
+/// Uniform by area over the unit square.
+PatchPoint onFace(const Mesh& mesh, std::uint32_t face, const Vec2& uniform, bool front) {
+  const auto& [a, b, c] = mesh.triangles[face];
+  const Vec3 &p = mesh.positions[a], e1 = mesh.positions[b] - p, e2 = mesh.positions[c] - p;
+  const Vec2 at = scene::kinds::uniformInTriangle(uniform);
+  const Vec3 n = glm::normalize(glm::cross(e1, e2));
+  return {Vec3f(p + at.x * e1 + at.y * e2), Vec3f(front ? n : -n)};
+}
+}  // namespace
 
 PatchPoint pointOn(const Elements& elements, const Scene& scene, ElementId patch, double u, double v) {
   const PatchDomain& d = elements.domain[patch.index()];
@@ -15,6 +27,11 @@ PatchPoint pointOn(const Elements& elements, const Scene& scene, ElementId patch
   if (elements.at(patch).flat) {
     const PlaneFrame& f = elements.frames[d.frame];
     return {Vec3f(f.at({u, v})), Vec3f(front ? f.normal : -f.normal)};
+  }
+  if (elements.hasFaces(patch)) {
+    const auto& mesh = std::get<Mesh>(scene[d.primitive].shape);
+    const FaceOrder::Share share = elements.orderOf(patch).at(elements.facesOf(patch), u);
+    return onFace(mesh, elements.orderOf(patch).faceAt(share.place), {share.rest, v}, front);
   }
   const SurfacePoint p = pointAt(scene[d.primitive].shape, {u, v});
   return {Vec3f(p.position), Vec3f(front ? p.normal : -p.normal)};

@@ -10,6 +10,10 @@ SideLocator::SideLocator(const Elements& elements, const Scene& scene)
 LeafPoint SideLocator::locate(ElementId side, const Vec3& p) const {
   const PatchDomain& d = elements_.domain[side.index()];
   LeafPoint result;
+  if (elements_.hasFaces(side)) {
+    result.leaf = side;
+    return result;
+  }
   result.uv = elements_.at(side).flat ? planes_[d.frame].of(p) : parameterAt(scene_[d.primitive].shape, p, d.triangle);
   result.leaf = leafAt(side, result.uv);
   return result;
@@ -17,7 +21,7 @@ LeafPoint SideLocator::locate(ElementId side, const Vec3& p) const {
 
 ElementId SideLocator::leafAt(ElementId e, const Vec2& uv) const {
   const float u = static_cast<float>(uv.x), v = static_cast<float>(uv.y);
-  while (!elements_.isLeaf(e)) {
+  while (!elements_.isLeaf(e) && !elements_.hasFaces(e)) {
     ElementId nearest;
     float least = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < elements_.at(e).childCount && least > 0; ++i) {

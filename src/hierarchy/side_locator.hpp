@@ -1,11 +1,12 @@
 #pragma once
-// From a point of a surface to the element that holds it: the input-level element of the surface's side, and down its
-// quadtree to the leaf. Cost: a handful of comparisons a level, no memory per query.
+// From a point of a surface to the element that holds it: the lowest element that holds all of the surface's side, and
+// down its quadtree to the leaf. Cost: a handful of comparisons a level, no memory per query.
 #include "hierarchy/plane_points.hpp"
 
 namespace deltalux::hierarchy {
 
-/// A leaf patch and the parameters of a point on its primitive (of its triangle, for meshes).
+/// A leaf patch and the parameters of a point on its primitive (of its triangle, for meshes; of leaves of many faces
+/// they are not known).
 struct LeafPoint {
   ElementId leaf;
   Vec2 uv{0};

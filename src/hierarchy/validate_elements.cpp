@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "hierarchy/element.hpp"
+#include "hierarchy/patch.hpp"
 
 namespace deltalux::hierarchy {
 
@@ -49,7 +49,7 @@ void validate(const Elements& elements) {
     }
     if (t.childCount > 0) require(near(area, g.area, 2e-3), e, "child areas sum to the parent's");
     if (elements.isInputLevel(e) && !t.emitter)
-      require(elements.sides.at(elements.sideOf(e)) == e, e, "its side knows it");
+      require(surfaceOf(elements, elements.sides.at(elements.sideOf(e))) == e, e, "its side knows it");
   }
 }
 

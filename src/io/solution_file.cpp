@@ -86,6 +86,11 @@ SolutionView readSolution(std::string_view bytes, const std::string& file) {
   auto solution = std::make_shared<Solution>(parse(bytes, file));
   try {
     validate(solution->scene);
+    checkTables(solution->scene);
+    // As many as patches refer to follow from the scene.
+    const auto& domains = solution->elements.domain;
+    if (std::any_of(domains.begin(), domains.end(), [](const auto& d) { return d.order > 0; }))
+      solution->elements.faceOrders = hierarchy::faceOrders(solution->scene);
     checkReferences(*solution);
   } catch (const std::logic_error& error) {
     throw InputError(file, 0, std::string("does not hold together: ") + error.what(), "solve the scene again");

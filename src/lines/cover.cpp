@@ -42,7 +42,7 @@ bool Cover::mayTouch(const hierarchy::Elements& elements, hierarchy::ElementId l
   const hierarchy::ElementGeometry& g = elements.shape(leaf);
   const float reach = reachAt(glm::max(glm::abs(g.lower), glm::abs(g.upper)));
   const PrimitiveId own = elements.domain[leaf.index()].primitive;
-  const bool flat = elements.at(leaf).flat;
+  const bool flat = elements.at(leaf).flat || g.normalCone >= 1;
   bool found = false;
   boxes_.overlapping({g.lower - reach, g.upper + reach}, [&](std::uint32_t i) {
     const PrimitiveId other(i);

@@ -12,21 +12,44 @@ namespace {
 
 constexpr std::size_t kLeafBlock = 1024;
 
-/// Leaves of the other side that lie behind a leaf, by the share of its rectangle that they take.
+/// The faces of a fine mesh that a patch holds, or is part of.
+hierarchy::FaceRange facesAround(const hierarchy::Elements& elements, hierarchy::ElementId patch,
+                                 const hierarchy::FaceOrder& order) {
+  if (elements.hasFaces(patch)) return elements.facesOf(patch);
+  return {order.placeOf(elements.domain[patch.index()].triangle), 1};
+}
+
+/// Area that a patch of one side and a part of the other have in common, up to a factor.
+double commonArea(const hierarchy::Elements& elements, hierarchy::ElementId a, hierarchy::ElementId b,
+                  const hierarchy::FaceOrder* order) {
+  double area = 1;
+  if (order) {
+    const hierarchy::FaceRange ra = facesAround(elements, a, *order), rb = facesAround(elements, b, *order);
+    const std::uint32_t first = std::max(ra.first, rb.first), end = std::min(ra.first + ra.count, rb.first + rb.count);
+    if (first >= end) return 0;
+    area = order->area({first, end - first});
+  }
+  // Of patches of many faces the rectangle is everything.
+  const hierarchy::PatchDomain &da = elements.domain[a.index()], &db = elements.domain[b.index()];
+  const double u = std::min(da.u1, db.u1) - std::max(da.u0, db.u0), v = std::min(da.v1, db.v1) - std::max(da.v0, db.v0);
+  return u > 0 && v > 0 ? area * u * v : 0;
+}
+
+/// Leaves of the other side that lie behind a leaf, by the share of its area that they take.
 void addBehind(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves, std::uint32_t leaf,
                std::vector<LeafLight::Behind>& behind) {
   hierarchy::Side side = elements.sideOf(leaves[leaf]);
   side.front = !side.front;
-  const hierarchy::ElementId other = elements.sides.at(side);
+  hierarchy::ElementId other = elements.sides.at(side);
   if (!other.valid() || !elements.receives(other)) return;
-  const hierarchy::PatchDomain& d = elements.domain[leaves[leaf].index()];
+  other = hierarchy::surfaceOf(elements, other);
+  const hierarchy::FaceOrder* order = elements.hasFaces(other) ? &elements.orderOf(other) : nullptr;
   const std::size_t first = behind.size();
   float all = 0;
   hierarchy::forEachBelow(elements, other, [&](hierarchy::ElementId e) {
-    const hierarchy::PatchDomain& o = elements.domain[e.index()];
-    const float u = std::min(d.u1, o.u1) - std::max(d.u0, o.u0), v = std::min(d.v1, o.v1) - std::max(d.v0, o.v0);
-    if (!(u > 0 && v > 0)) return false;
-    if (elements.isLeaf(e)) behind.push_back({leaf, leaves.indexOf[e.index()], u * v}), all += u * v;
+    const auto area = static_cast<float>(commonArea(elements, leaves[leaf], e, order));
+    if (!(area > 0)) return false;
+    if (elements.isLeaf(e)) behind.push_back({leaf, leaves.indexOf[e.index()], area}), all += area;
     return true;
   });
   for (std::size_t i = first; i < behind.size(); ++i) behind[i].share /= all;

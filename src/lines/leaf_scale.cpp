@@ -51,7 +51,7 @@ LeafScale ScaleMeter::measure(hierarchy::ElementId patch) const {
       const LineEnd end = tracer_.follow(rays[k], hits[k], LineDirections::random(points.key(), which[k]));
       const hierarchy::ElementId side =
           end.fate == LineFate::Ended && !end.turned ? elements_.sides.at(end.side) : hierarchy::ElementId();
-      if (side.valid() && enclosed_[side.index()]) {
+      if (side.valid() && enclosed_[hierarchy::surfaceOf(elements_, side).index()]) {
         scale.covered |= std::uint64_t(1) << which[k], hollow = true;
         continue;
       }

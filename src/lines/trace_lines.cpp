@@ -92,7 +92,8 @@ class LeafTracing {
     }
     if (end.fate != LineFate::Ended) return kLost;
     const hierarchy::ElementId side = s_.elements.sides.at(end.side);
-    if (side.valid() && s_.enclosed[side.index()]) return end.turned ? kLost : kCovered;
+    if (side.valid() && s_.enclosed[hierarchy::surfaceOf(s_.elements, side).index()])
+      return end.turned ? kLost : kCovered;
     const std::uint32_t at = s_.locator.at(end.side, end.position);
     if (at == hierarchy::LeafTable::kNone) return kLost;
     if (!end.dimmed) return at;

@@ -35,6 +35,7 @@ struct Tally {
 
 struct Fallen {
   hierarchy::ElementId leaf;
+  hierarchy::Side side;
   glm::vec2 uv{0.0f};
   float weight = 0;
 };
@@ -48,16 +49,28 @@ std::vector<Fallen> fallenOn(const hierarchy::Elements& elements, const Scene& s
   parallelFor(p.paths(), kBlock, [&](std::size_t path) {
     for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
       if (!keep.empty() && keep[sideIndex(p, i)]) continue;
-      const hierarchy::ElementId side =
-          locator.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
+      const hierarchy::Side on{p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0};
+      const hierarchy::ElementId side = locator.side(on.primitive, on.triangle, on.front);
       if (!side.valid()) continue;
       const float power = p.links[p.link[path]].scale * p.nominal[p.sender[path]];
-      found[path / kBlock].push_back({locator.leafAt(side, Vec2(p.uv[i])), p.uv[i], power * gray(p.throughput[i])});
+      found[path / kBlock].push_back({locator.leafAt(side, Vec2(p.uv[i])), on, p.uv[i], power * gray(p.throughput[i])});
     }
   });
   std::vector<Fallen> all;
   for (const auto& block : found) all.insert(all.end(), block.begin(), block.end());
   return all;
+}
+
+/// Which quarter of its leaf's area something has fallen on: of its rectangle, or of its faces in order.
+std::size_t quarterOf(const hierarchy::Elements& elements, const Fallen& f) {
+  if (elements.hasFaces(f.leaf)) {
+    const hierarchy::FaceRange range = elements.facesOf(f.leaf);
+    const hierarchy::FaceOrder& order = elements.orderOf(f.leaf);
+    const std::uint32_t before = order.placeOf(f.side.triangle) - range.first;
+    return static_cast<std::size_t>(std::min(4 * order.area({range.first, before}) / order.area(range), 3.0));
+  }
+  const hierarchy::PatchDomain& d = elements.domain[f.leaf.index()];
+  return (f.uv.x > 0.5f * (d.u0 + d.u1) ? 1u : 0u) + (f.uv.y > 0.5f * (d.v0 + d.v1) ? 2u : 0u);
 }
 
 /// By leaf, in the order of ids.
@@ -67,9 +80,7 @@ std::vector<Tally> tally(const hierarchy::Elements& elements, std::span<const Fa
   for (const Fallen& f : fallen) {
     std::uint32_t& at = place[f.leaf.index()];
     if (at == Id<void>::kNone) at = static_cast<std::uint32_t>(tallies.size()), tallies.emplace_back().leaf = f.leaf;
-    const hierarchy::PatchDomain& d = elements.domain[f.leaf.index()];
-    const int quarter = (f.uv.x > 0.5f * (d.u0 + d.u1) ? 1 : 0) + (f.uv.y > 0.5f * (d.v0 + d.v1) ? 2 : 0);
-    tallies[at].quarters[quarter].add(f.weight);
+    tallies[at].quarters[quarterOf(elements, f)].add(f.weight);
     ++tallies[at].count;
   }
   std::sort(tallies.begin(), tallies.end(), [](const Tally& a, const Tally& b) { return a.leaf < b.leaf; });
@@ -106,8 +117,12 @@ std::size_t subdivideForParticles(hierarchy::Elements& elements, const Scene& sc
     // What stays whole now stays so.
     std::erase_if(fallen, [&](const Fallen& f) { return elements.isLeaf(f.leaf); });
     const hierarchy::SideLocator locator(elements, scene);
-    parallelFor(fallen.size(), 4096,
-                [&](std::size_t i) { fallen[i].leaf = locator.leafAt(fallen[i].leaf, Vec2(fallen[i].uv)); });
+    parallelFor(fallen.size(), 4096, [&](std::size_t i) {
+      Fallen& f = fallen[i];
+      const hierarchy::ElementId from =
+          elements.hasFaces(f.leaf) ? locator.side(f.side.primitive, f.side.triangle, f.side.front) : f.leaf;
+      f.leaf = locator.leafAt(from, Vec2(f.uv));
+    });
   }
   return total;
 }

@@ -293,7 +293,7 @@ float IrradianceField::forEachWeight(const hierarchy::LeafPoint& at, const Vec3f
   const std::uint32_t home = sites_.of(at.leaf);
   SupportPoint point;
   point.position = p;
-  if (!sites_[home].support.flat()) {
+  if (sites_[home].support.round()) {
     point.uv = glm::vec2(at.uv);
     point.radius = relativeRadius(scene_[elements_.domain[at.leaf.index()].primitive].shape, at.uv.y);
   }

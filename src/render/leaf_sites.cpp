@@ -83,6 +83,9 @@ LeafSites::LeafSites(const hierarchy::Elements& elements, const Scene& scene, co
 bool LeafSites::sameSurface(hierarchy::ElementId a, hierarchy::ElementId b) const {
   const hierarchy::PatchDomain &da = elements_.domain[a.index()], &db = elements_.domain[b.index()];
   const bool samePrimitive = da.primitive == db.primitive;
+  if (samePrimitive && (elements_.hasFaces(a) || elements_.hasFaces(b)))
+    return elements_.at(a).front == elements_.at(b).front &&
+           glm::dot(elements_.shape(a).normal, elements_.shape(b).normal) > kSmoothMesh;
   if (!elements_.at(a).flat || !elements_.at(b).flat)
     return samePrimitive && elements_.at(a).front == elements_.at(b).front;
   const hierarchy::ElementGeometry &ga = elements_.shape(a), &gb = elements_.shape(b);

@@ -32,11 +32,19 @@ float relativeRadius(const Shape& shape, double v) {
 }
 
 PatchSupport::PatchSupport(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId leaf)
-    : flat_(elements.at(leaf).flat) {
+    : kind_(elements.hasFaces(leaf)  ? Kind::Faces
+            : elements.at(leaf).flat ? Kind::Flat
+                                     : Kind::Round) {
+  if (kind_ == Kind::Faces) {
+    const hierarchy::ElementGeometry& g = elements.shape(leaf);
+    origin_ = g.center;
+    dualU_.x = 1 / std::max(kFacesSize * g.radius, 1e-30f);
+    return;
+  }
   const Rectangle r = rectangleOf(elements, leaf);
   const Vec2 center = 0.5 * (r.lower + r.upper), half = glm::max(0.5 * (r.upper - r.lower), Vec2(1e-12));
   const hierarchy::PatchDomain& d = elements.domain[leaf.index()];
-  if (flat_) {
+  if (flat()) {
     const hierarchy::PlaneFrame& f = elements.frames[d.frame];
     const Vec3 n = glm::cross(f.edgeU, f.edgeV);
     const double squared = std::max(glm::dot(n, n), 1e-300);
@@ -56,7 +64,12 @@ PatchSupport::PatchSupport(const hierarchy::Elements& elements, const Scene& sce
 
 bool PatchSupport::reaches(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId leaf) const {
   glm::vec2 lower(std::numeric_limits<float>::infinity()), upper(-lower);
-  if (flat_) {
+  if (kind_ == Kind::Faces) {
+    const hierarchy::ElementGeometry& g = elements.shape(leaf);
+    return (glm::length(g.center - origin_) - g.radius) * dualU_.x < kReach;
+  }
+  if (flat() && elements.hasFaces(leaf)) return true;  // its box was near
+  if (flat()) {
     const hierarchy::PlaneFrame& f = elements.frames[elements.domain[leaf.index()].frame];
     for (const Vec2& q : elements.outline(leaf)) {
       SupportPoint p;
@@ -78,7 +91,10 @@ bool PatchSupport::reaches(const hierarchy::Elements& elements, const Scene& sce
 BoxF PatchSupport::bounds(const hierarchy::Elements& elements, hierarchy::ElementId leaf) const {
   const hierarchy::ElementGeometry& g = elements.shape(leaf);
   BoxF box;
-  if (flat_) {
+  if (kind_ == Kind::Faces) {
+    const Vec3f reach(kReach / dualU_.x);
+    box = {g.center - reach, g.center + reach};
+  } else if (flat()) {
     const hierarchy::PlaneFrame& f = elements.frames[elements.domain[leaf.index()].frame];
     const Rectangle r = rectangleOf(elements, leaf);
     const Vec2 half = 0.5 * (r.upper - r.lower);

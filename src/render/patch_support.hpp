@@ -5,6 +5,7 @@
 //
 // Flat patches measure in the affine frame of their plane. Curved ones measure in their primitive's parameters, around
 // the axis by arc length at the height of the point, which closes the seam and brings all patches together at a pole.
+// Patches of many faces measure in space, from their centre.
 #include "base/box_tree.hpp"
 #include "hierarchy/element.hpp"
 
@@ -26,9 +27,11 @@ class PatchSupport {
   PatchSupport() = default;
   PatchSupport(const hierarchy::Elements&, const Scene&, hierarchy::ElementId leaf);
 
-  bool flat() const { return flat_; }
+  bool flat() const { return kind_ == Kind::Flat; }
+  bool round() const { return kind_ == Kind::Round; }
   /// In [0,1]; 0 outside.
   float weight(const SupportPoint& p) const {
+    if (kind_ == Kind::Faces) return falloff(glm::length(p.position - origin_) * dualU_.x);
     const glm::vec2 t = coordinates(p);
     return falloff(t.x) * falloff(t.y);
   }
@@ -40,7 +43,9 @@ class PatchSupport {
   bool operator==(const PatchSupport&) const = default;
 
  private:
-  static constexpr float kReach = 2.5f;  // in half sizes: weights vanish there
+  enum class Kind : char { Flat, Round, Faces };
+  static constexpr float kReach = 2.5f;      // in half sizes: weights vanish there
+  static constexpr float kFacesSize = 0.6f;  // half size of many faces, in radii: they reach half again as far
 
   static float falloff(float t) {
     const float s = 1.0f - t * t * (1.0f / (kReach * kReach));
@@ -48,7 +53,7 @@ class PatchSupport {
   }
   /// In half sizes from the centre of the patch's rectangle.
   glm::vec2 coordinates(const SupportPoint& p) const {
-    if (flat_) {
+    if (flat()) {
       const Vec3f d = p.position - origin_;
       return {glm::dot(d, dualU_), glm::dot(d, dualV_)};
     }
@@ -56,9 +61,10 @@ class PatchSupport {
     return {(du - std::floor(du + 0.5f)) * p.radius * dualU_.x, (p.uv.y - origin_.y) * dualV_.x};
   }
 
-  Vec3f origin_{0.0f};               // centre: in space, or (u, v, 0) for curved patches
-  Vec3f dualU_{0.0f}, dualV_{0.0f};  // curved: x is what one unit of arc, of v, measures in half sizes
-  bool flat_ = true;
+  Vec3f origin_{0.0f};  // centre: in space, or (u, v, 0) for curved patches
+  // Curved: x is what one unit of arc, of v, measures in half sizes; many faces: one unit of length in space.
+  Vec3f dualU_{0.0f}, dualV_{0.0f};
+  Kind kind_ = Kind::Flat;
 };
 
 }  // namespace deltalux::rendering

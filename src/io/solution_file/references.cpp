@@ -59,7 +59,14 @@ void checkDomain(const hierarchy::Elements& e, const Scene& scene, std::size_t i
   // What was removed has lost its shape, but not its elements.
   const auto* mesh = std::get_if<Mesh>(&scene::edits::restShape(scene, d.primitive));
   require(d.triangle < (mesh ? mesh->triangles.size() : 1), "patch: triangle");
-  require(d.outline <= e.outlines.size() && d.outlineSize <= e.outlines.size() - d.outline, "patch: outline");
+  if (d.order > 0) {
+    require(!t.flat && mesh && d.order <= e.faceOrders.size() && e.faceOrders[d.order - 1].primitive() == d.primitive,
+            "patch: order of faces");
+    const std::size_t faces = e.faceOrders[d.order - 1].faces();
+    require(d.outlineSize >= 2 && d.outline <= faces && d.outlineSize <= faces - d.outline, "patch: faces");
+  } else {
+    require(d.outline <= e.outlines.size() && d.outlineSize <= e.outlines.size() - d.outline, "patch: outline");
+  }
   require(!t.flat || (d.frame < e.frames.size() && d.outlineSize >= 3), "patch: plane");
   require(std::isfinite(d.u0) && std::isfinite(d.u1) && std::isfinite(d.v0) && std::isfinite(d.v1), "patch: rectangle");
 }
@@ -153,9 +160,12 @@ void checkCaustics(const caustics::Caustics& c, const Scene& scene) {
 
 }  // namespace
 
+void checkTables(const Scene& scene) {
+  for (const Primitive& p : scene.primitives) checkTables(p.shape);
+  for (const Placement& p : scene.placements) checkTables(p.rest);
+}
+
 void checkReferences(const Solution& s) {
-  for (const Primitive& p : s.scene.primitives) checkTables(p.shape);
-  for (const Placement& p : s.scene.placements) checkTables(p.rest);
   checkElements(s.elements, s.scene);
   for (const hierarchy::Link& l : s.links.all) checkLink(l, s.links.size(), s.elements);
   checkLinkTree(s.links);

@@ -32,8 +32,8 @@ void members(auto& archive, Is<SolveReport> auto& r) {
 
 void members(auto& archive, Is<hierarchy::Elements> auto& e) {
   auto& [topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines, frames,
-         sceneRoot, grown, lightRoot, distant, asleep, sceneBox, inputs, sides, contacts] =
-      e;  // the last three follow from the others
+         faceOrders, sceneRoot, grown, lightRoot, distant, asleep, sceneBox, inputs, sides, contacts] =
+      e;  // orders and the last three follow from the others
   transferAll(archive, topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines,
               frames, sceneRoot, grown, lightRoot, distant, asleep, sceneBox);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/sort_unique.hpp"
 #include "hierarchy/below.hpp"
 #include "hierarchy/outline.hpp"
 
@@ -84,7 +85,7 @@ void addFlatSide(SurfacePieces& to, const hierarchy::Elements& elements, hierarc
   }
   hierarchy::forEachLeafBelow(elements, side, [&](hierarchy::ElementId e) {
     piece.leaf = e;
-    addFlat(to, piece, elements.outline(e));
+    addFlat(to, piece, elements.hasFaces(e) ? outline : elements.outline(e));
   });
 }
 
@@ -111,6 +112,7 @@ std::vector<hierarchy::ElementId> leavesOf(const hierarchy::Elements& elements, 
   for (std::uint32_t t = 0; t < (mesh ? mesh->triangles.size() : 1); ++t)
     if (const hierarchy::ElementId side = elements.side(primitive, t, front); side.valid())
       hierarchy::forEachLeafBelow(elements, side, [&](hierarchy::ElementId e) { leaves.push_back(e); });
+  sortUnique(leaves);  // some hold many triangles
   return leaves;
 }
 
@@ -140,7 +142,7 @@ std::optional<Mat4> lagOf(const hierarchy::Elements& elements, const Scene& scen
   const auto* mesh = std::get_if<Mesh>(&scene[primitive].shape);
   for (std::uint32_t t = 0; t < (mesh ? mesh->triangles.size() : polygon ? 1 : 0); ++t) {
     const hierarchy::ElementId side = elements.side(primitive, t, front);
-    if (!side.valid()) continue;
+    if (!side.valid() || elements.hasFaces(side)) continue;
     const hierarchy::PlaneFrame now = polygon ? planeOf(*polygon) : planeOf(*mesh, t),
                                 patches = elements.frames[elements.domain[side.index()].frame];
     if (now.origin == patches.origin && now.edgeU == patches.edgeU && now.edgeV == patches.edgeV) return std::nullopt;
