@@ -56,7 +56,8 @@ bool splits(const Samplers& samplers, hierarchy::ElementId patch, std::uint64_t&
   const hierarchy::ElementLight& coarse = x.s.elements.radiometry[patch.index()];
   rays += samplers.measure(patch);
   const double dim = x.floor > 0 ? gray(coarse.indirect + coarse.direct) / x.floor : 1.0;
-  if (tooWide(g, x.samples.scale[patch.index()], error, dim)) return true;
+  const double slot = lines::slotWidth(x.s.scene, x.s.elements.sceneBox.diagonal());
+  if (lines::tooWide(g, x.samples.scale[patch.index()], error, dim, slot)) return true;
   // Where a wall crosses a patch, light of one side would come out on the other.
   if (hierarchy::wallsAcross(x.s.elements, x.s.scene, patch)) return true;
   bool split = false;

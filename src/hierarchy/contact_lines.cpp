@@ -39,15 +39,19 @@ BoxF around(std::span<const Vec3> points, double slack) {
   return {Vec3f(box.lower - by), Vec3f(box.upper + by)};
 }
 
-/// Input-level patches below the scene's root that have a plane.
-std::vector<ElementId> flatInputs(const Elements& elements) {
-  std::vector<ElementId> flat;
-  if (!elements.sceneRoot.valid()) return flat;
+bool isPlane(const Elements& elements, ElementId patch) {
+  return elements.at(patch).flat || (elements.hasFaces(patch) && elements.shape(patch).normalCone >= 1);
+}
+
+/// Input-level patches below the scene's root that have a plane, of one face or of many.
+std::vector<ElementId> planeInputs(const Elements& elements) {
+  std::vector<ElementId> planes;
+  if (!elements.sceneRoot.valid()) return planes;
   forEachBelow(elements, elements.sceneRoot, [&](ElementId e) {
-    if (elements.isInputLevel(e) && elements.at(e).flat) flat.push_back(e);
+    if (elements.isInputLevel(e) && isPlane(elements, e)) planes.push_back(e);
     return elements.isCluster(e);
   });
-  return flat;
+  return planes;
 }
 
 /// A patch's outline in space, with everything at rest.
@@ -55,6 +59,20 @@ std::vector<Vec3> cornersOf(const Elements& elements, const PlaneFrame& plane, E
   std::vector<Vec3> corners;
   for (const Vec2& q : elements.outline(patch)) corners.push_back(plane.at(q));
   return corners;
+}
+
+/// Of a plane patch of many faces: of the rectangle along its first face's edge that holds it.
+std::vector<Vec3> cornersAround(const Elements& elements, const Mesh& atRest, PlaneFrame plane, ElementId patch) {
+  plane.edgeU = glm::normalize(plane.edgeU), plane.edgeV = glm::cross(plane.normal, plane.edgeU);
+  const PlanePoints points(plane);
+  Vec2 low(kInfinity), high(-kInfinity);
+  const FaceRange range = elements.facesOf(patch);
+  for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
+    for (const std::uint32_t corner : atRest.triangles[elements.orderOf(patch).faceAt(i)]) {
+      const Vec2 q = points.of(atRest.positions[corner]);
+      low = glm::min(low, q), high = glm::max(high, q);
+    }
+  return {plane.at(low), plane.at({high.x, low.y}), plane.at(high), plane.at({low.x, high.y})};
 }
 
 }  // namespace
@@ -89,7 +107,14 @@ class ContactLines::Search {
       const Side side = elements_.sideOf(e);
       const bool again = !side.front && elements_.sides.at({side.primitive, side.triangle, true}).valid();
       if (again || !scene::stopsLight(scene_.materialOf(side.primitive))) continue;
-      if (const auto plane = atRest(e)) faces.push_back({cornersOf(elements_, *plane, e), plane->normal});
+      const auto plane = atRest(e);
+      if (!plane) continue;
+      if (!elements_.hasFaces(e)) {
+        faces.push_back({cornersOf(elements_, *plane, e), plane->normal});
+        continue;
+      }
+      const auto& mesh = std::get<Mesh>(scene::edits::restShape(scene_, side.primitive));
+      faces.push_back({cornersAround(elements_, mesh, *plane, e), plane->normal});
     }
     return faces;
   }
@@ -155,10 +180,11 @@ class ContactLines::Search {
 };
 
 ContactLines::ContactLines(const Elements& elements, const Scene& scene) {
-  const std::vector<ElementId> inputs = flatInputs(elements);
+  const std::vector<ElementId> inputs = planeInputs(elements);
   const Search search(elements, scene, inputs);
   std::vector<ElementId> patchOf(elements.frames.size());
-  for (const ElementId e : inputs) patchOf[elements.domain[e.index()].frame] = e;
+  for (const ElementId e : inputs)
+    if (elements.at(e).flat) patchOf[elements.domain[e.index()].frame] = e;
   for (const ElementId patch : patchOf) {
     const auto found = patch.valid() ? search.on(patch) : std::array<std::vector<Line>, 2>();
     for (const auto& across : found) {

@@ -4,6 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "hierarchy/below.hpp"
+#include "hierarchy/outline.hpp"
 #include "hierarchy/patch.hpp"
 
 namespace deltalux::lines {
@@ -31,6 +32,15 @@ double commonArea(const hierarchy::Elements& elements, hierarchy::ElementId a, h
   }
   // Of patches of many faces the rectangle is everything.
   const hierarchy::PatchDomain &da = elements.domain[a.index()], &db = elements.domain[b.index()];
+  if (elements.at(a).flat && elements.at(b).flat) {
+    // Outlines are those of the whole within their rectangles.
+    std::vector<Vec2> common(elements.outline(a).begin(), elements.outline(a).end());
+    for (const int axis : {0, 1}) {
+      common = hierarchy::clipOutline(common, axis, axis == 0 ? db.u0 : db.v0, false);
+      common = hierarchy::clipOutline(common, axis, axis == 0 ? db.u1 : db.v1, true);
+    }
+    return common.size() < 3 ? 0 : area * std::abs(hierarchy::outlineArea(common));
+  }
   const double u = std::min(da.u1, db.u1) - std::max(da.u0, db.u0), v = std::min(da.v1, db.v1) - std::max(da.v0, db.v0);
   return u > 0 && v > 0 ? area * u * v : 0;
 }

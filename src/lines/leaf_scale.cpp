@@ -86,11 +86,17 @@ void setMeanFreePaths(hierarchy::Elements& elements, const std::vector<LeafScale
   }
 }
 
-bool tooWide(const hierarchy::ElementGeometry& g, const LeafScale& scale, double error, double dim) {
+double slotWidth(const Scene& scene, double diagonal) {
+  return std::min(tuning::kSlotWidth / scene.metresPerUnit, tuning::kSlotOfScene * diagonal);
+}
+
+bool tooWide(const hierarchy::ElementGeometry& g, const LeafScale& scale, double error, double dim, double slot) {
   if (!(scale.mean > 0)) return false;
+  const bool wide = scale.mean > slot && dim > tuning::kSlotDim;
+  if (scale.mean <= tuning::kSlot * g.radius && !wide) return false;
   const double wider = std::clamp(1 / std::sqrt(std::max(dim, 1e-12)), 1.0, tuning::kDimWidth);
   const double finer = wider * std::sqrt(error / tuning::kBaseError);
-  return g.radius > tuning::kWidth * finer * scale.harmonic && scale.mean > tuning::kSlot * g.radius &&
+  return g.radius > tuning::kWidth * finer * scale.harmonic &&
          g.radius > tuning::kFinestWidth * finer * std::max(scale.mean, g.meanFreePath);
 }
 

@@ -32,8 +32,11 @@ class ScaleMeter {
 /// than a share of what is usual about them.
 void setMeanFreePaths(hierarchy::Elements&, const std::vector<LeafScale>&);
 
+/// Mean distance above which a lit place is no slot, in a scene of such a diagonal [scene units].
+double slotWidth(const Scene&, double diagonal);
+
 /// Whether a patch is too wide for indirect light at such an error. `dim`: its light relative to what still matters;
-/// where that is less than 1 it may be wider.
-bool tooWide(const hierarchy::ElementGeometry&, const LeafScale&, double error, double dim);
+/// where that is less than 1 it may be wider. `slot`: slotWidth().
+bool tooWide(const hierarchy::ElementGeometry&, const LeafScale&, double error, double dim, double slot);
 
 }  // namespace deltalux::lines

@@ -29,6 +29,10 @@ constexpr double kDimWidth = 3;
 /// Mean distance below which a patch lies in a slot, in its radii: it is not split for its width. Less: slots between
 /// boards fill with leaves that nobody sees.
 constexpr double kSlot = 0.5;
+/// Mean distance above which no place is a slot that has this many times the floor's light, however wide its surfaces
+/// [m], and the same relative to the scene's diagonal. Larger: the floor of a wide room that no lamp shines on is one
+/// leaf. Less: gaps between logs fill with leaves.
+constexpr double kSlotWidth = 1, kSlotOfScene = 0.1, kSlotDim = 10;
 /// Least mean free path of a surface, relative to what is usual below a cluster so many above it. Less, fewer: narrow
 /// places fill with leaves.
 constexpr double kSurroundings = 0.5;
