@@ -59,6 +59,17 @@ double meanIrradiance(const hierarchy::Elements& elements) {
   return area > 0 ? light / area : 0;
 }
 
+/// What particles reach is not enclosed, whatever walks have found.
+void openToParticles(LineSolve& x) {
+  const particles::Particles& p = x.s.particles;
+  for (std::size_t path = 0; path < p.paths(); ++path)
+    for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
+      const hierarchy::ElementId side =
+          x.s.elements.side(p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0);
+      if (side.valid()) x.enclosed[hierarchy::surfaceOf(x.s.elements, side).index()] = 0;
+    }
+}
+
 void placeParticles(Solution& s) {
   particles::ParticleTransfer(s.particles, s.elements, s.scene).apply(s.elements, s.scene);
 }
@@ -119,6 +130,7 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, const TimeBudget& budget, 
   if (!s.elements.sceneRoot.valid()) return solve;
   divideSkies(s.elements, s.scene);
   solve->enclosed = lines::enclosedSides(s.elements, solve->tracer, s.report.counts.raysVisibility);
+  openToParticles(*solve);
   s.report.times.hierarchy += watch.lap();
   checkInterrupted(progress);
 
