@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.hpp"
 #include "base/unit_circle.hpp"
 #include "hierarchy/leaf_sequence.hpp"
 
@@ -64,8 +63,8 @@ Rgb Skies::radiance(const Vec3f& direction) const {
   return sum;
 }
 
-void Openness::placeGuides(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
-                           std::span<const std::uint32_t> linesOf) {
+Openness::GuidedLeaves Openness::placeGuides(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
+                                             std::span<const std::uint32_t> linesOf) {
   std::vector<std::uint32_t> below(elements.size(), 0), guide(elements.size(), hierarchy::LeafTable::kNone);
   for (std::size_t i = elements.size(); i-- > 0;) {
     if (leaves.indexOf[i] != hierarchy::LeafTable::kNone) below[i] += linesOf[leaves.indexOf[i]];
@@ -79,14 +78,18 @@ void Openness::placeGuides(const hierarchy::Elements& elements, const hierarchy:
     if (guide[e.index()] == hierarchy::LeafTable::kNone) guide[e.index()] = static_cast<std::uint32_t>(guides_++);
     guideOf_[i] = guide[e.index()];
   }
+  GuidedLeaves guided{std::vector<std::uint32_t>(guides_ + 1, 0), std::vector<std::uint32_t>(leaves.size())};
+  for (const std::uint32_t g : guideOf_) ++guided.first[g + 1];
+  for (std::size_t g = 0; g < guides_; ++g) guided.first[g + 1] += guided.first[g];
+  std::vector<std::uint32_t> next(guided.first.begin(), guided.first.end() - 1);
+  for (std::size_t i = 0; i < leaves.size(); ++i) guided.leaf[next[guideOf_[i]]++] = static_cast<std::uint32_t>(i);
+  return guided;
 }
 
-void Openness::finish(const std::vector<Counts>& counts) {
-  share_.resize(guides_ * SkyCells::kCount);
-  for (std::size_t g = 0; g < guides_; ++g)
-    for (std::size_t c = 0; c < SkyCells::kCount; ++c)
-      share_[g * SkyCells::kCount + c] =
-          octave((counts[g].open[c] + tuning::kOpenPrior) / (counts[g].all[c] + tuning::kLinesPrior));
+void Openness::setShares(std::size_t guide, const Counts& counts) {
+  for (std::size_t c = 0; c < SkyCells::kCount; ++c)
+    share_[guide * SkyCells::kCount + c] =
+        octave((counts.open[c] + tuning::kOpenPrior) / (counts.all[c] + tuning::kLinesPrior));
 }
 
 SkyAtLeaf skyLight(const Skies& skies, const Openness& openness, const hierarchy::Elements& elements,
