@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "hierarchy/outline.hpp"
 
@@ -246,14 +247,22 @@ Walls wallsAcross(const Elements& elements, const Scene& scene, ElementId e) {
           elements.contacts.across({d.frame, 1, d.v0, d.v1, d.u0, d.u1}, height)};
 }
 
-bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
-  if (!elements.isLeaf(e)) return true;
-  const ElementTopology parent = elements.at(e);
-  const PatchDomain whole = elements.domain[e.index()];
+namespace {
+
+/// What an element is split into.
+struct Parts {
+  std::vector<PatchDomain> domains;
+  std::vector<std::vector<Vec2>> outlines;  // of each
+};
+
+Parts partsOf(const Elements& elements, const Scene& scene, ElementId e) {
+  Parts parts;
+  const ElementTopology& parent = elements.at(e);
+  const PatchDomain& whole = elements.domain[e.index()];
   if (parent.depth >= kMaxDepth || parent.kind == ElementKind::Cluster || parent.kind == ElementKind::Point)
-    return false;
+    return parts;
   if (parent.kind == ElementKind::Distant && std::holds_alternative<SunLight>(scene[elements.light[e.index()]].emitter))
-    return false;
+    return parts;
 
   bool splitU = true, splitV = true;
   float um = 0.5f * (whole.u0 + whole.u1), vm = 0.5f * (whole.v0 + whole.v1);
@@ -266,8 +275,6 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
       um = walls.u.value_or(um), vm = walls.v.value_or(vm);
     }
   }
-  std::vector<PatchDomain> parts;
-  std::vector<std::vector<Vec2>> outlines;
   for (int q = 0; q < 4; ++q) {
     if ((!splitU && (q & 1)) || (!splitV && (q & 2))) continue;
     PatchDomain d = whole;
@@ -283,35 +290,73 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
       const double cell = double(d.u1 - d.u0) * double(d.v1 - d.v0);
       if (outline.size() < 3 || std::abs(outlineArea(outline)) < 1e-9 * cell) continue;
     }
-    parts.push_back(d);
-    outlines.push_back(std::move(outline));
+    parts.domains.push_back(d);
+    parts.outlines.push_back(std::move(outline));
   }
-  if (parts.empty()) return false;
+  return parts;
+}
 
-  elements.addChildren(e, parent.kind, parts.size());
-  const ElementLight inherited = elements.radiometry[e.index()];
-  for (std::size_t i = 0; i < parts.size(); ++i) {
+/// Gives the parts their places as children, in which nothing but their domains is filled.
+void placeParts(Elements& elements, ElementId e, const Parts& parts) {
+  elements.addChildren(e, elements.at(e).kind, parts.domains.size());
+  for (std::size_t i = 0; i < parts.domains.size(); ++i) {
+    PatchDomain& d = elements.domain[elements.child(e, i).index()];
+    d = parts.domains[i];
+    d.outline = static_cast<std::uint32_t>(elements.outlines.size());
+    d.outlineSize = static_cast<std::uint32_t>(parts.outlines[i].size());
+    elements.outlines.insert(elements.outlines.end(), parts.outlines[i].begin(), parts.outlines[i].end());
+  }
+}
+
+void fillChildren(Elements& elements, const Scene& scene, ElementId e) {
+  const ElementTopology& parent = elements.at(e);
+  for (std::size_t i = 0; i < parent.childCount; ++i) {
     const ElementId c = elements.child(e, i);
     ElementTopology& t = elements.topology[c.index()];
     t.front = parent.front, t.emitter = parent.emitter, t.flat = parent.flat;
     t.depth = static_cast<std::uint8_t>(parent.depth + 1);
-    PatchDomain& d = elements.domain[c.index()];
-    d = parts[i];
-    d.outline = static_cast<std::uint32_t>(elements.outlines.size());
-    d.outlineSize = static_cast<std::uint32_t>(outlines[i].size());
-    elements.outlines.insert(elements.outlines.end(), outlines[i].begin(), outlines[i].end());
     elements.light[c.index()] = elements.light[e.index()];
     elements.geometry[c.index()].meanFreePath = elements.geometry[e.index()].meanFreePath;
-    elements.key[c.index()] = combineKeys(elements.key[e.index()], d.address);
+    elements.key[c.index()] = combineKeys(elements.key[e.index()], elements.domain[c.index()].address);
     ElementLight& r = elements.radiometry[c.index()];
-    r = inherited;
+    r = elements.radiometry[e.index()];
     r.directGathered = r.indirectGathered = r.particle = Rgb(0.0f);
     if (parent.kind == ElementKind::Distant)
       shapeDistant(elements, scene, c);
     else
       shapePatch(elements, scene, c);
   }
+}
+
+}  // namespace
+
+bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
+  if (!elements.isLeaf(e)) return true;
+  const Parts parts = partsOf(elements, scene, e);
+  if (parts.domains.empty()) return false;
+  placeParts(elements, e, parts);
+  fillChildren(elements, scene, e);
   return true;
+}
+
+std::vector<char> subdivide(Elements& elements, const Scene& scene, std::span<const ElementId> all) {
+  constexpr std::size_t kBlock = 64;  // elements of a task
+  std::vector<char> split(all.size(), true);
+  std::vector<Parts> parts(all.size());
+  parallelFor(all.size(), kBlock, [&](std::size_t i) {
+    if (elements.isLeaf(all[i])) parts[i] = partsOf(elements, scene, all[i]);
+  });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!elements.isLeaf(all[i])) continue;
+    if (parts[i].domains.empty())
+      split[i] = false;
+    else
+      placeParts(elements, all[i], parts[i]);
+  }
+  parallelFor(all.size(), kBlock, [&](std::size_t i) {
+    if (!parts[i].domains.empty()) fillChildren(elements, scene, all[i]);
+  });
+  return split;
 }
 
 }  // namespace deltalux::hierarchy

@@ -38,6 +38,8 @@ Walls wallsAcross(const Elements&, const Scene&, ElementId patch);
 /// Children inherit light and reflectances; quadrants that miss the outline are left out. False when it cannot be
 /// split.
 bool subdivide(Elements&, const Scene&, ElementId element);
+/// The same with each of several elements, none twice, in their order, by all threads. By element, whether it is split.
+std::vector<char> subdivide(Elements&, const Scene&, std::span<const ElementId>);
 
 /// Fills a Distant element whose light and domain are set (a cell of its dome's directions, equal in solid angle).
 void shapeDistant(Elements&, const Scene&, ElementId element);
