@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deltalux/error.hpp>
+#include <memory>
 
 #include "base/parallel.hpp"
 
@@ -13,19 +14,35 @@ namespace {
 
 constexpr std::size_t kBlock = 1 << 18;     // bytes; shorter ones pack less, longer ones leave threads idle
 constexpr std::size_t kWaiting = 64;        // blocks that are packed at once: 16 MB beside the solution
+constexpr std::size_t kOfTask = 2;          // blocks that are packed by one thread
 constexpr std::size_t kDirect = 8;          // blocks of a table from which on it is not copied first
 constexpr std::size_t kTrial = 1 << 13;     // bytes that tell which form of a block is shorter
 constexpr int kLevel = 1;                   // of zstd; higher ones take twice the time for a few percent
 constexpr std::size_t kMostHeld = 1 << 15;  // times the packed bytes: four are the least for 128 KiB [zstd's format]
 constexpr std::size_t kBlockFrame = 12;
 
-std::string compressed(std::string_view bytes) {
-  std::string out(ZSTD_compressBound(bytes.size()), '\0');
-  const std::size_t length = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), kLevel);
-  if (ZSTD_isError(length)) throw std::bad_alloc();  // there is room, so zstd knows no other failure
-  out.resize(length);
-  return out;
-}
+/// What zstd works in, for one block after the other.
+class Compressor {
+ public:
+  Compressor() : context_(ZSTD_createCCtx()) {
+    if (!context_) throw std::bad_alloc();
+    ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, kLevel);
+    ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_checksumFlag, 1);
+  }
+  std::string operator()(std::string_view bytes) const {
+    std::string out(ZSTD_compressBound(bytes.size()), '\0');
+    const std::size_t length = ZSTD_compress2(context_.get(), out.data(), out.size(), bytes.data(), bytes.size());
+    if (ZSTD_isError(length)) throw std::bad_alloc();  // there is room, so zstd knows no other failure
+    out.resize(length);
+    return out;
+  }
+
+ private:
+  struct Free {
+    void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
+  };
+  std::unique_ptr<ZSTD_CCtx, Free> context_;
+};
 
 std::string transposed(std::string_view bytes, std::size_t stride) {
   const std::size_t count = bytes.size() / stride;
@@ -46,7 +63,7 @@ std::size_t numberIn(std::string_view bytes, std::size_t at) {
   return number;
 }
 
-std::string packBlock(std::string_view bytes, std::size_t stride) {
+std::string packBlock(std::string_view bytes, std::size_t stride, const Compressor& compressed) {
   if (stride > 1) {
     const std::string_view trial = bytes.substr(0, std::max(stride, std::min(bytes.size(), kTrial) / stride * stride));
     if (compressed(trial).size() <= compressed(transposed(trial, stride)).size()) stride = 1;
@@ -111,11 +128,12 @@ void Packer::close() {
 
 void Packer::packWaiting(std::string_view after, std::size_t block, std::size_t stride) {
   std::vector<std::string> blocks(waiting_.size() + after.size() / block);
-  parallelFor(blocks.size(), 1, [&](std::size_t i) {
-    if (i < waiting_.size())
-      blocks[i] = packBlock(waiting_[i].bytes, waiting_[i].stride);
-    else
-      blocks[i] = packBlock(after.substr((i - waiting_.size()) * block, block), stride);
+  parallelBlocks(blocks.size(), kOfTask, [&](std::size_t begin, std::size_t end) {
+    const Compressor compressor;
+    for (std::size_t i = begin; i < end; ++i)
+      blocks[i] = i < waiting_.size()
+                      ? packBlock(waiting_[i].bytes, waiting_[i].stride, compressor)
+                      : packBlock(after.substr((i - waiting_.size()) * block, block), stride, compressor);
   });
   std::size_t length = packed_.size();
   for (const std::string& b : blocks) length += b.size();
