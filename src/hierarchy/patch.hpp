@@ -19,6 +19,9 @@ inline ElementId surfaceOf(const Elements& elements, ElementId patch) {
 /// The point at parameters (u,v) of the patch's primitive (of its triangle, for meshes).
 PatchPoint pointOn(const Elements&, const Scene&, ElementId patch, double u, double v);
 
+/// Whether it is flat and no outline cuts anything off its rectangle of parameters.
+bool fillsItsRectangle(const Elements&, ElementId patch);
+
 /// A point of the patch from two numbers in [0,1): uniform by area.
 PatchPoint samplePatch(const Elements&, const Scene&, ElementId patch, double a, double b);
 
