@@ -67,7 +67,7 @@ void lightLeaves(LineSolve& x, std::uint32_t base, double converged) {
   const std::vector<std::uint32_t> counts = lines::lineCounts(elements, leaves, powerOf(x, leaves), x.enclosed, base);
   const hierarchy::LeafLocator locator(elements, s.scene, leaves);
   lines::TracedLines traced =
-      lines::traceLines({elements, leaves, locator, x.tracer, x.cover, x.enclosed}, counts);
+      lines::traceLines({elements, leaves, locator, x.tracer, x.cover, x.enclosed, x.samples.first}, counts);
   DELTALUX_VALIDATED(validate(traced.lines));
   s.report.counts.raysVisibility += traced.rays;
   lines::Exchange exchange(traced.lines, elements, leaves, x.tracer, traced.covered);

@@ -32,7 +32,8 @@ struct Samplers {
   std::uint64_t measure(hierarchy::ElementId patch) const {
     lines::LeafScale& scale = x.samples.scale[patch.index()];
     if (scale.known > 0) return 0;
-    scale = meter.measure(patch);
+    auto& first = x.samples.first[patch.index()] = std::make_unique<lines::FirstLines>();
+    scale = meter.measure(patch, *first);
     setExposed(x, patch);
     return scale.rays;
   }
@@ -102,6 +103,7 @@ bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const s
         whole.push_back(chosen[i]);
         continue;
       }
+      x.samples.first[chosen[i].index()].reset();
       // Corners of what sees far are no narrow places.
       const float wide = lines::tuning::kOfWhole * x.samples.scale[chosen[i].index()].mean;
       for (std::size_t c = 0; c < elements.at(chosen[i]).childCount; ++c) {

@@ -1,5 +1,7 @@
 #include "lines/cover.hpp"
 
+#include <algorithm>
+
 #include "lines/tuning.hpp"
 #include "scene/stops_light.hpp"
 
@@ -8,17 +10,6 @@ namespace deltalux::lines {
 namespace {
 
 float reachAt(const Vec3f& p) { return tuning::kContact * 1e-6f * std::max(tracing::largestCoordinate(p), 1e-6f); }
-
-std::vector<BoxF> boxesOf(const Scene& scene) {
-  std::vector<BoxF> boxes;
-  for (const Primitive& p : scene.primitives) {
-    const Box b = bounds(p.shape);
-    BoxF box;
-    if (!b.empty()) box.lower = Vec3f(b.lower), box.upper = Vec3f(b.upper);
-    boxes.push_back(box);
-  }
-  return boxes;
-}
 
 /// Whether a shape may cover some area of another: flat ones where they are parallel, to within what a contact's
 /// thickness over its width may be; curved ones only where both are of a kind.
@@ -36,22 +27,49 @@ bool mayLieOn(const Shape& other, const Shape& own, bool flat, const Vec3& norma
 }  // namespace
 
 Cover::Cover(const Scene& scene, const tracing::RayTracer& tracer)
-    : scene_(scene), tracer_(tracer), boxes_(boxesOf(scene)) {}
+    : scene_(scene), tracer_(tracer), boxes_([&] {
+        std::vector<BoxF> boxes;
+        for (const Primitive& p : scene.primitives) {
+          Place place;
+          const Box b = bounds(p.shape);
+          if (!b.empty()) place.box.lower = Vec3f(b.lower), place.box.upper = Vec3f(b.upper);
+          if (const auto* polygon = std::get_if<Polygon>(&p.shape); polygon && !polygon->vertices.empty())
+            place.flat = true, place.normal = polygon->normal,
+            place.offset = glm::dot(polygon->normal, polygon->vertices[0]);
+          boxes.push_back(place.box), places_.push_back(place);
+        }
+        return boxes;
+      }()) {}
 
-bool Cover::mayTouch(const hierarchy::Elements& elements, hierarchy::ElementId leaf) const {
+Cover::About Cover::about(const hierarchy::Elements& elements, hierarchy::ElementId leaf) const {
   const hierarchy::ElementGeometry& g = elements.shape(leaf);
   const float reach = reachAt(glm::max(glm::abs(g.lower), glm::abs(g.upper)));
   const PrimitiveId own = elements.domain[leaf.index()].primitive;
   const bool flat = elements.at(leaf).flat;
   bool found = false;
+  About all;
   boxes_.overlapping({g.lower - reach, g.upper + reach}, [&](std::uint32_t i) {
     const PrimitiveId other(i);
-    found = found || (other != own && mayLieOn(scene_[other].shape, scene_[own].shape, flat, Vec3(g.normal)));
+    if (other == own) return;
+    all.push_back(i);
+    found = found || mayLieOn(scene_[other].shape, scene_[own].shape, flat, Vec3(g.normal));
   });
-  return found;
+  if (!found) all.clear();
+  return all;
 }
 
-bool Cover::covers(const Vec3f& p, const Vec3f& normal, PrimitiveId own) const {
+/// Whether the short segment about `p` can meet any of them.
+bool Cover::mayCover(const Vec3f& p, const About& about) const {
+  const float reach = 2 * reachAt(p);
+  const BoxF here{p - reach, p + reach};
+  return std::any_of(about.begin(), about.end(), [&](std::uint32_t i) {
+    const Place& place = places_[i];
+    return place.box.overlaps(here) &&
+           !(place.flat && std::abs(glm::dot(place.normal, Vec3(p)) - place.offset) > double(reach));
+  });
+}
+
+bool Cover::isCovered(const Vec3f& p, const Vec3f& normal, PrimitiveId own) const {
   const float reach = reachAt(p);
   tracing::Ray ray;
   ray.origin = p + reach * normal, ray.direction = -normal, ray.tFar = 2 * reach;
