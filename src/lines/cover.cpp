@@ -11,6 +11,42 @@ namespace {
 
 float reachAt(const Vec3f& p) { return tuning::kContact * 1e-6f * std::max(tracing::largestCoordinate(p), 1e-6f); }
 
+std::vector<BoxF> boxesOf(const Scene& scene) {
+  std::vector<BoxF> boxes;
+  for (const Primitive& p : scene.primitives) {
+    const Box b = bounds(p.shape);
+    BoxF box;
+    if (!b.empty()) box.lower = Vec3f(b.lower), box.upper = Vec3f(b.upper);
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+/// No more than the distance of a point from a shape: from its plane, or from what it is cut out of.
+struct LeastDistance {
+  Vec3 p;
+
+  double operator()(const Polygon& s) const {
+    return s.vertices.empty() ? 0.0 : std::abs(glm::dot(s.normal, p - s.vertices[0]));
+  }
+  double operator()(const Ring& s) const { return std::abs(glm::dot(s.normal, p - s.center)); }
+  double operator()(const Sphere& s) const { return std::abs(glm::length(p - s.center) - s.radius); }
+  double operator()(const Cylinder& s) const { return fromCone(s.p0, s.p1, s.radius, s.radius); }
+  double operator()(const Cone& s) const { return fromCone(s.p0, s.p1, s.radius0, s.radius1); }
+  double operator()(const Mesh&) const { return 0; }
+
+ private:
+  double fromCone(const Vec3& a, const Vec3& b, double r0, double r1) const {
+    const Vec3 axis = b - a;
+    const double length = glm::length(axis);
+    if (!(length > 0)) return 0;
+    const Vec3 d = p - a;
+    const double along = glm::dot(d, axis) / length, widening = (r1 - r0) / length;
+    const double across = std::sqrt(std::max(0.0, glm::dot(d, d) - along * along));
+    return std::abs(across - r0 - widening * along) / std::sqrt(1 + widening * widening);
+  }
+};
+
 /// Whether a shape may cover some area of another: flat ones where they are parallel, to within what a contact's
 /// thickness over its width may be; curved ones only where both are of a kind.
 bool mayLieOn(const Shape& other, const Shape& own, bool flat, const Vec3& normal) {
@@ -27,19 +63,7 @@ bool mayLieOn(const Shape& other, const Shape& own, bool flat, const Vec3& norma
 }  // namespace
 
 Cover::Cover(const Scene& scene, const tracing::RayTracer& tracer)
-    : scene_(scene), tracer_(tracer), boxes_([&] {
-        std::vector<BoxF> boxes;
-        for (const Primitive& p : scene.primitives) {
-          Place place;
-          const Box b = bounds(p.shape);
-          if (!b.empty()) place.box.lower = Vec3f(b.lower), place.box.upper = Vec3f(b.upper);
-          if (const auto* polygon = std::get_if<Polygon>(&p.shape); polygon && !polygon->vertices.empty())
-            place.flat = true, place.normal = polygon->normal,
-            place.offset = glm::dot(polygon->normal, polygon->vertices[0]);
-          boxes.push_back(place.box), places_.push_back(place);
-        }
-        return boxes;
-      }()) {}
+    : scene_(scene), tracer_(tracer), boxes_(boxesOf(scene)), tree_(boxes_) {}
 
 Cover::About Cover::about(const hierarchy::Elements& elements, hierarchy::ElementId leaf) const {
   const hierarchy::ElementGeometry& g = elements.shape(leaf);
@@ -48,7 +72,7 @@ Cover::About Cover::about(const hierarchy::Elements& elements, hierarchy::Elemen
   const bool flat = elements.at(leaf).flat;
   bool found = false;
   About all;
-  boxes_.overlapping({g.lower - reach, g.upper + reach}, [&](std::uint32_t i) {
+  tree_.overlapping({g.lower - reach, g.upper + reach}, [&](std::uint32_t i) {
     const PrimitiveId other(i);
     if (other == own) return;
     all.push_back(i);
@@ -63,9 +87,8 @@ bool Cover::mayCover(const Vec3f& p, const About& about) const {
   const float reach = 2 * reachAt(p);
   const BoxF here{p - reach, p + reach};
   return std::any_of(about.begin(), about.end(), [&](std::uint32_t i) {
-    const Place& place = places_[i];
-    return place.box.overlaps(here) &&
-           !(place.flat && std::abs(glm::dot(place.normal, Vec3(p)) - place.offset) > double(reach));
+    return boxes_[i].overlaps(here) &&
+           !(std::visit(LeastDistance{Vec3(p)}, scene_[PrimitiveId(i)].shape) > double(reach));
   });
 }
 

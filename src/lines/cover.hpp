@@ -25,20 +25,13 @@ class Cover {
   }
 
  private:
-  /// Where a primitive may be.
-  struct Place {
-    BoxF box;
-    bool flat = false;
-    Vec3 normal{0};  // of flat ones, whose points have this product with it
-    double offset = 0;
-  };
   bool mayCover(const Vec3f& p, const About&) const;
   bool isCovered(const Vec3f& p, const Vec3f& normal, PrimitiveId own) const;
 
   const Scene& scene_;
   const tracing::RayTracer& tracer_;
-  std::vector<Place> places_;  // by primitive
-  BoxTree boxes_;              // the same
+  std::vector<BoxF> boxes_;  // by primitive
+  BoxTree tree_;             // over them
 };
 
 /// By element of the input level: whether walks from it find no light, in a hollow too small to be a room. What lies
