@@ -64,10 +64,12 @@ std::vector<double> errorsOf(const SolutionView& view) {
   for (const std::size_t leaf : sampled.leaves) {
     const hierarchy::LeafSequence sequence(s.elements, s.scene, all[leaf]);
     const PrimitiveId own = s.elements.domain[all[leaf].index()].primitive;
+    const lines::Cover::About about = cover.about(s.elements, all[leaf]);
+    std::uint64_t rays = 0;
     std::uint32_t i = kFirstPoint;
     for (std::size_t k = 0; k < kPoints; ++i) {
       const hierarchy::PatchPoint x = sequence.point(i);
-      if (i < 2 * kFirstPoint && cover.covers(x.position, x.normal, own)) continue;
+      if (i < 2 * kFirstPoint && cover.covers(x.position, x.normal, own, about, rays)) continue;
       points.push_back({Vec3(x.position), Vec3(x.normal)}), ++k;
     }
   }

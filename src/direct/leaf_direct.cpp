@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "direct/tuning.hpp"
 #include "hierarchy/leaf_sequence.hpp"
@@ -88,15 +89,22 @@ bool nearBy(const Lamp& lamp, const hierarchy::ElementGeometry& g) {
   return glm::length(center - g.center) < tuning::kNearBy * (g.radius + glm::length(half));
 }
 
-/// Unshadowed light of a sample at a point [W/m2], and its ray.
-Rgb openLight(const scene::LightSampler& sampler, LightId id, const Vec3& p, const Vec3& normal, const UnitPair& u,
-              tracing::Ray& ray) {
-  const auto s = sampler.sample(id, p, {u.x, u.y});
-  if (!s) return Rgb(0.0f);
-  const double cosine = glm::dot(s->direction, normal);
-  if (!(cosine > 0)) return Rgb(0.0f);
-  ray = tracing::shadowRay(p, normal, s->direction, s->distance, s->normal);
-  return s->radiance * static_cast<float>(cosine / (s->pdf > 0 ? s->pdf : 1.0));
+/// What a light would bring to a point without shadows, by a sample that shines there [W/m2].
+struct OpenLight {
+  Rgb E{0.0f};
+  std::optional<scene::LightSample> sample;
+
+  tracing::Ray ray(const hierarchy::PatchPoint& x) const {
+    return tracing::shadowRay(Vec3(x.position), Vec3(x.normal), sample->direction, sample->distance, sample->normal);
+  }
+};
+
+OpenLight openLight(const scene::LightSampler& sampler, LightId id, const hierarchy::PatchPoint& x, const UnitPair& u) {
+  OpenLight light{Rgb(0.0f), sampler.sample(id, Vec3(x.position), {u.x, u.y})};
+  if (!light.sample) return light;
+  const double cosine = glm::dot(light.sample->direction, Vec3(x.normal)), pdf = light.sample->pdf;
+  if (cosine > 0) light.E = light.sample->radiance * static_cast<float>(cosine / (pdf > 0 ? pdf : 1.0));
+  return light;
 }
 
 }  // namespace
@@ -107,11 +115,10 @@ void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, Tally& t) 
     const auto k = static_cast<std::size_t>(t.first + t.samples);
     const hierarchy::PatchPoint& x = points.at[k];
     t.counts[points.quadrant[k]] += 1;
-    tracing::Ray ray;
-    const Rgb open =
-        openLight(lamps_.sampler(), lamp.id, Vec3(x.position), Vec3(x.normal), numbers(points.number[k]), ray);
+    const OpenLight light = openLight(lamps_.sampler(), lamp.id, x, numbers(points.number[k]));
+    const Rgb open = light.E;
     if (isBlack(open)) continue;
-    const Rgb lit = open * tracer_.transmittance(ray);
+    const Rgb lit = open * tracer_.transmittance(light.ray(x));
     ++t.shot, ++t.rays, t.passed += !isBlack(lit);
     t.open += RgbSum(open), t.lit += RgbSum(lit);
     t.quadrants[points.quadrant[k]] += gray(lit), t.squares += double(gray(lit)) * gray(lit);
@@ -129,9 +136,7 @@ Rgb DirectSampler::unshadowed(const Lamp& lamp, Points& points, int wanted) cons
       sum += RgbSum(*E);
       continue;
     }
-    tracing::Ray ray;
-    sum += RgbSum(openLight(lamps_.sampler(), lamp.id, Vec3(points.at[k].position), Vec3(points.at[k].normal),
-                            numbers(points.number[k]), ray));
+    sum += RgbSum(openLight(lamps_.sampler(), lamp.id, points.at[k], numbers(points.number[k])).E);
   }
   return n > 0 ? Rgb(sum / double(n)) : Rgb(0.0f);
 }

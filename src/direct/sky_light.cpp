@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.hpp"
 #include "base/unit_circle.hpp"
 #include "hierarchy/leaf_sequence.hpp"
 
@@ -17,18 +16,31 @@ constexpr std::uint64_t kSkyKey = 0x736b795f5f5full;
 /// Power of two nearest to a share.
 float octave(float share) { return std::exp2(std::round(std::log2(std::clamp(share, tuning::kLeastOpen, 1.0f)))); }
 
-/// The middle and the corners of a cell.
-using CellDirections = std::array<Vec3f, 5>;
+/// The middles and the corners of all cells, one coordinate after the other, as passes over arrays want it.
+struct CellLooks {
+  using All = std::array<float, SkyCells::kCount>;
 
-std::vector<CellDirections> cellDirections() {
-  std::vector<CellDirections> cells(SkyCells::kCount);
-  for (int cell = 0; cell < SkyCells::kCount; ++cell) {
-    CellDirections& d = cells[static_cast<std::size_t>(cell)];
-    d[4] = SkyCells::direction(cell, 0.5, 0.5);
-    for (int q = 0; q < 4; ++q) d[static_cast<std::size_t>(q)] = SkyCells::direction(cell, q & 1, q >> 1);
+  CellLooks() {
+    for (int cell = 0; cell < SkyCells::kCount; ++cell)
+      for (std::size_t look = 0; look < 5; ++look) {
+        const bool corner = look < 4;
+        const Vec3f w = SkyCells::direction(cell, corner ? double(look & 1) : 0.5, corner ? double(look >> 1) : 0.5);
+        const auto c = static_cast<std::size_t>(cell);
+        x[look][c] = w.x, y[look][c] = w.y, z[look][c] = w.z;
+      }
   }
-  return cells;
-}
+  /// Greatest cosine of a direction of each with `normal`, or -1.
+  All cosines(const Vec3f& normal) const {
+    All most;
+    most.fill(-1.0f);
+    for (std::size_t look = 0; look < 5; ++look)
+      for (std::size_t c = 0; c < most.size(); ++c)
+        most[c] = std::max(most[c], normal.x * x[look][c] + normal.y * y[look][c] + normal.z * z[look][c]);
+    return most;
+  }
+
+  std::array<All, 5> x, y, z;
+};
 
 }  // namespace
 
@@ -64,8 +76,8 @@ Rgb Skies::radiance(const Vec3f& direction) const {
   return sum;
 }
 
-void Openness::placeGuides(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
-                           std::span<const std::uint32_t> linesOf) {
+Openness::GuidedLeaves Openness::placeGuides(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
+                                             std::span<const std::uint32_t> linesOf) {
   std::vector<std::uint32_t> below(elements.size(), 0), guide(elements.size(), hierarchy::LeafTable::kNone);
   for (std::size_t i = elements.size(); i-- > 0;) {
     if (leaves.indexOf[i] != hierarchy::LeafTable::kNone) below[i] += linesOf[leaves.indexOf[i]];
@@ -79,14 +91,18 @@ void Openness::placeGuides(const hierarchy::Elements& elements, const hierarchy:
     if (guide[e.index()] == hierarchy::LeafTable::kNone) guide[e.index()] = static_cast<std::uint32_t>(guides_++);
     guideOf_[i] = guide[e.index()];
   }
+  GuidedLeaves guided{std::vector<std::uint32_t>(guides_ + 1, 0), std::vector<std::uint32_t>(leaves.size())};
+  for (const std::uint32_t g : guideOf_) ++guided.first[g + 1];
+  for (std::size_t g = 0; g < guides_; ++g) guided.first[g + 1] += guided.first[g];
+  std::vector<std::uint32_t> next(guided.first.begin(), guided.first.end() - 1);
+  for (std::size_t i = 0; i < leaves.size(); ++i) guided.leaf[next[guideOf_[i]]++] = static_cast<std::uint32_t>(i);
+  return guided;
 }
 
-void Openness::finish(const std::vector<Counts>& counts) {
-  share_.resize(guides_ * SkyCells::kCount);
-  for (std::size_t g = 0; g < guides_; ++g)
-    for (std::size_t c = 0; c < SkyCells::kCount; ++c)
-      share_[g * SkyCells::kCount + c] =
-          octave((counts[g].open[c] + tuning::kOpenPrior) / (counts[g].all[c] + tuning::kLinesPrior));
+void Openness::setShares(std::size_t guide, const Counts& counts) {
+  for (std::size_t c = 0; c < SkyCells::kCount; ++c)
+    share_[guide * SkyCells::kCount + c] =
+        octave((counts.open[c] + tuning::kOpenPrior) / (counts.all[c] + tuning::kLinesPrior));
 }
 
 SkyAtLeaf skyLight(const Skies& skies, const Openness& openness, const hierarchy::Elements& elements,
@@ -100,13 +116,14 @@ SkyAtLeaf skyLight(const Skies& skies, const Openness& openness, const hierarchy
     const auto c = static_cast<std::size_t>(cell);
     return cumulative[c] - (c > 0 ? cumulative[c - 1] : 0.0f);
   };
-  static const std::vector<CellDirections> cells = cellDirections();
+  static const CellLooks looks;
+  CellLooks::All cosines;
+  if (flat)
+    cosines = looks.cosines(g.normal);
+  else
+    cosines.fill(1.0f);
   for (int cell = 0; cell < SkyCells::kCount; ++cell) {
-    float cosine = 1;
-    if (flat) {
-      cosine = -1;
-      for (const Vec3f& w : cells[static_cast<std::size_t>(cell)]) cosine = std::max(cosine, glm::dot(g.normal, w));
-    }
+    const float cosine = cosines[static_cast<std::size_t>(cell)];
     if (cosine > 0) total += skies.strength(cell) * cosine * openness.at(s.leaf, cell);
     cumulative[static_cast<std::size_t>(cell)] = total;
   }

@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 
+#include "base/parallel.hpp"
 #include "direct/tuning.hpp"
 #include "hierarchy/leaf_table.hpp"
 #include "scene/light_sampling.hpp"
@@ -41,19 +42,22 @@ class Skies {
 /// Openness by guide: shares of lines into each cell that escape, in octaves.
 class Openness {
  public:
-  /// `forEachLine(sink)` calls sink(leaf, cell, escaped) for every line. Counts below the lowest element above each
-  /// leaf that has enough lines.
-  template <class ForEachLine>
+  /// `forEachLineOf(leaf, sink)` calls sink(cell, escaped) for every line of a leaf. Counts below the lowest element
+  /// above each leaf that has enough lines.
+  template <class ForEachLineOf>
   Openness(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
-           std::span<const std::uint32_t> linesOf, const ForEachLine& forEachLine) {
-    placeGuides(elements, leaves, linesOf);
-    std::vector<Counts> counts(guides_);
-    forEachLine([&](std::uint32_t leaf, int cell, bool escaped) {
-      Counts& c = counts[guideOf_[leaf]];
-      const auto k = static_cast<std::size_t>(cell);
-      c.all[k] += 1, c.open[k] += escaped;
+           std::span<const std::uint32_t> linesOf, const ForEachLineOf& forEachLineOf) {
+    const GuidedLeaves guided = placeGuides(elements, leaves, linesOf);
+    share_.resize(guides_ * SkyCells::kCount);
+    parallelFor(guides_, 1, [&](std::size_t guide) {
+      Counts counts;
+      for (std::uint32_t k = guided.first[guide]; k < guided.first[guide + 1]; ++k)
+        forEachLineOf(guided.leaf[k], [&](int cell, bool escaped) {
+          const auto c = static_cast<std::size_t>(cell);
+          counts.all[c] += 1, counts.open[c] += escaped;
+        });
+      setShares(guide, counts);
     });
-    finish(counts);
   }
 
   /// Chance that a line from the leaf into a cell escapes, about; never 0.
@@ -65,8 +69,13 @@ class Openness {
   struct Counts {
     std::array<float, SkyCells::kCount> all{}, open{};
   };
-  void placeGuides(const hierarchy::Elements&, const hierarchy::LeafTable&, std::span<const std::uint32_t> linesOf);
-  void finish(const std::vector<Counts>&);
+  /// The leaves of each guide.
+  struct GuidedLeaves {
+    std::vector<std::uint32_t> first, leaf;  // first by guide, and one more for the end
+  };
+  GuidedLeaves placeGuides(const hierarchy::Elements&, const hierarchy::LeafTable&,
+                           std::span<const std::uint32_t> linesOf);
+  void setShares(std::size_t guide, const Counts&);
 
   std::size_t guides_ = 0;
   std::vector<std::uint32_t> guideOf_;  // by leaf

@@ -10,6 +10,7 @@
 #include "lines/iterate.hpp"
 #include "lines/line_counts.hpp"
 #include "lines/tuning.hpp"
+#include "solution/sky_openness.hpp"
 
 namespace deltalux::engine {
 
@@ -30,22 +31,11 @@ std::vector<float> powerOf(const LineSolve& x, const hierarchy::LeafTable& leave
   return power;
 }
 
-direct::Openness openness(const LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Lines& lines,
-                          std::span<const std::uint32_t> counts) {
-  return direct::Openness(x.s.elements, leaves, counts, [&](const auto& sink) {
-    for (std::size_t i = 0; i < leaves.size(); ++i)
-      for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k)
-        if (lines.end[k] != lines::kCovered)
-          sink(static_cast<std::uint32_t>(i), direct::SkyCells::of(lines::direction(lines.code[k])),
-               lines.end[k] == lines::kEscaped);
-  });
-}
-
 std::vector<direct::SkyAtLeaf> skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::TracedLines& traced,
                                      std::span<const std::uint32_t> counts) {
   std::vector<direct::SkyAtLeaf> sky(leaves.size());
   if (x.skies.empty()) return sky;
-  const direct::Openness open = openness(x, leaves, traced.lines, counts);
+  const direct::Openness open = skyOpenness(x.s.elements, leaves, traced.lines);
   std::vector<std::uint32_t> first(leaves.size() + 1, 0);
   for (const lines::EscapedLine& e : traced.escaped) ++first[e.leaf + 1];
   for (std::size_t i = 0; i < leaves.size(); ++i) first[i + 1] += first[i];
@@ -76,7 +66,8 @@ void lightLeaves(LineSolve& x, std::uint32_t base, double converged) {
   const std::size_t n = leaves.size();
   const std::vector<std::uint32_t> counts = lines::lineCounts(elements, leaves, powerOf(x, leaves), x.enclosed, base);
   const hierarchy::LeafLocator locator(elements, s.scene, leaves);
-  lines::TracedLines traced = lines::traceLines({elements, leaves, locator, x.tracer, x.cover, x.enclosed}, counts);
+  lines::TracedLines traced =
+      lines::traceLines({elements, leaves, locator, x.tracer, x.cover, x.enclosed, x.samples.first}, counts);
   DELTALUX_VALIDATED(validate(traced.lines));
   s.report.counts.raysVisibility += traced.rays;
   lines::Exchange exchange(traced.lines, elements, leaves, x.tracer, traced.covered);

@@ -32,7 +32,8 @@ struct Samplers {
   std::uint64_t measure(hierarchy::ElementId patch) const {
     lines::LeafScale& scale = x.samples.scale[patch.index()];
     if (scale.known > 0) return 0;
-    scale = meter.measure(patch);
+    auto& first = x.samples.first[patch.index()] = std::make_unique<lines::FirstLines>();
+    scale = meter.measure(patch, *first);
     setExposed(x, patch);
     return scale.rays;
   }
@@ -93,17 +94,21 @@ bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const s
       });
     }
     const bool stopped = stop();
-    std::vector<hierarchy::ElementId> parts, whole;
-    for (std::size_t i = 0; i < patches.size(); ++i) {
-      if (!split[i]) continue;
-      if (stopped || !hierarchy::subdivide(elements, x.s.scene, patches[i])) {
-        whole.push_back(patches[i]);
+    std::vector<hierarchy::ElementId> chosen, parts, whole;
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      if (split[i]) chosen.push_back(patches[i]);
+    const std::vector<char> done =
+        stopped ? std::vector<char>(chosen.size(), false) : hierarchy::subdivide(elements, x.s.scene, chosen);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (!done[i]) {
+        whole.push_back(chosen[i]);
         continue;
       }
+      x.samples.first[chosen[i].index()].reset();
       // Corners of what sees far are no narrow places.
-      const float wide = lines::tuning::kOfWhole * x.samples.scale[patches[i].index()].mean;
-      for (std::size_t c = 0; c < elements.at(patches[i]).childCount; ++c) {
-        const hierarchy::ElementId part = elements.child(patches[i], c);
+      const float wide = lines::tuning::kOfWhole * x.samples.scale[chosen[i].index()].mean;
+      for (std::size_t c = 0; c < elements.at(chosen[i]).childCount; ++c) {
+        const hierarchy::ElementId part = elements.child(chosen[i], c);
         float& path = elements.geometry[part.index()].meanFreePath;
         path = std::max(path, wide);
         parts.push_back(part);

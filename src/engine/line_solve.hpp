@@ -21,8 +21,9 @@ namespace deltalux::engine {
 struct PatchSamples {
   std::vector<lines::LeafScale> scale;
   std::vector<direct::LeafDirect> direct;
+  std::vector<std::unique_ptr<lines::FirstLines>> first;  // of those that are not split
 
-  void resize(std::size_t elements) { scale.resize(elements), direct.resize(elements); }
+  void resize(std::size_t elements) { scale.resize(elements), direct.resize(elements), first.resize(elements); }
 };
 
 /// What the stages share: the scene as each layer sees it, and what they have found so far.

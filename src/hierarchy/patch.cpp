@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/outline.hpp"
@@ -300,59 +301,37 @@ Walls wallsAcross(const Elements& elements, const Scene& scene, ElementId e) {
 
 namespace {
 
-/// What a part has of the patch that it is part of; its domain is set, and its shape follows.
-void inherit(Elements& elements, const Scene& scene, ElementId whole, ElementId part) {
-  const ElementTopology& parent = elements.at(whole);
-  ElementTopology& t = elements.topology[part.index()];
-  t.front = parent.front, t.emitter = parent.emitter;
-  t.flat = elements.domain[part.index()].order > 0 ? false : parent.flat;
-  t.depth = static_cast<std::uint8_t>(parent.depth + 1);
-  elements.light[part.index()] = elements.light[whole.index()];
-  elements.geometry[part.index()].meanFreePath = elements.geometry[whole.index()].meanFreePath;
-  elements.key[part.index()] = combineKeys(elements.key[whole.index()], elements.domain[part.index()].address);
-  ElementLight& r = elements.radiometry[part.index()];
-  r = elements.radiometry[whole.index()];
-  r.directGathered = r.indirectGathered = r.particle = Rgb(0.0f);
-  if (parent.kind == ElementKind::Patch && elements.hasFaces(whole) && !elements.hasFaces(part))
-    addPlane(elements, scene, part);
-  if (parent.kind == ElementKind::Distant)
-    shapeDistant(elements, scene, part);
-  else
-    shapePatch(elements, scene, part);
-}
+/// What an element is split into.
+struct Parts {
+  std::vector<PatchDomain> domains;
+  std::vector<std::vector<Vec2>> outlines;  // of each
+};
 
-/// A patch of many faces, into such of fewer and single faces, which are flat patches as others are.
-void partFaces(Elements& elements, const Scene& scene, ElementId e) {
-  const PatchDomain whole = elements.domain[e.index()];
-  const std::vector<FaceRange> parts = elements.orderOf(e).parts(elements.facesOf(e));
-  elements.addChildren(e, ElementKind::Patch, parts.size());
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const ElementId c = elements.child(e, i);
-    PatchDomain& d = elements.domain[c.index()];
-    d = whole;
-    d.triangle = elements.orderOf(e).faceAt(parts[i].first);
-    d.outline = parts[i].first, d.outlineSize = parts[i].count;
-    d.address = whole.address << 2 | i;
-    if (parts[i].count == 1) d.order = d.outline = d.outlineSize = 0;
-    inherit(elements, scene, e, c);
-    elements.holdSides(c);
+/// Of a patch of many faces: such of fewer, and single faces, which are flat patches as others are.
+Parts partsOfFaces(const Elements& elements, ElementId e) {
+  Parts parts;
+  const PatchDomain& whole = elements.domain[e.index()];
+  for (const FaceRange& r : elements.orderOf(e).parts(elements.facesOf(e))) {
+    PatchDomain d = whole;
+    d.address = whole.address << 2 | parts.domains.size();
+    d.triangle = elements.orderOf(e).faceAt(r.first);
+    d.outline = r.first, d.outlineSize = r.count;
+    if (r.count == 1) d.order = d.outline = d.outlineSize = 0;
+    parts.domains.push_back(d);
   }
+  parts.outlines.resize(parts.domains.size());
+  return parts;
 }
 
-}  // namespace
-
-bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
-  if (!elements.isLeaf(e)) return true;
-  const ElementTopology parent = elements.at(e);
-  const PatchDomain whole = elements.domain[e.index()];
+Parts partsOf(const Elements& elements, const Scene& scene, ElementId e) {
+  Parts parts;
+  const ElementTopology& parent = elements.at(e);
+  const PatchDomain& whole = elements.domain[e.index()];
   if (parent.depth >= kMaxDepth || parent.kind == ElementKind::Cluster || parent.kind == ElementKind::Point)
-    return false;
+    return parts;
   if (parent.kind == ElementKind::Distant && std::holds_alternative<SunLight>(scene[elements.light[e.index()]].emitter))
-    return false;
-  if (parent.kind == ElementKind::Patch && elements.hasFaces(e)) {
-    partFaces(elements, scene, e);
-    return true;
-  }
+    return parts;
+  if (parent.kind == ElementKind::Patch && elements.hasFaces(e)) return partsOfFaces(elements, e);
 
   bool splitU = true, splitV = true;
   float um = 0.5f * (whole.u0 + whole.u1), vm = 0.5f * (whole.v0 + whole.v1);
@@ -365,8 +344,6 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
       um = walls.u.value_or(um), vm = walls.v.value_or(vm);
     }
   }
-  std::vector<PatchDomain> parts;
-  std::vector<std::vector<Vec2>> outlines;
   for (int q = 0; q < 4; ++q) {
     if ((!splitU && (q & 1)) || (!splitV && (q & 2))) continue;
     PatchDomain d = whole;
@@ -382,22 +359,80 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
       const double cell = double(d.u1 - d.u0) * double(d.v1 - d.v0);
       if (outline.size() < 3 || std::abs(outlineArea(outline)) < 1e-9 * cell) continue;
     }
-    parts.push_back(d);
-    outlines.push_back(std::move(outline));
+    parts.domains.push_back(d);
+    parts.outlines.push_back(std::move(outline));
   }
-  if (parts.empty()) return false;
+  return parts;
+}
 
-  elements.addChildren(e, parent.kind, parts.size());
-  for (std::size_t i = 0; i < parts.size(); ++i) {
+/// Gives the parts their places as children, in which nothing but their domains and planes is filled.
+void placeParts(Elements& elements, const Scene& scene, ElementId e, const Parts& parts) {
+  elements.addChildren(e, elements.at(e).kind, parts.domains.size());
+  for (std::size_t i = 0; i < parts.domains.size(); ++i) {
     const ElementId c = elements.child(e, i);
     PatchDomain& d = elements.domain[c.index()];
-    d = parts[i];
+    d = parts.domains[i];
+    if (elements.hasFaces(e)) {
+      if (!elements.hasFaces(c)) addPlane(elements, scene, c);
+      continue;
+    }
+    elements.topology[c.index()].flat = elements.at(e).flat;
     d.outline = static_cast<std::uint32_t>(elements.outlines.size());
-    d.outlineSize = static_cast<std::uint32_t>(outlines[i].size());
-    elements.outlines.insert(elements.outlines.end(), outlines[i].begin(), outlines[i].end());
-    inherit(elements, scene, e, c);
+    d.outlineSize = static_cast<std::uint32_t>(parts.outlines[i].size());
+    elements.outlines.insert(elements.outlines.end(), parts.outlines[i].begin(), parts.outlines[i].end());
   }
+}
+
+void fillChildren(Elements& elements, const Scene& scene, ElementId e) {
+  const ElementTopology& parent = elements.at(e);
+  for (std::size_t i = 0; i < parent.childCount; ++i) {
+    const ElementId c = elements.child(e, i);
+    ElementTopology& t = elements.topology[c.index()];
+    t.front = parent.front, t.emitter = parent.emitter;
+    t.depth = static_cast<std::uint8_t>(parent.depth + 1);
+    elements.light[c.index()] = elements.light[e.index()];
+    elements.geometry[c.index()].meanFreePath = elements.geometry[e.index()].meanFreePath;
+    elements.key[c.index()] = combineKeys(elements.key[e.index()], elements.domain[c.index()].address);
+    ElementLight& r = elements.radiometry[c.index()];
+    r = elements.radiometry[e.index()];
+    r.directGathered = r.indirectGathered = r.particle = Rgb(0.0f);
+    if (parent.kind == ElementKind::Distant)
+      shapeDistant(elements, scene, c);
+    else
+      shapePatch(elements, scene, c);
+    if (elements.hasFaces(e)) elements.holdSides(c);
+  }
+}
+
+}  // namespace
+
+bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
+  if (!elements.isLeaf(e)) return true;
+  const Parts parts = partsOf(elements, scene, e);
+  if (parts.domains.empty()) return false;
+  placeParts(elements, scene, e, parts);
+  fillChildren(elements, scene, e);
   return true;
+}
+
+std::vector<char> subdivide(Elements& elements, const Scene& scene, std::span<const ElementId> all) {
+  constexpr std::size_t kBlock = 64;  // elements of a task
+  std::vector<char> split(all.size(), true);
+  std::vector<Parts> parts(all.size());
+  parallelFor(all.size(), kBlock, [&](std::size_t i) {
+    if (elements.isLeaf(all[i])) parts[i] = partsOf(elements, scene, all[i]);
+  });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!elements.isLeaf(all[i])) continue;
+    if (parts[i].domains.empty())
+      split[i] = false;
+    else
+      placeParts(elements, scene, all[i], parts[i]);
+  }
+  parallelFor(all.size(), kBlock, [&](std::size_t i) {
+    if (!parts[i].domains.empty()) fillChildren(elements, scene, all[i]);
+  });
+  return split;
 }
 
 }  // namespace deltalux::hierarchy

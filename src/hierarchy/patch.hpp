@@ -19,6 +19,9 @@ inline ElementId surfaceOf(const Elements& elements, ElementId patch) {
 /// The point at parameters (u,v) of the patch's primitive (of its triangle, for meshes).
 PatchPoint pointOn(const Elements&, const Scene&, ElementId patch, double u, double v);
 
+/// Whether it is flat and no outline cuts anything off its rectangle of parameters.
+bool fillsItsRectangle(const Elements&, ElementId patch);
+
 /// A point of the patch from two numbers in [0,1): uniform by area.
 PatchPoint samplePatch(const Elements&, const Scene&, ElementId patch, double a, double b);
 
@@ -38,6 +41,8 @@ Walls wallsAcross(const Elements&, const Scene&, ElementId patch);
 /// Children inherit light and reflectances; quadrants that miss the outline are left out. False when it cannot be
 /// split.
 bool subdivide(Elements&, const Scene&, ElementId element);
+/// The same with each of several elements, none twice, in their order, by all threads. By element, whether it is split.
+std::vector<char> subdivide(Elements&, const Scene&, std::span<const ElementId>);
 
 /// Fills a Distant element whose light and domain are set (a cell of its dome's directions, equal in solid angle).
 void shapeDistant(Elements&, const Scene&, ElementId element);

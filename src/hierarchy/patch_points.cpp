@@ -48,6 +48,13 @@ double byArea(const Cone& cone, double v0, double v1, double b) {
 }
 }  // namespace
 
+bool fillsItsRectangle(const Elements& elements, ElementId patch) {
+  if (!elements.at(patch).flat) return false;
+  const PatchDomain& d = elements.domain[patch.index()];
+  const double du = d.u1 - d.u0, dv = d.v1 - d.v0;
+  return outlineFills(elements.outline(patch), du * dv);
+}
+
 PatchPoint samplePatch(const Elements& elements, const Scene& scene, ElementId patch, double a, double b) {
   const PatchDomain& d = elements.domain[patch.index()];
   const double du = d.u1 - d.u0, dv = d.v1 - d.v0;

@@ -1,5 +1,7 @@
 #include "lines/cover.hpp"
 
+#include <algorithm>
+
 #include "lines/tuning.hpp"
 #include "scene/stops_light.hpp"
 
@@ -20,6 +22,31 @@ std::vector<BoxF> boxesOf(const Scene& scene) {
   return boxes;
 }
 
+/// No more than the distance of a point from a shape: from its plane, or from what it is cut out of.
+struct LeastDistance {
+  Vec3 p;
+
+  double operator()(const Polygon& s) const {
+    return s.vertices.empty() ? 0.0 : std::abs(glm::dot(s.normal, p - s.vertices[0]));
+  }
+  double operator()(const Ring& s) const { return std::abs(glm::dot(s.normal, p - s.center)); }
+  double operator()(const Sphere& s) const { return std::abs(glm::length(p - s.center) - s.radius); }
+  double operator()(const Cylinder& s) const { return fromCone(s.p0, s.p1, s.radius, s.radius); }
+  double operator()(const Cone& s) const { return fromCone(s.p0, s.p1, s.radius0, s.radius1); }
+  double operator()(const Mesh&) const { return 0; }
+
+ private:
+  double fromCone(const Vec3& a, const Vec3& b, double r0, double r1) const {
+    const Vec3 axis = b - a;
+    const double length = glm::length(axis);
+    if (!(length > 0)) return 0;
+    const Vec3 d = p - a;
+    const double along = glm::dot(d, axis) / length, widening = (r1 - r0) / length;
+    const double across = std::sqrt(std::max(0.0, glm::dot(d, d) - along * along));
+    return std::abs(across - r0 - widening * along) / std::sqrt(1 + widening * widening);
+  }
+};
+
 /// Whether a shape may cover some area of another: flat ones where they are parallel, to within what a contact's
 /// thickness over its width may be; curved ones only where both are of a kind.
 bool mayLieOn(const Shape& other, const Shape& own, bool flat, const Vec3& normal) {
@@ -36,22 +63,36 @@ bool mayLieOn(const Shape& other, const Shape& own, bool flat, const Vec3& norma
 }  // namespace
 
 Cover::Cover(const Scene& scene, const tracing::RayTracer& tracer)
-    : scene_(scene), tracer_(tracer), boxes_(boxesOf(scene)) {}
+    : scene_(scene), tracer_(tracer), boxes_(boxesOf(scene)), tree_(boxes_) {}
 
-bool Cover::mayTouch(const hierarchy::Elements& elements, hierarchy::ElementId leaf) const {
+Cover::About Cover::about(const hierarchy::Elements& elements, hierarchy::ElementId leaf) const {
   const hierarchy::ElementGeometry& g = elements.shape(leaf);
   const float reach = reachAt(glm::max(glm::abs(g.lower), glm::abs(g.upper)));
   const PrimitiveId own = elements.domain[leaf.index()].primitive;
   const bool flat = elements.at(leaf).flat || g.normalCone >= 1;
   bool found = false;
-  boxes_.overlapping({g.lower - reach, g.upper + reach}, [&](std::uint32_t i) {
+  About all;
+  tree_.overlapping({g.lower - reach, g.upper + reach}, [&](std::uint32_t i) {
     const PrimitiveId other(i);
-    found = found || (other != own && mayLieOn(scene_[other].shape, scene_[own].shape, flat, Vec3(g.normal)));
+    if (other == own) return;
+    all.push_back(i);
+    found = found || mayLieOn(scene_[other].shape, scene_[own].shape, flat, Vec3(g.normal));
   });
-  return found;
+  if (!found) all.clear();
+  return all;
 }
 
-bool Cover::covers(const Vec3f& p, const Vec3f& normal, PrimitiveId own) const {
+/// Whether the short segment about `p` can meet any of them.
+bool Cover::mayCover(const Vec3f& p, const About& about) const {
+  const float reach = 2 * reachAt(p);
+  const BoxF here{p - reach, p + reach};
+  return std::any_of(about.begin(), about.end(), [&](std::uint32_t i) {
+    return boxes_[i].overlaps(here) &&
+           !(std::visit(LeastDistance{Vec3(p)}, scene_[PrimitiveId(i)].shape) > double(reach));
+  });
+}
+
+bool Cover::isCovered(const Vec3f& p, const Vec3f& normal, PrimitiveId own) const {
   const float reach = reachAt(p);
   tracing::Ray ray;
   ray.origin = p + reach * normal, ray.direction = -normal, ray.tFar = 2 * reach;

@@ -14,16 +14,24 @@ class Cover {
   /// Both must outlive this.
   Cover(const Scene&, const tracing::RayTracer&);
 
-  /// Whether any other surface comes so near to the leaf that it may lie on it.
-  bool mayTouch(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
-  /// Whether another surface lies on this one at `p`, with the unit normal of its side: within some roundings of it. Of
-  /// two that coincide one is covered, the one that rays do not meet.
-  bool covers(const Vec3f& p, const Vec3f& normal, PrimitiveId own) const;
+  /// The other surfaces about a leaf, by primitive; none where nothing comes so near that it may lie on it.
+  using About = std::vector<std::uint32_t>;
+  About about(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
+  /// Whether one of them lies on surface `own` at `p`, with the unit normal of its side: within some roundings of it.
+  /// Of two that coincide one is covered, the one that rays do not meet. Adds the ray that tells, where one is needed.
+  template <class Rays>
+  bool covers(const Vec3f& p, const Vec3f& normal, PrimitiveId own, const About& about, Rays& rays) const {
+    return mayCover(p, about) && (++rays, isCovered(p, normal, own));
+  }
 
  private:
+  bool mayCover(const Vec3f& p, const About&) const;
+  bool isCovered(const Vec3f& p, const Vec3f& normal, PrimitiveId own) const;
+
   const Scene& scene_;
   const tracing::RayTracer& tracer_;
-  BoxTree boxes_;  // by primitive
+  std::vector<BoxF> boxes_;  // by primitive
+  BoxTree tree_;             // over them
 };
 
 /// By element of the input level: whether walks from it find no light, in a hollow too small to be a room. What lies

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "hierarchy/leaf_sequence.hpp"
 #include "lines/tuning.hpp"
 
 namespace deltalux::lines {
@@ -17,11 +16,11 @@ ScaleMeter::ScaleMeter(const hierarchy::Elements& elements, const LineTracer& tr
       enclosed_(enclosed),
       farthest_(static_cast<float>(elements.sceneBox.diagonal())) {}
 
-LeafScale ScaleMeter::measure(hierarchy::ElementId patch) const {
+LeafScale ScaleMeter::measure(hierarchy::ElementId patch, FirstLines& first) const {
   const hierarchy::LeafSequence points(elements_, tracer_.scene(), patch);
-  const LineDirections directions(points.key());
+  LineDirections directions(points.key());
   const PrimitiveId own = elements_.domain[patch.index()].primitive;
-  const bool touched = cover_.mayTouch(elements_, patch);
+  const Cover::About about = cover_.about(elements_, patch);
   constexpr std::uint32_t kBatch = hierarchy::LeafSequence::kBatch;
   static_assert(tuning::kFirstLines == kBatch, "one batch tells");
   std::array<tracing::Ray, kBatch> rays;
@@ -36,8 +35,9 @@ LeafScale ScaleMeter::measure(hierarchy::ElementId patch) const {
     std::size_t live = 0;
     for (std::uint32_t i = scale.known; i < scale.known + kBatch; ++i) {
       const hierarchy::PatchPoint x = points.point(i);
-      if (touched && ++scale.rays && cover_.covers(x.position, x.normal, own)) {
+      if (cover_.covers(x.position, x.normal, own, about, scale.rays)) {
         scale.covered |= std::uint64_t(1) << i;
+        if (i < kBatch) first.line[i] = coveredLine(directions(i, x.normal));
         continue;
       }
       if (i >= kBatch && !hollow) continue;
@@ -51,7 +51,9 @@ LeafScale ScaleMeter::measure(hierarchy::ElementId patch) const {
       const LineEnd end = tracer_.follow(rays[k], hits[k], LineDirections::random(points.key(), which[k]));
       const hierarchy::ElementId side =
           end.fate == LineFate::Ended && !end.turned ? elements_.sides.at(end.side) : hierarchy::ElementId();
-      if (side.valid() && enclosed_[hierarchy::surfaceOf(elements_, side).index()]) {
+      const bool covered = side.valid() && enclosed_[hierarchy::surfaceOf(elements_, side).index()];
+      if (which[k] < kBatch) first.line[which[k]] = firstLine(end, rays[k].direction, covered);
+      if (covered) {
         scale.covered |= std::uint64_t(1) << which[k], hollow = true;
         continue;
       }

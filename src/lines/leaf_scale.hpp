@@ -1,7 +1,7 @@
 #pragma once
 // How far a patch sees, by its first lines: what decides how fine the mesh must be for indirect light, whose gradient
 // is bounded by the harmonic mean distance [WH92].
-#include "lines/lines.hpp"
+#include "lines/first_lines.hpp"
 
 namespace deltalux::lines {
 
@@ -18,7 +18,8 @@ class ScaleMeter {
   /// All must outlive this. `enclosed`: by element of the input level.
   ScaleMeter(const hierarchy::Elements&, const LineTracer&, const Cover&, const std::vector<char>& enclosed);
 
-  LeafScale measure(hierarchy::ElementId patch) const;
+  /// `first` becomes the lines that were traced for it.
+  LeafScale measure(hierarchy::ElementId patch, FirstLines& first) const;
 
  private:
   const hierarchy::Elements& elements_;

@@ -5,16 +5,17 @@
 // A line is kept as 8 bytes: the leaf that it ends on, and a code of where it runs, by which an edit finds those it can
 // touch. Lines that pass panes or go on over mirrors, gloss and glass are kept besides as exceptions, with their
 // weight. They are a function of the scene and the mesh alone: line k of a leaf is the same whatever their number.
-#include <algorithm>
-#include <cmath>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "base/cosine_direction.hpp"
 #include "base/large_array.hpp"
 #include "base/sobol.hpp"
 #include "hierarchy/leaf_locator.hpp"
 #include "lines/cover.hpp"
 #include "lines/follow_line.hpp"
+#include "lines/line_code.hpp"
 
 namespace deltalux::lines {
 
@@ -26,19 +27,6 @@ enum LineMark : std::uint32_t {
   kLost,
   kEscaped,
 };
-
-/// Where a line runs: its direction in two bytes, and how far it is followed, in steps of a 32nd, rounded up.
-struct LineCode {
-  std::int8_t x = 0, y = 0;
-  std::uint16_t reach = 0;
-};
-
-/// Not of unit length; within a degree of the coded one.
-inline Vec3f direction(LineCode code) {
-  const float x = static_cast<float>(code.x) / 127.0f, y = static_cast<float>(code.y) / 127.0f;
-  const float z = 1.0f - std::abs(x) - std::abs(y), below = std::max(0.0f, -z);
-  return {x < 0 ? x + below : x - below, y < 0 ? y + below : y - below, z};
-}
 
 /// A line that is not straight through clear air to a leaf.
 struct ExceptionalLine {
@@ -82,6 +70,8 @@ struct TracedLines {
   std::uint64_t rays = 0;
 };
 
+struct FirstLines;
+
 /// What lines are traced over. All must outlive whoever uses it.
 struct LineScene {
   const hierarchy::Elements& elements;
@@ -89,7 +79,8 @@ struct LineScene {
   const hierarchy::LeafLocator& locator;
   const LineTracer& tracer;
   const Cover& cover;
-  const std::vector<char>& enclosed;  // by element of the input level
+  const std::vector<char>& enclosed;                        // by element of the input level
+  std::span<const std::unique_ptr<FirstLines>> first = {};  // by element: of those that are known
 };
 
 /// `counts` lines of each leaf.
@@ -102,13 +93,19 @@ void setDirections(Lines&, const hierarchy::Elements&, const hierarchy::LeafTabl
 class LineDirections {
  public:
   explicit LineDirections(std::uint64_t leafKey) : directions_(combineKeys(leafKey, kKey)) {}
-  Vec3f operator()(std::uint32_t i, const Vec3f& normal) const;
+  Vec3f operator()(std::uint32_t i, const Vec3f& normal) {
+    if (normal != normal_) normal_ = normal, frame_ = Frame(Vec3(normal));
+    const UnitPair u = directions_(i);
+    return Vec3f(cosineDirection(frame_, u.x, u.y));
+  }
   /// What decides at the branches of line i.
   static Rng random(std::uint64_t leafKey, std::uint32_t i) { return Rng(combineKeys(leafKey, kKey + 1), i); }
 
  private:
   static constexpr std::uint64_t kKey = 0x6c696e65735f5full;
   ScrambledSobol directions_;
+  Vec3f normal_{0, 0, 1};  // the latest: of flat leaves the only one
+  Frame frame_{Vec3(0, 0, 1)};
 };
 
 }  // namespace deltalux::lines

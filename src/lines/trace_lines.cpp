@@ -1,11 +1,8 @@
 #include <array>
-#include <bit>
 #include <cmath>
 
-#include "base/cosine_direction.hpp"
 #include "base/parallel.hpp"
-#include "hierarchy/leaf_sequence.hpp"
-#include "lines/lines.hpp"
+#include "lines/first_lines.hpp"
 
 namespace deltalux::lines {
 
@@ -13,23 +10,6 @@ namespace {
 
 constexpr std::size_t kBlock = 32;  // leaves of a task
 constexpr std::size_t kBatch = hierarchy::LeafSequence::kBatch;
-
-/// The upper half of a float above `t`: seven bits after the point, so at most a 64th too far.
-std::uint16_t reachCode(float t) {
-  const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::isfinite(t) ? t : 3e38f);
-  return static_cast<std::uint16_t>((bits + 0xffffu) >> 16);
-}
-
-/// Octahedral map. [MSS10]
-LineCode codeOf(const Vec3f& w, float t) {
-  const float sum = std::abs(w.x) + std::abs(w.y) + std::abs(w.z);
-  float x = w.x / sum, y = w.y / sum;
-  if (w.z < 0) {
-    const float u = x;
-    x = std::copysign(1 - std::abs(y), x), y = std::copysign(1 - std::abs(u), y);
-  }
-  return {static_cast<std::int8_t>(std::lround(127 * x)), static_cast<std::int8_t>(std::lround(127 * y)), reachCode(t)};
-}
 
 /// What a task has found of its leaves.
 struct Found {
@@ -45,23 +25,26 @@ class LeafTracing {
   void operator()(std::uint32_t leaf, TracedLines& out, Found& found) const {
     const hierarchy::ElementId e = s_.leaves[leaf];
     const hierarchy::LeafSequence points(s_.elements, s_.tracer.scene(), e);
-    const LineDirections directions(points.key());
+    LineDirections directions(points.key());
     const PrimitiveId own = s_.elements.domain[e.index()].primitive;
-    const bool touched = s_.cover.mayTouch(s_.elements, e);
+    const Cover::About about = s_.cover.about(s_.elements, e);
     std::array<tracing::Ray, kBatch> rays;
     std::array<tracing::Hit, kBatch> hits;
     std::array<float, kBatch> cosines;
     std::array<std::uint32_t, kBatch> which;
     const std::uint64_t first = out.lines.first[leaf];
     const std::uint32_t count = out.lines.countOf(leaf);
+    const FirstLines* known = e.index() < s_.first.size() ? s_.first[e.index()].get() : nullptr;
     std::uint32_t covered = 0;
-    for (std::uint32_t begin = 0; begin < count; begin += kBatch) {
+    for (std::uint32_t begin = 0; begin < count; begin += kBatch, known = nullptr) {
+      const std::uint32_t last = std::min<std::uint32_t>(count, begin + kBatch);
       std::size_t live = 0;
-      for (std::uint32_t i = begin; i < std::min<std::uint32_t>(count, begin + kBatch); ++i) {
+      for (std::uint32_t i = begin; i < last; ++i) {
+        if (known && known->line[i].primitive != FirstLine::kAgain) continue;
         const hierarchy::PatchPoint x = points.point(i);
         const Vec3f w = directions(i, x.normal);
-        if (touched && ++found.rays && s_.cover.covers(x.position, x.normal, own)) {
-          out.lines.end[first + i] = kCovered, out.lines.code[first + i] = codeOf(w, 0), ++covered;
+        if (s_.cover.covers(x.position, x.normal, own, about, found.rays)) {
+          out.lines.end[first + i] = kCovered, out.lines.code[first + i] = lineCode(w, 0), ++covered;
           continue;
         }
         rays[live].origin = tracing::offsetOrigin(x.position, x.normal, w), rays[live].direction = w;
@@ -69,12 +52,21 @@ class LeafTracing {
       }
       s_.tracer.tracer().closestHits(std::span(rays).first(live), std::span(hits).first(live));
       found.rays += live;
-      for (std::size_t k = 0; k < live; ++k) {
-        const std::uint32_t i = which[k];
-        const LineEnd end = s_.tracer.follow(rays[k], hits[k], LineDirections::random(points.key(), i));
-        const std::uint32_t mark = take(end, leaf, first + i, rays[k].direction, cosines[k], found);
+      std::size_t k = 0;
+      for (std::uint32_t i = begin; i < last; ++i) {
+        std::uint32_t mark;
+        if (known && known->line[i].primitive != FirstLine::kAgain) {
+          mark = take(
+              known->line[i], leaf, [&] { return points.point(i).normal; }, found);
+          out.lines.code[first + i] = known->line[i].code;
+        } else if (k < live && which[k] == i) {
+          const LineEnd end = s_.tracer.follow(rays[k], hits[k], LineDirections::random(points.key(), i));
+          mark = take(end, leaf, first + i, rays[k].direction, cosines[k], found);
+          out.lines.code[first + i] = lineCode(rays[k].direction, end.distance), ++k;
+        } else {
+          continue;
+        }
         out.lines.end[first + i] = mark;
-        out.lines.code[first + i] = codeOf(rays[k].direction, end.distance);
         covered += mark == kCovered;
       }
     }
@@ -101,15 +93,19 @@ class LeafTracing {
     return kException;
   }
 
+  /// The same of a line that is known but for its leaf. normal(): where it starts.
+  std::uint32_t take(const FirstLine& line, std::uint32_t leaf, const auto& normal, Found& found) const {
+    if (line.primitive == kEscaped)
+      found.escaped.push_back({leaf, line.position, glm::dot(line.position, normal()), Rgb(1.0f), 1});
+    if (!line.ended()) return line.primitive;
+    const std::uint32_t at = s_.locator.at(line.side(), line.position);
+    return at == hierarchy::LeafTable::kNone ? std::uint32_t(kLost) : at;
+  }
+
   const LineScene& s_;
 };
 
 }  // namespace
-
-Vec3f LineDirections::operator()(std::uint32_t i, const Vec3f& normal) const {
-  const UnitPair u = directions_(i);
-  return Vec3f(cosineDirection(Frame(Vec3(normal)), u.x, u.y));
-}
 
 TracedLines traceLines(const LineScene& s, std::span<const std::uint32_t> counts) {
   TracedLines out;
@@ -138,13 +134,13 @@ void setDirections(Lines& lines, const hierarchy::Elements& elements, const hier
     const std::uint32_t count = lines.countOf(leaf);
     if (count == 0) return;
     const hierarchy::LeafSequence points(elements, scene, leaves[leaf]);
-    const LineDirections directions(points.key());
+    LineDirections directions(points.key());
     const bool flat = elements.at(leaves[leaf]).flat;
     Vec3f normal = points.point(0).normal;
     for (std::uint32_t i = 0; i < count; ++i) {
       if (!flat && i > 0) normal = points.point(i).normal;
       LineCode& code = lines.code[lines.first[leaf] + i];
-      const LineCode direction = codeOf(directions(i, normal), 0);
+      const LineCode direction = lineCode(directions(i, normal), 0);
       code.x = direction.x, code.y = direction.y;
     }
   });

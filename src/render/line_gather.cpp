@@ -16,7 +16,7 @@ LineGather::LineGather(const Solution& s)
       responses_(s.scene, !s.settings.diffuseOnly),
       tracer_(s.scene, *s.tracer, responses_) {}
 
-Rgb LineGather::follow(const Vec3f& p, const Vec3f& normal, const lines::LineDirections& directions, std::uint64_t key,
+Rgb LineGather::follow(const Vec3f& p, const Vec3f& normal, lines::LineDirections& directions, std::uint64_t key,
                        std::uint32_t i, hierarchy::ElementId& leaf) const {
   leaf = {};
   const lines::LineEnd end = tracer_.follow(p, normal, directions(i, normal), lines::LineDirections::random(key, i));
@@ -30,7 +30,7 @@ Rgb LineGather::follow(const Vec3f& p, const Vec3f& normal, const lines::LineDir
 
 void LineGather::forEachLine(const Vec3f& p, const Vec3f& normal, std::uint32_t count, std::uint64_t key,
                              const std::function<void(hierarchy::ElementId, const Rgb&)>& visit) const {
-  const lines::LineDirections directions(key);
+  lines::LineDirections directions(key);
   hierarchy::ElementId leaf;
   for (std::uint32_t i = 0; i < count; ++i)
     if (const Rgb B = follow(p, normal, directions, key, i, leaf); leaf.valid())
@@ -41,7 +41,7 @@ ProbeResult LineGather::at(const Vec3f& p, const Vec3f& normal, double ambient, 
                            std::uint64_t key) const {
   ProbeResult result;
   BatchMean mean;
-  const lines::LineDirections directions(key);
+  lines::LineDirections directions(key);
   hierarchy::ElementId leaf;
   while (mean.count() < kFewestBatches || result.samples < most) {
     RgbSum own(0.0);

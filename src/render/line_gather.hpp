@@ -24,7 +24,7 @@ class LineGather {
 
  private:
   /// Radiosity that line `i` reads, and where; an invalid leaf where it ends on none.
-  Rgb follow(const Vec3f& p, const Vec3f& normal, const lines::LineDirections&, std::uint64_t key, std::uint32_t i,
+  Rgb follow(const Vec3f& p, const Vec3f& normal, lines::LineDirections&, std::uint64_t key, std::uint32_t i,
              hierarchy::ElementId& leaf) const;
 
   const Solution& s_;

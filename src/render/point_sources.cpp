@@ -1,6 +1,7 @@
 #include "render/point_sources.hpp"
 
 #include "hierarchy/leaf_sequence.hpp"
+#include "solution/sky_openness.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::rendering {
@@ -10,22 +11,10 @@ namespace {
 constexpr int kLeafPoints = 32, kLeafRays = 256;  // to learn from, where nothing is known of a leaf's own pixels
 constexpr std::uint64_t kLeafKey = 0x61696d5f5f5full;
 
-direct::Openness opennessOf(const Solution& s, const hierarchy::LeafTable& leaves) {
-  std::vector<std::uint32_t> counts(leaves.size());
-  for (std::size_t i = 0; i < leaves.size(); ++i) counts[i] = s.lines.countOf(i);
-  return {s.elements, leaves, counts, [&](const auto& sink) {
-            for (std::size_t i = 0; i < leaves.size(); ++i)
-              for (std::uint64_t k = s.lines.first[i]; k < s.lines.first[i + 1]; ++k)
-                if (s.lines.end[k] != lines::kCovered)
-                  sink(static_cast<std::uint32_t>(i), direct::SkyCells::of(lines::direction(s.lines.code[k])),
-                       s.lines.end[k] == lines::kEscaped);
-          }};
-}
-
 }  // namespace
 
 PointSources::PointSources(const Solution& s)
-    : s_(s), leaves_(s.elements), light_(s.scene, *s.tracer), openness_(opennessOf(s, leaves_)) {}
+    : s_(s), leaves_(s.elements), light_(s.scene, *s.tracer), openness_(skyOpenness(s.elements, leaves_, s.lines)) {}
 
 std::vector<direct::Source> PointSources::at(hierarchy::ElementId leaf) const {
   const std::uint32_t i = leaves_.indexOf[leaf.index()];

@@ -11,7 +11,9 @@ constexpr double kLeastCosine = 1e-4;  // where a flat source is seen so nearly 
 /// Radiance's rule inside the cone: the inverse square counts from a focus behind the source. [Radiance, spotlight]
 double relativeRadiance(const SpotCone& spot, const Vec3& direction, double distance) {
   const double focal = glm::length(spot.direction);
-  if (glm::dot(direction, spot.direction) < std::cos(0.5 * spot.fullAngle) * focal) return 0.0;
+  const double along = glm::dot(direction, spot.direction);
+  if (along < 0 && spot.fullAngle < kPi) return 0.0;
+  if (along < std::cos(0.5 * spot.fullAngle) * focal) return 0.0;
   const double ratio = distance / (distance + focal);
   return ratio * ratio;
 }

@@ -93,6 +93,12 @@ LightSampler::LightSampler(const Scene& scene, std::vector<Rgb> scales)
 
 LightSampler::AreaData LightSampler::prepareArea(PrimitiveId p) const {
   AreaData data{p, {}, {}, 0};
+  if (const auto& spot = scene_.materialOf(p).emission->spot) {
+    const Box box = bounds(scene_[p].shape);
+    const double half = 0.5 * spot->fullAngle, focal = glm::length(spot->direction);
+    if (!box.empty() && focal > 0 && half < kPi)
+      data.beam = {box.center(), spot->direction / focal, 0.5 * box.diagonal(), std::cos(half), std::sin(half)};
+  }
   const Shape& shape = scene_[p].shape;
   if (const auto* polygon = std::get_if<Polygon>(&shape)) {
     for (const auto& t : polygon->triangles) {
@@ -109,6 +115,14 @@ LightSampler::AreaData LightSampler::prepareArea(PrimitiveId p) const {
     data.cumulative.push_back(data.area += 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a)));
   }
   return data;
+}
+
+bool LightSampler::AreaData::shinesPast(const Vec3& p) const {
+  if (!beam) return false;
+  const Vec3 to = p - beam->center;
+  const double along = glm::dot(to, beam->axis), squared = glm::dot(to, to);
+  const double across = std::sqrt(std::max(0.0, squared - along * along));
+  return across * beam->cosine - along * beam->sine > 1.0001 * beam->radius + 1e-7 * std::sqrt(squared);
 }
 
 bool LightSampler::isPointLike(LightId id) const {
@@ -197,6 +211,7 @@ std::optional<LightSample> LightSampler::finishArea(LightId id, const AreaData& 
 
 std::optional<LightSample> LightSampler::sampleArea(LightId id, const AreaData& data, const Vec3& from,
                                                     const Vec2& u) const {
+  if (data.shinesPast(from)) return std::nullopt;
   const Shape& shape = scene_[data.primitive].shape;
   if (const auto* sphere = std::get_if<Sphere>(&shape)) {
     const Vec3 toCenter = sphere->center - from;

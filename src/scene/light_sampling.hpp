@@ -81,6 +81,15 @@ class LightSampler {
     std::vector<Triangle> triangles;
     std::vector<double> cumulative;
     double area = 0;
+    /// Of one that shines within a cone only: a ball about it, the cone's axis, and cosine and sine of its half angle.
+    struct Beam {
+      Vec3 center, axis;
+      double radius, cosine, sine;
+    };
+    std::optional<Beam> beam = {};
+
+    /// Whether none of it shines on a point: that is further from the cone about the ball's centre than its radius.
+    bool shinesPast(const Vec3& p) const;
   };
   class LazyDome;
   struct Prepared {

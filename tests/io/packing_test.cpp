@@ -70,13 +70,13 @@ TEST(Packing, TablesAmongNumbersComeBack) {
 TEST(Packing, PutsTheBytesOfRecordsSideBySideWhereThatIsShorter) {
   const std::string bytes = floats(300000);
   EXPECT_LT(packed(bytes, 4).size(), 3 * packed(bytes, 1).size() / 4);
-  EXPECT_LT(packed(noise(1 << 20), 4).size(), (1u << 20) + 100) << "what does not deflate stays as it is";
+  EXPECT_LT(packed(noise(1 << 20), 4).size(), (1u << 20) + 100) << "what does not get shorter stays as it is";
   std::string repeated;
   for (int i = 0; i < 20000; ++i) repeated += "over and over, ";
   EXPECT_LE(packed(repeated, 3).size(), packed(repeated, 1).size());
 }
 
-/// A block with such a frame around what `bytes` deflate to.
+/// A block with such a frame around what `bytes` are packed to.
 std::string framed(const std::string& bytes, std::uint32_t length, std::uint32_t stride) {
   std::string block = packed(bytes, 1);
   std::memcpy(block.data() + 4, &length, 4);
@@ -104,7 +104,7 @@ TEST(Packing, WhatDoesNotUnpackToWhatItSaysIsRefused) {
   EXPECT_TRUE(isRefused(framed(zeros, 200000, 3))) << "no whole records";
   EXPECT_TRUE(isRefused(framed(zeros, 200000, 0))) << "as it is, of another length";
   EXPECT_TRUE(isRefused(framed(zeros, 0xffffffff, 1))) << "longer than any block";
-  EXPECT_TRUE(isRefused(framed(std::string(8192, '\0'), 262144, 1))) << "more than can be deflated to so little";
+  EXPECT_TRUE(isRefused(framed(std::string(8192, '\0'), 262144, 1))) << "more than there is";
 }
 
 TEST(Packing, DamagedPayloadsAreRefused) {
@@ -115,7 +115,7 @@ TEST(Packing, DamagedPayloadsAreRefused) {
   const std::string bytes = unpacked(payload, 1000);
   for (std::size_t i = 12; i < payload.size(); i += 11) {
     flipped[i] = static_cast<char>(flipped[i] ^ 0x10);
-    // What deflates has a checksum of its own, and some of its bits do not matter.
+    // What is packed has a checksum of its own, and some of its bits do not matter.
     EXPECT_TRUE(isRefused(flipped) || unpacked(flipped, 1000) == bytes) << i;
     flipped[i] = payload[i];
   }

@@ -1,11 +1,10 @@
 #include "io/solution_file/packing.hpp"
 
-#include <zlib.h>
+#include <zstd.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <deltalux/error.hpp>
+#include <memory>
 
 #include "base/parallel.hpp"
 
@@ -13,64 +12,37 @@ namespace deltalux::io {
 
 namespace {
 
-constexpr std::size_t kBlock = 1 << 18;      // bytes; shorter ones deflate less, longer ones leave threads idle
-constexpr std::size_t kWaiting = 64;         // blocks that are packed at once: 16 MB beside the solution
-constexpr std::size_t kTrial = 1 << 13;      // bytes that tell which form of a block is shorter
-constexpr double kMostBits = 6;              // a byte, above which deflating saves too little
-constexpr std::size_t kMostInflated = 1032;  // times the deflated bytes: no stream holds more [zlib's documentation]
+constexpr std::size_t kBlock = 1 << 18;     // bytes; shorter ones pack less, longer ones leave threads idle
+constexpr std::size_t kWaiting = 64;        // blocks that are packed at once: 16 MB beside the solution
+constexpr std::size_t kOfTask = 2;          // blocks that are packed by one thread
+constexpr std::size_t kDirect = 8;          // blocks of a table from which on it is not copied first
+constexpr std::size_t kTrial = 1 << 13;     // bytes that tell which form of a block is shorter
+constexpr int kLevel = 1;                   // of zstd; higher ones take twice the time for a few percent
+constexpr std::size_t kMostHeld = 1 << 15;  // times the packed bytes: four are the least for 128 KiB [zstd's format]
 constexpr std::size_t kBlockFrame = 12;
 
-/// Bits that each byte of a sequence takes by how frequent its values are.
-class Entropy {
+/// What zstd works in, for one block after the other.
+class Compressor {
  public:
-  void add(unsigned char value) { ++count_[value], ++all_; }
-  double bits() const {
-    double bits = 0;
-    for (const std::uint32_t n : count_)
-      if (n > 0) bits -= n * std::log2(n / all_);
-    return all_ > 0 ? bits / all_ : 0.0;
+  Compressor() : context_(ZSTD_createCCtx()) {
+    if (!context_) throw std::bad_alloc();
+    ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, kLevel);
+    ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_checksumFlag, 1);
+  }
+  std::string operator()(std::string_view bytes) const {
+    std::string out(ZSTD_compressBound(bytes.size()), '\0');
+    const std::size_t length = ZSTD_compress2(context_.get(), out.data(), out.size(), bytes.data(), bytes.size());
+    if (ZSTD_isError(length)) throw std::bad_alloc();  // there is room, so zstd knows no other failure
+    out.resize(length);
+    return out;
   }
 
  private:
-  std::array<std::uint32_t, 256> count_{};
-  double all_ = 0;
+  struct Free {
+    void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
+  };
+  std::unique_ptr<ZSTD_CCtx, Free> context_;
 };
-
-/// Whether deflating them is in vain: neither values nor steps from one to the next recur, by a trial.
-bool incompressible(std::string_view bytes) {
-  if (bytes.size() < kTrial) return false;
-  const std::string_view trial = bytes.substr((bytes.size() - kTrial) / 2, kTrial);
-  Entropy values, steps;
-  unsigned char before = 0;
-  for (const char c : trial) {
-    const auto value = static_cast<unsigned char>(c);
-    values.add(value), steps.add(static_cast<unsigned char>(value - before)), before = value;
-  }
-  return values.bits() > kMostBits && steps.bits() > kMostBits;
-}
-
-/// `planes` parts of equal length, each deflated, or (of several) stored where that is in vain and only takes time.
-std::string deflated(std::string_view bytes, std::size_t planes) {
-  z_stream stream{};
-  if (deflateInit(&stream, 1) != Z_OK) throw std::bad_alloc();
-  constexpr std::size_t kSwitch = 64;  // bytes that a change of level may take
-  std::string out(deflateBound(&stream, static_cast<uLong>(bytes.size())) + kSwitch * planes, '\0');
-  stream.next_out = reinterpret_cast<Bytef*>(out.data()), stream.avail_out = static_cast<uInt>(out.size());
-  const std::size_t length = bytes.size() / planes;
-  int result = Z_OK;
-  for (std::size_t plane = 0; plane < planes && result == Z_OK; ++plane) {
-    const std::string_view part = bytes.substr(plane * length, plane + 1 < planes ? length : bytes.npos);
-    result = deflateParams(&stream, planes > 1 && incompressible(part) ? 0 : 1, Z_DEFAULT_STRATEGY);
-    if (result != Z_OK) break;
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(part.data()));
-    stream.avail_in = static_cast<uInt>(part.size());
-    result = deflate(&stream, plane + 1 < planes ? Z_NO_FLUSH : Z_FINISH);
-  }
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  if (result != Z_STREAM_END) throw std::bad_alloc();  // there is room, so zlib knows no other failure
-  return out;
-}
 
 std::string transposed(std::string_view bytes, std::size_t stride) {
   const std::size_t count = bytes.size() / stride;
@@ -91,12 +63,12 @@ std::size_t numberIn(std::string_view bytes, std::size_t at) {
   return number;
 }
 
-std::string packBlock(std::string_view bytes, std::size_t stride) {
+std::string packBlock(std::string_view bytes, std::size_t stride, const Compressor& compressed) {
   if (stride > 1) {
     const std::string_view trial = bytes.substr(0, std::max(stride, std::min(bytes.size(), kTrial) / stride * stride));
-    if (deflated(trial, 1).size() <= deflated(transposed(trial, stride), 1).size()) stride = 1;
+    if (compressed(trial).size() <= compressed(transposed(trial, stride)).size()) stride = 1;
   }
-  std::string packed = stride > 1 ? deflated(transposed(bytes, stride), stride) : deflated(bytes, 1);
+  std::string packed = compressed(stride > 1 ? std::string_view(transposed(bytes, stride)) : bytes);
   if (packed.size() >= bytes.size()) packed = bytes, stride = 0;
   std::string block;
   block.reserve(kBlockFrame + packed.size());
@@ -112,11 +84,8 @@ bool unpackBlock(const PackedBlock& block, char* to) {
   }
   std::string planes(block.stride > 1 ? block.length : 0, '\0');
   char* const flat = block.stride > 1 ? planes.data() : to;
-  auto length = static_cast<uLongf>(block.length);
-  if (uncompress(reinterpret_cast<Bytef*>(flat), &length, reinterpret_cast<const Bytef*>(block.packed.data()),
-                 static_cast<uLong>(block.packed.size())) != Z_OK ||
-      length != block.length)
-    return false;
+  const std::size_t length = ZSTD_decompress(flat, block.length, block.packed.data(), block.packed.size());
+  if (ZSTD_isError(length) || length != block.length) return false;
   const std::size_t count = block.length / block.stride;
   if (block.stride > 1)
     for (std::size_t b = 0; b < block.stride; ++b)
@@ -135,30 +104,47 @@ void Packer::bytes(const void* data, std::size_t n, std::size_t stride) {
   if (n < kTrial || stride > kTrial) stride = 1;
   std::string_view rest(static_cast<const char*>(data), n);
   if (stride != open_.stride) close(), open_.stride = stride;
+  const std::size_t block = kBlock / stride * stride;
+  if (n >= kDirect * block) {
+    // Large tables are packed from where they are.
+    close();
+    const std::size_t whole = n / block * block;
+    packWaiting(rest.substr(0, whole), block, stride);
+    rest.remove_prefix(whole);
+  }
   while (!rest.empty()) {
-    const std::string_view now = rest.substr(0, kBlock / stride * stride - open_.bytes.size());
+    const std::string_view now = rest.substr(0, block - open_.bytes.size());
     open_.bytes += now;
     rest.remove_prefix(now.size());
-    if (open_.bytes.size() == kBlock / stride * stride) close();
+    if (open_.bytes.size() == block) close();
   }
 }
 
 void Packer::close() {
   if (!open_.bytes.empty()) waiting_.push_back({std::move(open_.bytes), open_.stride});
   open_.bytes.clear();
-  if (waiting_.size() >= kWaiting) packWaiting();
+  if (waiting_.size() >= kWaiting) packWaiting({}, 1, 1);
 }
 
-void Packer::packWaiting() {
-  std::vector<std::string> blocks(waiting_.size());
-  parallelFor(blocks.size(), 1, [&](std::size_t i) { blocks[i] = packBlock(waiting_[i].bytes, waiting_[i].stride); });
+void Packer::packWaiting(std::string_view after, std::size_t block, std::size_t stride) {
+  std::vector<std::string> blocks(waiting_.size() + after.size() / block);
+  parallelBlocks(blocks.size(), kOfTask, [&](std::size_t begin, std::size_t end) {
+    const Compressor compressor;
+    for (std::size_t i = begin; i < end; ++i)
+      blocks[i] = i < waiting_.size()
+                      ? packBlock(waiting_[i].bytes, waiting_[i].stride, compressor)
+                      : packBlock(after.substr((i - waiting_.size()) * block, block), stride, compressor);
+  });
+  std::size_t length = packed_.size();
+  for (const std::string& b : blocks) length += b.size();
+  if (length > packed_.capacity()) packed_.reserve(length + length / 2);
   for (const std::string& b : blocks) packed_ += b;
   waiting_.clear();
 }
 
 std::string Packer::finish() {
   close();
-  packWaiting();
+  packWaiting({}, 1, 1);
   return std::move(packed_);
 }
 
@@ -173,7 +159,7 @@ std::vector<PackedBlock> packedBlocks(std::string_view payload, const std::strin
     block.packed = payload.substr(0, packed);
     payload.remove_prefix(packed);
     const bool fits = block.stride == 0 ? block.length == packed
-                                        : block.length <= kBlock && block.length / kMostInflated <= packed &&
+                                        : block.length <= kBlock && block.length / kMostHeld <= packed &&
                                               block.length % block.stride == 0;
     if (!fits) refusePacking(file, "is damaged: a block cannot hold what it says");
     blocks.push_back(block);

@@ -1,11 +1,11 @@
 #pragma once
 // Bytes packed in blocks, for the payloads of sections: the bytes of a table's records are put side by side, first
-// bytes first (so that exponents stand by exponents), where that deflates better, and deflated at the fastest level.
+// bytes first (so that exponents stand by exponents), where that packs better, and compressed by zstd at a fast level.
 // Blocks are independent of each other, so that all threads pack and unpack them.
 //
 //   block   u32 length of the packed bytes, u32 length of what they hold, u32 stride, packed bytes
 //
-// A stride of 0: the bytes as they are; 1: deflated; more: records of so many bytes, transposed and deflated.
+// A stride of 0: the bytes as they are; 1: compressed; more: records of so many bytes, transposed and compressed.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -30,7 +30,8 @@ class Packer : public SharedThings {
     std::size_t stride = 1;
   };
   void close();
-  void packWaiting();
+  /// What waits, and after it whole blocks of so many bytes.
+  void packWaiting(std::string_view after, std::size_t block, std::size_t stride);
 
   Open open_;
   std::vector<Open> waiting_;

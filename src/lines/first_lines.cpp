@@ -1,0 +1,22 @@
+#include "lines/first_lines.hpp"
+
+namespace deltalux::lines {
+
+FirstLine firstLine(const LineEnd& end, const Vec3f& direction, bool covered) {
+  FirstLine line;
+  if (covered)
+    line.primitive = kCovered;
+  else if (end.fate == LineFate::Lost)
+    line.primitive = kLost;
+  else if (end.dimmed)
+    return line;  // its weight would have to be kept as well
+  else if (end.fate == LineFate::Escaped)
+    line.primitive = kEscaped, line.position = direction;
+  else
+    line.primitive = end.side.primitive.value, line.triangle = end.side.triangle | (end.side.front ? line.kFront : 0u),
+    line.position = end.position;
+  line.code = lineCode(direction, end.distance);
+  return line;
+}
+
+}  // namespace deltalux::lines

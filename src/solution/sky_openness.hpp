@@ -1,0 +1,11 @@
+#pragma once
+// How open the sky is about each leaf of a solution over lines, by all the lines that were traced below a common
+// element.
+#include "direct/sky_light.hpp"
+#include "lines/lines.hpp"
+
+namespace deltalux {
+
+direct::Openness skyOpenness(const hierarchy::Elements&, const hierarchy::LeafTable&, const lines::Lines&);
+
+}  // namespace deltalux
