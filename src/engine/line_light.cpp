@@ -31,8 +31,8 @@ std::vector<float> powerOf(const LineSolve& x, const hierarchy::LeafTable& leave
   return power;
 }
 
-std::vector<direct::SkyAtLeaf> skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::TracedLines& traced,
-                                     std::span<const std::uint32_t> counts) {
+std::vector<direct::SkyAtLeaf> skyOf(LineSolve& x, const hierarchy::LeafTable& leaves,
+                                     const lines::TracedLines& traced) {
   std::vector<direct::SkyAtLeaf> sky(leaves.size());
   if (x.skies.empty()) return sky;
   const direct::Openness open = skyOpenness(x.s.elements, leaves, traced.lines);
@@ -40,18 +40,18 @@ std::vector<direct::SkyAtLeaf> skyOf(LineSolve& x, const hierarchy::LeafTable& l
   for (const lines::EscapedLine& e : traced.escaped) ++first[e.leaf + 1];
   for (std::size_t i = 0; i < leaves.size(); ++i) first[i + 1] += first[i];
   parallelFor(leaves.size(), kSkyLeaves, [&](std::size_t i) {
-    if (counts[i] == traced.covered[i]) return;
+    const std::uint32_t count = traced.lines.countOf(i);
+    if (count == traced.covered[i]) return;
     std::vector<direct::EscapedView> escaped;
     for (std::uint32_t k = first[i]; k < first[i + 1]; ++k) {
       const lines::EscapedLine& e = traced.escaped[k];
       escaped.push_back({e.direction, e.cosine, e.weight, e.chance});
     }
     std::vector<std::uint32_t> points;
-    for (std::uint32_t k = 0; k < counts[i] && points.size() < direct::tuning::kSkyRays; ++k)
+    for (std::uint32_t k = 0; k < count && points.size() < direct::tuning::kSkyRays; ++k)
       if (traced.lines.end[traced.lines.first[i] + k] != lines::kCovered) points.push_back(k);
-    sky[i] =
-        direct::skyLight(x.skies, open, x.s.elements, x.s.scene, *x.s.tracer,
-                         {static_cast<std::uint32_t>(i), leaves[i], counts[i] - traced.covered[i], escaped, points});
+    sky[i] = direct::skyLight(x.skies, open, x.s.elements, x.s.scene, *x.s.tracer,
+                              {static_cast<std::uint32_t>(i), leaves[i], count - traced.covered[i], escaped, points});
   });
   for (const direct::SkyAtLeaf& a : sky) x.s.report.counts.raysVisibility += a.rays;
   return sky;
@@ -59,19 +59,25 @@ std::vector<direct::SkyAtLeaf> skyOf(LineSolve& x, const hierarchy::LeafTable& l
 
 }  // namespace
 
-void lightLeaves(LineSolve& x, std::uint32_t base, double converged) {
+lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base) {
+  const hierarchy::Elements& elements = x.s.elements;
+  const hierarchy::LeafTable leaves(elements);
+  const std::vector<std::uint32_t> counts = lines::lineCounts(elements, leaves, powerOf(x, leaves), x.enclosed, base);
+  const hierarchy::LeafLocator locator(elements, x.s.scene, leaves);
+  lines::TracedLines traced =
+      lines::traceLines({elements, leaves, locator, x.tracer, x.cover, x.enclosed, x.samples.first}, counts);
+  DELTALUX_VALIDATED(validate(traced.lines));
+  x.s.report.counts.raysVisibility += traced.rays;
+  return traced;
+}
+
+void lightLeaves(LineSolve& x, lines::TracedLines traced, double converged) {
   Solution& s = x.s;
   hierarchy::Elements& elements = s.elements;
   const hierarchy::LeafTable leaves(elements);
   const std::size_t n = leaves.size();
-  const std::vector<std::uint32_t> counts = lines::lineCounts(elements, leaves, powerOf(x, leaves), x.enclosed, base);
-  const hierarchy::LeafLocator locator(elements, s.scene, leaves);
-  lines::TracedLines traced =
-      lines::traceLines({elements, leaves, locator, x.tracer, x.cover, x.enclosed, x.samples.first}, counts);
-  DELTALUX_VALIDATED(validate(traced.lines));
-  s.report.counts.raysVisibility += traced.rays;
   lines::Exchange exchange(traced.lines, elements, leaves, x.tracer, traced.covered);
-  const std::vector<direct::SkyAtLeaf> sky = skyOf(x, leaves, traced, counts);
+  const std::vector<direct::SkyAtLeaf> sky = skyOf(x, leaves, traced);
 
   lines::LeafLight light = lines::leafLight(elements, leaves);
   parallelFor(n, kLeaves, [&](std::size_t i) {

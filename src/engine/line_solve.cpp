@@ -138,7 +138,7 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, const TimeBudget& budget, 
   samplePatches(*solve, inputs);
   lines::setMeanFreePaths(s.elements, solve->samples.scale);
   placeParticles(s);
-  lightLeaves(*solve, lines::tuning::kFirstLines, lines::tuning::kCoarseConverged);
+  lightLeaves(*solve, traceLeaves(*solve, lines::tuning::kFirstLines), lines::tuning::kCoarseConverged);
   for (const hierarchy::ElementId e : inputs) {
     hierarchy::ElementLight& l = s.elements.radiometry[e.index()];
     l.typical = gray(l.direct + l.indirect);
@@ -177,7 +177,9 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
     base = static_cast<std::uint32_t>(
         std::clamp(affordable, double(lines::tuning::kFirstLines), static_cast<double>(wanted)));
   }
-  lightLeaves(x, base, lines::tuning::kConverged);
+  lines::TracedLines traced = traceLeaves(x, base);
+  x.samples.first.clear();  // a tenth of all memory, which is wanted now
+  lightLeaves(x, std::move(traced), lines::tuning::kConverged);
   radiosity::pull(s.elements);
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.error = estimateError(s, x.floor);

@@ -55,9 +55,11 @@ bool refineMesh(LineSolve&, std::vector<hierarchy::ElementId> patches, const std
 
 // The light.
 
-/// Light of the leaves there are over `base` lines each, from their direct light and particles: writes the elements'
-/// irradiance and radiosity, the solution's lines and their deviation.
-void lightLeaves(LineSolve&, std::uint32_t base, double converged);
+/// About `base` lines of each of the leaves there are.
+lines::TracedLines traceLeaves(LineSolve&, std::uint32_t base);
+/// Light of the leaves over those, from their direct light and particles: writes the elements' irradiance and
+/// radiosity, the solution's lines and their deviation.
+void lightLeaves(LineSolve&, lines::TracedLines, double converged);
 /// What the solution's own samples say of its error, by area.
 ErrorEstimate estimateError(const Solution&, double floor);
 
