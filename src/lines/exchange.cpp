@@ -118,20 +118,23 @@ void Exchange::forEachExchange(std::size_t i, const Visit& visit) const {
 /// What the symmetric part of a row shall sum to: the share of the leaf's own lines, where few of them escape; what
 /// lines of both ends say where many do.
 void Exchange::setTargets(const Lines& lines, std::span<const std::uint32_t> covered) {
-  std::size_t exception = 0;
-  std::vector<float> rough(lines.leaves(), 0.0f), other(lines.leaves(), 0.0f);
-  for (; exception < lines.exceptions.size(); ++exception) {
-    const ExceptionalLine& e = lines.exceptions[exception];
+  std::vector<float> rough(lines.leaves(), 0.0f), other(lines.leaves(), 0.0f), beyond(lines.leaves(), 0.0f);
+  for (const ExceptionalLine& e : lines.exceptions) {
     (e.rough ? rough : other)[e.leaf] += gray(e.weight) / e_[e.end];
+    if (e.beyond) beyond[e.leaf] += 1;
   }
   parallelFor(lines.leaves(), kLeaves, [&](std::size_t i) {
     const auto count = static_cast<float>(lines.countOf(i) - covered[i]);
     if (!(count > 0) || !(area_[i] > 0)) return;
-    float straight = 0;
-    for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k)
-      if (lines.end[k] < kFirstMark) straight += 1 / e_[lines.end[k]];
-    // Straight lines find at most everything around; what mirrors and gloss show comes on top.
-    const float f = std::min(straight / count, 1.0f) + other[i] / count;
+    // What lines meet first counts whole, whether they end there or go on: that is 1 / e_ of those that end, on
+    // average, without its noise. Where hardly any end, what others see beyond must not stand for it.
+    float met = beyond[i], ended = 0;
+    for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k) {
+      const std::uint32_t end = lines.end[k];
+      if (end < kFirstMark) met += 1, ended += 1 / e_[end];
+      if (end == kLostBeyond) met += 1;
+    }
+    const float f = (std::min(met, tuning::kMostMissed * ended) + other[i]) / count;
     float g = 0;
     forEachExchange(i, [&](std::uint32_t, float x) { g += x; });
     g /= area_[i];

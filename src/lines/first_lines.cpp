@@ -7,7 +7,7 @@ FirstLine firstLine(const LineEnd& end, const Vec3f& direction, bool covered) {
   if (covered)
     line.primitive = kCovered;
   else if (end.fate == LineFate::Lost)
-    line.primitive = kLost;
+    line.primitive = end.met ? kLostBeyond : kLost;
   else if (end.dimmed)
     return line;  // its weight would have to be kept as well
   else if (end.fate == LineFate::Escaped)

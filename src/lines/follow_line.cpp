@@ -34,6 +34,7 @@ LineEnd LineTracer::follow(tracing::Ray ray, tracing::Hit hit, Rng random) const
     const double cosine = std::min(1.0, -glm::dot(outward, Vec3(ray.direction)));
     if (!(cosine > 0)) return end;
 
+    if (segment == 0) end.met = surface.ends > 0;
     float passes = surface.passes;
     Rgb passage = surface.passage, mirror(0.0f);
     if (surface.pane) {

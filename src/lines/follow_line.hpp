@@ -19,6 +19,7 @@ struct LineEnd {
   bool turned = false;                 // it has gone on over something else than straight passages
   bool rough = false;                  // some of that were rough lobes: the way back has another chance
   bool dimmed = false;                 // weight is not 1
+  bool met = false;                    // the first surface, through clear air, could have ended it
   hierarchy::Side side;                // where it ended
   Vec3f position{0.0f}, normal{0.0f};  // the same; of the side
   float distance = std::numeric_limits<float>::infinity();  // to the first surface that it did not pass straight

@@ -26,6 +26,7 @@ enum LineMark : std::uint32_t {
   kCovered,                 // it starts where something lies on the leaf: there is no line
   kLost,
   kEscaped,
+  kLostBeyond,  // lost after the surface that it met first, which has a diffuse part
 };
 
 /// A line that is not straight through clear air to a leaf.
@@ -34,7 +35,8 @@ struct ExceptionalLine {
   std::uint32_t leaf = 0, end = 0;  // where it starts and ends
   Rgb weight{1.0f};                 // throughput over the chance of its way, that of ending left out
   bool turned = false, rough = false;
-  std::uint16_t unused = 0;  // so that no byte of a stored record is left to chance
+  bool beyond = false;      // it went on over a surface that has a diffuse part, through clear air so far
+  std::uint8_t unused = 0;  // so that no byte of a stored record is left to chance
 };
 
 struct Lines {

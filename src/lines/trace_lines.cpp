@@ -76,20 +76,21 @@ class LeafTracing {
  private:
   std::uint32_t take(const LineEnd& end, std::uint32_t leaf, std::uint64_t line, const Vec3f& w, float cosine,
                      Found& found) const {
+    const std::uint32_t lost = end.met ? kLostBeyond : kLost;
     if (end.fate == LineFate::Escaped) {
       // What escapes over mirrors and gloss, particles bring from the other end.
-      if (end.turned) return kLost;
+      if (end.turned) return lost;
       found.escaped.push_back({leaf, w, cosine, end.weight, end.chance});
       return kEscaped;
     }
-    if (end.fate != LineFate::Ended) return kLost;
+    if (end.fate != LineFate::Ended) return lost;
     const hierarchy::ElementId side = s_.elements.sides.at(end.side);
     if (side.valid() && s_.enclosed[hierarchy::surfaceOf(s_.elements, side).index()])
-      return end.turned ? kLost : kCovered;
+      return end.turned ? lost : std::uint32_t(kCovered);
     const std::uint32_t at = s_.locator.at(end.side, end.position);
-    if (at == hierarchy::LeafTable::kNone) return kLost;
+    if (at == hierarchy::LeafTable::kNone) return end.turned ? lost : std::uint32_t(kLost);
     if (!end.dimmed) return at;
-    found.exceptions.push_back({line, leaf, at, end.weight, end.turned, end.rough});
+    found.exceptions.push_back({line, leaf, at, end.weight, end.turned, end.rough, end.met});
     return kException;
   }
 

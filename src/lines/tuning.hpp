@@ -54,6 +54,10 @@ constexpr double kWidestHollow = 16;
 /// level leave the floor lit below them.
 constexpr float kContact = 8;
 
+/// By how much less than they should lines may end on what they meet first. More: of leaves with a handful of lines,
+/// what gloss shows is taken for all around, and runs away. Less: light of glossy rooms is lost.
+constexpr float kMostMissed = 1.25f;
+
 /// Passes of the symmetric scaling of rows. Fewer: more is left to the scaling that breaks reciprocity.
 constexpr int kScalingPasses = 8;
 /// Most and least that one leaf's exchange is scaled by. Wider: leaves with a handful of lines run away.

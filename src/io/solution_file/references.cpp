@@ -131,7 +131,8 @@ void checkLines(const lines::Lines& l, const std::vector<float>& deviation, cons
   require(!l.first.empty() && l.first[0] == 0, "lines: where the first begin");
   for (const lines::ExceptionalLine& e : l.exceptions)
     require(byteAt(e, offsetof(lines::ExceptionalLine, turned)) <= 1 &&
-                byteAt(e, offsetof(lines::ExceptionalLine, rough)) <= 1,
+                byteAt(e, offsetof(lines::ExceptionalLine, rough)) <= 1 &&
+                byteAt(e, offsetof(lines::ExceptionalLine, beyond)) <= 1,
             "line: flag");
   validate(l);
   if (l.leaves() == 0) return require(deviation.empty(), "deviations: of leaves");
