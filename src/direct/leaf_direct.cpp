@@ -68,6 +68,7 @@ struct DirectSampler::Tally {
   bool measured = false;
 
   bool mixed() const { return passed > 0 && passed < samples; }
+  Rgb light() const { return samples > 0 ? Rgb(lit / double(samples)) : Rgb(0.0f); }
   double mean() const { return samples > 0 ? gray(lit) / samples : 0.0; }
   /// Of the mean, gray.
   double variance() const {
@@ -98,6 +99,16 @@ struct DirectSampler::Drawn {
   LampTree::Cut cut;
   std::vector<LampTree::Reaching> passed;  // whose rays did, as often as that
   std::vector<std::uint32_t> left;         // that are asked on their own instead, ascending
+  bool matter = false;
+  Tally pilot, tally;
+
+  /// Moves a lamp to those asked; false where it is there.
+  bool leave(std::uint32_t lamp) {
+    const auto at = std::lower_bound(left.begin(), left.end(), lamp);
+    if (at != left.end() && *at == lamp) return false;
+    left.insert(at, lamp);
+    return true;
+  }
 };
 
 DirectSampler::DirectSampler(const hierarchy::Elements& elements, const Scene& scene, const tracing::RayTracer& tracer,
@@ -113,6 +124,14 @@ DirectSampler::DirectSampler(const hierarchy::Elements& elements, const Scene& s
       mixedDrawn_(raysFor(error, tuning::kMixedDrawn)) {}
 
 namespace {
+
+/// Standard deviation of four values.
+double deviationOf(const std::array<double, 4>& values) {
+  const double mean = 0.25 * (values[0] + values[1] + values[2] + values[3]);
+  double between = 0;
+  for (const double v : values) between += (v - mean) * (v - mean) / 3;
+  return std::sqrt(between);
+}
 
 /// Whether a lamp is so near that its light varies much over the patch.
 bool nearBy(const Lamp& lamp, const hierarchy::ElementGeometry& g) {
@@ -222,7 +241,7 @@ void DirectSampler::finish(double found, Points& points, Asked& a) const {
 /// The share that passes times what would without shadows; `light`: about how much there is of all lamps.
 Rgb DirectSampler::refined(const Asked& a, double light, const hierarchy::ElementGeometry& g, Points& points) const {
   const Tally& t = a.tally;
-  Rgb E(t.lit / double(t.samples));
+  Rgb E = t.light();
   if (a.lamp->sun || a.missed) return E;  // a ratio of so few would favour what is seen where it is faint
   const bool much = gray(t.lit) > tuning::kMuch * light * t.samples, varied = t.shot < t.samples || nearBy(*a.lamp, g);
   const Rgb open =
@@ -231,55 +250,54 @@ Rgb DirectSampler::refined(const Asked& a, double light, const hierarchy::Elemen
   return E;
 }
 
+/// Pilots to those that are drawn, where they may matter beside what was found. Whoever is seen there and may matter is
+/// asked on its own. Adds what they have found.
+void DirectSampler::askDrawn(const LampSight& above, double& found, Points& points, Drawn& drawn,
+                             std::vector<Asked>& asked) const {
+  drawn.matter = drawn.cut.restMost > tuning::kMatters * found;
+  if (!drawn.matter) return;
+  shootDrawn(points, above.missedDrawn() ? tuning::kMissedDrawn : tuning::kDrawnPilots, drawn, drawn.pilot);
+  found += drawn.pilot.mean();
+  for (const LampTree::Reaching& r : drawn.passed)
+    if (r.potential > tuning::kMatters * found && drawn.leave(r.lamp))
+      ask(lamps_.all()[r.lamp], r.potential, above, points, asked);
+}
+
+void DirectSampler::finishDrawn(const LampSight& above, Points& points, Drawn& drawn) const {
+  if (!(drawn.cut.restMost > 0)) return;
+  const Tally& pilot = drawn.pilot;
+  int wanted = tuning::kFaintRays;  // one for all that may bring next to nothing
+  if (drawn.matter && pilot.passed == 0)
+    wanted = above.missedDrawn() ? tuning::kMissedDrawn : tuning::kHiddenDrawn;
+  else if (drawn.matter)
+    wanted = pilot.mixed() ? mixedDrawn_ : openDrawn_;
+  // The pilots' points again where there are no more: without what is asked on its own now.
+  drawn.tally.first = points.have(pilot.samples + 1) ? pilot.samples : 0;
+  shootDrawn(points, wanted, drawn, drawn.tally);
+}
+
 LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& known, const LampSight& above,
                              const Splits& splits) const {
   LeafDirect result;
   const hierarchy::ElementGeometry& g = elements_.shape(patch);
   Points points(elements_, scene_, patch, known);
   result.tooWideForBeam = lamps_.tooWideForBeam(g);
-  Drawn drawn{g, {}, {}, {}};
+  if (!points.have(1)) return result;
+  Drawn drawn{g, {}, {}, {}, false, {}, {}};
   lamps_.tree().cut(g, above.none() ? tuning::kFirstShare : tuning::kAskedShare, tuning::kLampsAsked, above.seen,
                     drawn.cut);
   std::vector<Asked> asked;
   asked.reserve(lamps_.suns().size() + drawn.cut.lamps.size() + tuning::kDrawnPilots);
-  if (!points.have(1)) return result;
   for (const std::uint32_t i : lamps_.suns())
     if (const double most = potential(lamps_.all()[i], g); most > 0) ask(lamps_.all()[i], most, above, points, asked);
   for (const LampTree::Reaching& r : drawn.cut.lamps) ask(lamps_.all()[r.lamp], r.potential, above, points, asked);
   double found = 0;
   for (const Asked& a : asked) found += a.pilot.mean();
-
-  // Those that may bring next to nothing get one ray for all of them.
-  const double drawnMost = drawn.cut.restMost;
-  const bool drawnMatter = drawnMost > tuning::kMatters * found;
-  Tally drawnPilot, drawnTally;
-  if (drawnMost > 0 && drawnMatter) {
-    shootDrawn(points, above.missedDrawn() ? tuning::kMissedDrawn : tuning::kDrawnPilots, drawn, drawnPilot);
-    found += drawnPilot.mean();
-    for (const LampTree::Reaching& r : drawn.passed) {
-      const auto at = std::lower_bound(drawn.left.begin(), drawn.left.end(), r.lamp);
-      if (!(r.potential > tuning::kMatters * found) || (at != drawn.left.end() && *at == r.lamp)) continue;
-      drawn.left.insert(at, r.lamp);
-      ask(lamps_.all()[r.lamp], r.potential, above, points, asked);
-    }
-  }
-  if (drawnMost > 0) {
-    const bool missed = above.missedDrawn() && drawnPilot.passed == 0;
-    drawnTally.first = drawnPilot.samples;
-    shootDrawn(points,
-               !drawnMatter             ? tuning::kFaintRays
-               : missed                 ? tuning::kMissedDrawn
-               : drawnPilot.passed == 0 ? tuning::kHiddenDrawn
-               : drawnPilot.mixed()     ? mixedDrawn_
-                                        : openDrawn_,
-               drawn, drawnTally);
-    if (drawnTally.samples == 0) drawnTally = drawnPilot, drawnTally.rays = 0;
-    result.sight.drawnAsked = drawnMatter;
-    result.sight.drawnSeen = drawnPilot.passed > 0 || drawnTally.passed > 0;
-  }
+  askDrawn(above, found, points, drawn, asked);
+  finishDrawn(above, points, drawn);
 
   std::array<double, 4> quadrants{};
-  double variance = 0;
+  double variance = drawn.tally.variance();
   for (Asked& a : asked) {
     finish(found, points, a);
     const Tally& t = a.tally;
@@ -287,23 +305,21 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
     result.sight.asked |= lampBit(a.lamp->id);
     if (a.pilot.passed > 0 || t.passed > 0) result.sight.seen |= lampBit(a.lamp->id);
     if (t.passed == 0) continue;
-    result.E += Rgb(t.lit / double(t.samples));
+    result.E += t.light();
     if (t.mixed()) variance += t.variance();
     t.addQuadrants(quadrants);
   }
-  result.rays += drawnPilot.rays + drawnTally.rays;
-  const Rgb ofDrawn = drawnTally.samples > 0 ? Rgb(drawnTally.lit / double(drawnTally.samples)) : Rgb(0.0f);
-  result.E += ofDrawn, variance += drawnTally.variance();
-  if (drawnPilot.passed > 0) drawnTally.addQuadrants(quadrants);
-  const double mean = 0.25 * (quadrants[0] + quadrants[1] + quadrants[2] + quadrants[3]);
-  double between = 0;
-  for (const double q : quadrants) between += (q - mean) * (q - mean) / 3;
-  result.variation = static_cast<float>(std::sqrt(between));
+  result.rays += drawn.pilot.rays + drawn.tally.rays;
+  result.sight.drawnAsked = drawn.matter;
+  result.sight.drawnSeen = drawn.pilot.passed > 0 || drawn.tally.passed > 0;
+  result.E += drawn.tally.light();
+  if (drawn.pilot.passed > 0) drawn.tally.addQuadrants(quadrants);
+  result.variation = static_cast<float>(deviationOf(quadrants));
   result.deviation = static_cast<float>(std::sqrt(variance));
   if (splits && splits(result)) return result;
 
   const double light = gray(result.E);
-  result.E = ofDrawn;
+  result.E = drawn.tally.light();
   for (const Asked& a : asked)
     if (a.tally.passed > 0) result.E += refined(a, light, g, points);
   return result;

@@ -61,6 +61,8 @@ class DirectSampler {
   void shootDrawn(Points&, int upTo, Drawn&, Tally&) const;
   void ask(const Lamp&, double potential, const LampSight& above, Points&, std::vector<Asked>&) const;
   void finish(double found, Points&, Asked&) const;
+  void askDrawn(const LampSight& above, double& found, Points&, Drawn&, std::vector<Asked>&) const;
+  void finishDrawn(const LampSight& above, Points&, Drawn&) const;
   Rgb unshadowed(const Lamp&, Points&, int wanted) const;
   Rgb refined(const Asked&, double light, const hierarchy::ElementGeometry&, Points&) const;
 
