@@ -1,5 +1,6 @@
 #pragma once
 // One sun or lamp as patches see it: about how much it may bring, without a ray.
+#include "base/random.hpp"
 #include "hierarchy/element.hpp"
 
 namespace deltalux::direct {
@@ -23,6 +24,12 @@ struct Lamp {
 
 /// Stands for a lamp in a set of some; for several lamps where there are many.
 inline std::uint64_t lampBit(LightId id) { return std::uint64_t(1) << (id.value % 64); }
+/// Three bits that stand for a lamp in a set of few, out of which hardly any others come.
+inline std::uint64_t lampBits(LightId id) {
+  const std::uint64_t mixed = mix64(id.value);
+  return std::uint64_t(1) << (mixed & 63) | std::uint64_t(1) << (mixed >> 6 & 63) |
+         std::uint64_t(1) << (mixed >> 12 & 63);
+}
 
 /// Irradiance that a lamp may bring to a patch, about, unshadowed [W/m2, gray]; 0 where it provably cannot: it lies
 /// behind the patch, the patch behind it, or outside its cone.

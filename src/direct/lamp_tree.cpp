@@ -1,6 +1,7 @@
 #include "direct/lamp_tree.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/box_tree.hpp"
 #include "direct/tuning.hpp"
@@ -73,7 +74,7 @@ void LampTree::build(std::span<std::uint32_t> which, std::span<const Lamp> lamps
   for (const std::uint32_t i : which) {
     const Lamp& lamp = lamps[i];
     box.extend(lamp.lower), box.extend(lamp.upper), node.most += lamp.most;
-    node.lamps |= lampBit(lamp.id);
+    node.lamps |= lampBits(lamp.id);
     node.smallest = std::min(node.smallest, 0.5f * glm::length(lamp.upper - lamp.lower));
     node.sphere.cone = i == which.front() ? lamp.cone : joined(node.sphere.cone, lamp.cone);
   }
@@ -109,11 +110,14 @@ void LampTree::cut(const hierarchy::ElementGeometry& g, double share, std::size_
   const auto less = [](const Branch& a, const Branch& b) {
     return a.rank < b.rank || (a.rank == b.rank && a.node > b.node);
   };
+  const auto maySee = [&](const Node& n) {
+    return n.second == 0 ? (n.lamps & ~seen) == 0 : std::popcount(n.lamps & seen) > 1;
+  };
   std::vector<Branch>& open = out.rest;  // a heap
   const auto add = [&](std::uint32_t node, double atMost) {
     const double bounded = std::min(bound(node, g), atMost);
     if (!(bounded > 0)) return;
-    open.push_back({node, bounded, bounded * (nodes_[node].lamps & seen ? tuning::kSeenRank : 1.0)});
+    open.push_back({node, bounded, bounded * (maySee(nodes_[node]) ? tuning::kSeenRank : 1.0)});
     out.restMost += bounded;
     std::push_heap(open.begin(), open.end(), less);
   };

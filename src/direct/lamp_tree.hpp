@@ -40,7 +40,7 @@ class LampTree {
     void clear() { lamps.clear(), rest.clear(), restMost = 0; }
   };
   /// Those lamps, `most` of them, that may bring more than `share` of what all may bring, or much less than that where
-  /// they are among `seen` (lampBit); the others as branches.
+  /// they are among `seen` (lampBits); the others as branches.
   void cut(const hierarchy::ElementGeometry&, double share, std::size_t most, std::uint64_t seen, Cut&) const;
 
   struct Drawn {

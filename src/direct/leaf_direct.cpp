@@ -303,7 +303,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
     const Tally& t = a.tally;
     result.rays += a.pilot.rays + t.rays;
     result.sight.asked |= lampBit(a.lamp->id);
-    if (a.pilot.passed > 0 || t.passed > 0) result.sight.seen |= lampBit(a.lamp->id);
+    if (a.pilot.passed > 0 || t.passed > 0) result.sight.seen |= lampBits(a.lamp->id);
     if (t.passed == 0) continue;
     result.E += t.light();
     if (t.mixed()) variance += t.variance();

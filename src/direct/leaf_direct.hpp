@@ -23,11 +23,11 @@ struct KnownPoints {
 /// Lamps that shadow rays of a patch have been shot at, and that some of them have seen: by a bit for several of them,
 /// so that it takes no room. What it says may save rays, and must not decide about light.
 struct LampSight {
-  std::uint64_t asked = 0, seen = 0;
+  std::uint64_t asked = 0, seen = 0;           // lampBit, lampBits
   bool drawnAsked = false, drawnSeen = false;  // those that were drawn
 
   bool none() const { return asked == 0 && !drawnAsked; }
-  bool missed(LightId id) const { return (asked & ~seen & lampBit(id)) != 0; }
+  bool missed(LightId id) const { return (asked & lampBit(id)) != 0 && (lampBits(id) & ~seen) != 0; }
   bool missedDrawn() const { return drawnAsked && !drawnSeen; }
 };
 
