@@ -87,49 +87,25 @@ Lamps::Lamps(const Scene& scene) : sampler_(scene) {
       // A measured beam has no edge: it is looked for within half of its peak, and shines beyond.
       lamp.beam = std::min(beam.halfWidth, lamp.halfAngle);
     }
+    lamp.cone = emissionCone(lamp);
     all_.push_back(lamp);
   }
+  const auto those = [&](const auto& wanted) {
+    std::vector<std::uint32_t> which;
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      if (wanted(all_[i])) which.push_back(static_cast<std::uint32_t>(i));
+    return which;
+  };
+  suns_ = those([](const Lamp& l) { return l.sun; });
+  tree_ = LampTree(all_, those([](const Lamp& l) { return !l.sun; }));
+  narrow_ = LampTree(all_, those([](const Lamp& l) { return isNarrow(l); }));
 }
 
-double Lamps::potential(const Lamp& lamp, const hierarchy::ElementGeometry& g) const {
-  const double cone = std::acos(std::clamp<double>(g.normalCone, -1, 1));
-  if (lamp.sun) {
-    if (g.normalCone <= -1) return lamp.most;
-    const double away = std::acos(std::clamp(glm::dot(Vec3(g.normal), lamp.axis), -1.0, 1.0));
-    const double least = std::max(0.0, away - cone - lamp.halfAngle);
-    return least >= 0.5 * kPi ? 0.0 : lamp.most * std::cos(least);
-  }
-  const Vec3f center = 0.5f * (lamp.lower + lamp.upper), half = 0.5f * (lamp.upper - lamp.lower);
-  // All of the lamp behind the patch's plane, or all of the patch behind the lamp's.
-  if (g.normalCone >= 1 && glm::dot(center - g.center, g.normal) + glm::dot(half, glm::abs(g.normal)) < 0) return 0;
-  if (lamp.flat) {
-    const Vec3f c = 0.5f * (g.lower + g.upper), h = 0.5f * (g.upper - g.lower), n(lamp.axis);
-    if (glm::dot(c - center, n) + glm::dot(h, glm::abs(n)) + glm::dot(half, glm::abs(n)) < 0) return 0;
-  }
-  const Vec3 d = Vec3(g.center) - Vec3(center);
-  const double distance = glm::length(d), radius = g.radius + double(glm::length(half));
-  const double spread = distance > radius ? std::asin(radius / distance) : kPi;
-  if (lamp.halfAngle < kPi && distance > radius &&
-      std::acos(std::clamp(glm::dot(d, lamp.axis) / distance, -1.0, 1.0)) - spread > lamp.halfAngle)
-    return 0;
-  double cosine = 1;
-  if (g.normalCone > -1 && distance > radius) {
-    const double away = std::acos(std::clamp(-glm::dot(d, Vec3(g.normal)) / distance, -1.0, 1.0));
-    cosine = std::cos(std::clamp(away - cone - spread, 0.0, 0.5 * kPi));
-    if (!(cosine > 1e-9)) cosine = 1e-9;  // grazing, not proven
-  }
-  const double nearest = std::max(distance - g.radius, 0.5 * radius);
-  return lamp.most * cosine / std::max(nearest * nearest, 1e-30);
-}
-
-double Lamps::beamWidth(const Lamp& lamp, const hierarchy::ElementGeometry& g) const {
-  if (lamp.sun || 2 * lamp.beam > tuning::kNarrow) return kInfinity;
-  const Vec3 center = 0.5 * (Vec3(lamp.lower) + Vec3(lamp.upper)), d = Vec3(g.center) - center;
-  const double distance = glm::length(d), size = glm::length(Vec3(lamp.upper - lamp.lower)), radius = g.radius + size;
-  if (distance > radius &&
-      std::acos(std::clamp(glm::dot(d, lamp.axis) / distance, -1.0, 1.0)) - std::asin(radius / distance) > lamp.beam)
-    return kInfinity;
-  return size + 2 * std::max(distance - g.radius, 0.0) * std::tan(lamp.beam);
+bool Lamps::tooWideForBeam(const hierarchy::ElementGeometry& g) const {
+  bool wide = false;
+  narrow_.reaching(g,
+                   [&](std::uint32_t i, double) { wide = wide || g.radius > tuning::kBeam * beamWidth(all_[i], g); });
+  return wide;
 }
 
 }  // namespace deltalux::direct

@@ -69,6 +69,47 @@ struct DirectSampler::Tally {
   bool measured = false;
 
   bool mixed() const { return passed > 0 && passed < samples; }
+  Rgb light() const { return samples > 0 ? Rgb(lit / double(samples)) : Rgb(0.0f); }
+  double mean() const { return samples > 0 ? gray(lit) / samples : 0.0; }
+  /// Of the mean, gray.
+  double variance() const {
+    return samples > 1 ? std::max(0.0, squares / samples - mean() * mean()) / (samples - 1) : 0.0;
+  }
+  void addQuadrants(std::array<double, 4>& sums) const {
+    for (std::size_t q = 0; q < 4; ++q) sums[q] += counts[q] > 0 ? quadrants[q] / counts[q] : mean();
+  }
+  /// What a ray of `open` has found from a point in quadrant `q`.
+  void add(const Rgb& open_, const Rgb& found, std::size_t q) {
+    ++shot, ++rays, passed += !isBlack(found);
+    open += RgbSum(open_), lit += RgbSum(found);
+    quadrants[q] += gray(found), squares += double(gray(found)) * gray(found);
+  }
+};
+
+/// A lamp that has rays of its own.
+struct DirectSampler::Asked {
+  const Lamp* lamp;
+  double potential;
+  bool missed;  // by the patch above
+  Tally pilot, tally;
+};
+
+/// Lamps that are drawn, and those that turned out to be worth asking.
+struct DirectSampler::Drawn {
+  const hierarchy::ElementGeometry& patch;
+  LampTree::Cut cut;
+  std::vector<LampTree::Reaching> passed;  // whose rays did, as often as that
+  std::vector<std::uint32_t> left;         // that are asked on their own instead, ascending
+  bool matter = false;
+  Tally pilot, tally;
+
+  /// Moves a lamp to those asked; false where it is there.
+  bool leave(std::uint32_t lamp) {
+    const auto at = std::lower_bound(left.begin(), left.end(), lamp);
+    if (at != left.end() && *at == lamp) return false;
+    left.insert(at, lamp);
+    return true;
+  }
 };
 
 DirectSampler::DirectSampler(const hierarchy::Elements& elements, const Scene& scene, const tracing::RayTracer& tracer,
@@ -79,9 +120,19 @@ DirectSampler::DirectSampler(const hierarchy::Elements& elements, const Scene& s
       lamps_(lamps),
       lampRays_(raysFor(error, tuning::kLampRays)),
       mixedRays_(raysFor(error, tuning::kMixedRays)),
-      mixedSunRays_(std::max(tuning::kSunRays, raysFor(error, tuning::kMixedSunRays))) {}
+      mixedSunRays_(std::max(tuning::kSunRays, raysFor(error, tuning::kMixedSunRays))),
+      openDrawn_(raysFor(error, tuning::kOpenDrawn)),
+      mixedDrawn_(raysFor(error, tuning::kMixedDrawn)) {}
 
 namespace {
+
+/// Standard deviation of four values.
+double deviationOf(const std::array<double, 4>& values) {
+  const double mean = 0.25 * (values[0] + values[1] + values[2] + values[3]);
+  double between = 0;
+  for (const double v : values) between += (v - mean) * (v - mean) / 3;
+  return std::sqrt(between);
+}
 
 /// Whether a lamp is so near that its light varies much over the patch.
 bool nearBy(const Lamp& lamp, const hierarchy::ElementGeometry& g) {
@@ -118,10 +169,31 @@ void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, Tally& t) 
     const OpenLight light = openLight(lamps_.sampler(), lamp.id, x, numbers(points.number[k]));
     const Rgb open = light.E;
     if (isBlack(open)) continue;
+    t.add(open, open * tracer_.transmittance(light.ray(x)), points.quadrant[k]);
+  }
+}
+
+/// A lamp a ray, over its chance.
+void DirectSampler::shootDrawn(Points& points, int upTo, Drawn& drawn, Tally& t) const {
+  const std::uint64_t key = combineKeys(points.sequence.key(), kDrawKey);
+  // By the golden ratio [Roberts18], which has nothing in common with the places of the points.
+  constexpr double kGolden = 0.61803398874989485;
+  const double offset = toUnit(key);
+  const ScrambledSobol numbers(combineKeys(key, 1));
+  for (; t.samples < upTo && points.have(t.first + t.samples + 1); ++t.samples) {
+    const auto k = static_cast<std::size_t>(t.first + t.samples);
+    const hierarchy::PatchPoint& x = points.at[k];
+    t.counts[points.quadrant[k]] += 1;
+    const double u = offset + kGolden * static_cast<double>(k);
+    const auto choice = lamps_.tree().draw(drawn.cut, drawn.patch, u - std::floor(u));
+    if (!choice || std::binary_search(drawn.left.begin(), drawn.left.end(), choice->lamp)) continue;
+    const LightId id = lamps_.all()[choice->lamp].id;
+    const OpenLight light = openLight(lamps_.sampler(), id, x, numbers(points.number[k]));
+    const Rgb open = light.E / static_cast<float>(choice->chance);
+    if (isBlack(open)) continue;
     const Rgb lit = open * tracer_.transmittance(light.ray(x));
-    ++t.shot, ++t.rays, t.passed += !isBlack(lit);
-    t.open += RgbSum(open), t.lit += RgbSum(lit);
-    t.quadrants[points.quadrant[k]] += gray(lit), t.squares += double(gray(lit)) * gray(lit);
+    t.add(open, lit, points.quadrant[k]);
+    if (!isBlack(lit)) drawn.passed.push_back({choice->lamp, choice->chance * drawn.cut.restMost});
   }
 }
 
@@ -141,106 +213,119 @@ Rgb DirectSampler::unshadowed(const Lamp& lamp, Points& points, int wanted) cons
   return n > 0 ? Rgb(sum / double(n)) : Rgb(0.0f);
 }
 
-LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& known, const Splits& splits) const {
+/// Pilot samples decide how many others are worth taking, and take no part in the estimate: where few rays pass, what
+/// is refined because one did would be worth less than it counts, and the rest nothing.
+void DirectSampler::ask(const Lamp& lamp, double potential, const LampSight& above, Points& points,
+                        std::vector<Asked>& asked) const {
+  Asked& a = asked.emplace_back(Asked{&lamp, potential, !lamp.sun && above.missed(lamp.id), {}, {}});
+  shoot(lamp, points, lamp.sun ? tuning::kSunPilots : a.missed ? tuning::kMissedPilots : tuning::kLampPilots, a.pilot);
+}
+
+/// The samples that count, where about as much light as `found` was found.
+void DirectSampler::finish(double found, Points& points, Asked& a) const {
+  const Lamp& lamp = *a.lamp;
+  const Tally& pilot = a.pilot;
+  const double open = pilot.shot > 0 ? gray(pilot.open) / pilot.samples : a.potential;
+  const bool mixed = pilot.mixed() || (a.missed && pilot.passed > 0);
+  int wanted = lamp.sun ? (mixed ? mixedSunRays_ : tuning::kSunRays) : mixed ? mixedRays_ : lampRays_;
+  if (!lamp.sun && !(open > tuning::kMatters * found)) wanted = tuning::kFaintRays;
+  a.missed = a.missed && pilot.passed == 0 && wanted > tuning::kMissedRays;
+  if (a.missed) wanted = tuning::kMissedRays;
+  Tally& t = a.tally;
+  t.first = pilot.samples;
+  shoot(lamp, points, wanted, t);
+  if (t.samples == 0) t = pilot, t.rays = 0;  // there are no more points
+  if (lamp.sun || a.missed || t.shot > 0) return;
+  // Of a narrow beam few points may lie in it: shadow rays start from some that do.
+  t.unshadowed = unshadowed(lamp, points, kMostPoints), t.measured = true;
+  for (int more = wanted; t.shot == 0 && !isBlack(t.unshadowed) && t.samples == more && more < kMostPoints;)
+    shoot(lamp, points, more = std::min(2 * more, kMostPoints), t);
+}
+
+/// The share that passes times what would without shadows; `light`: about how much there is of all lamps.
+Rgb DirectSampler::refined(const Asked& a, double light, const hierarchy::ElementGeometry& g, Points& points) const {
+  const Tally& t = a.tally;
+  Rgb E = t.light();
+  if (a.lamp->sun || a.missed) return E;  // a ratio of so few would favour what is seen where it is faint
+  const bool much = gray(t.lit) > tuning::kMuch * light * t.samples, varied = t.shot < t.samples || nearBy(*a.lamp, g);
+  const Rgb open =
+      t.measured ? t.unshadowed : unshadowed(*a.lamp, points, much && varied ? kMostPoints : tuning::kUnshadowedPoints);
+  for (int c = 0; c < 3; ++c) E[c] = t.open[c] > 0 ? open[c] * static_cast<float>(t.lit[c] / t.open[c]) : 0.0f;
+  return E;
+}
+
+/// Pilots to those that are drawn, where they may matter beside what was found. Whoever is seen there and may matter is
+/// asked on its own. Adds what they have found.
+void DirectSampler::askDrawn(const LampSight& above, double& found, Points& points, Drawn& drawn,
+                             std::vector<Asked>& asked) const {
+  drawn.matter = drawn.cut.restMost > tuning::kMatters * found;
+  if (!drawn.matter) return;
+  shootDrawn(points, above.missedDrawn() ? tuning::kMissedDrawn : tuning::kDrawnPilots, drawn, drawn.pilot);
+  found += drawn.pilot.mean();
+  for (const LampTree::Reaching& r : drawn.passed)
+    if (r.potential > tuning::kMatters * found && drawn.leave(r.lamp))
+      ask(lamps_.all()[r.lamp], r.potential, above, points, asked);
+}
+
+void DirectSampler::finishDrawn(const LampSight& above, Points& points, Drawn& drawn) const {
+  if (!(drawn.cut.restMost > 0)) return;
+  const Tally& pilot = drawn.pilot;
+  int wanted = tuning::kFaintRays;  // one for all that may bring next to nothing
+  if (drawn.matter && pilot.passed == 0)
+    wanted = above.missedDrawn() ? tuning::kMissedDrawn : tuning::kHiddenDrawn;
+  else if (drawn.matter)
+    wanted = pilot.mixed() ? mixedDrawn_ : openDrawn_;
+  // The pilots' points again where there are no more: without what is asked on its own now.
+  drawn.tally.first = points.have(pilot.samples + 1) ? pilot.samples : 0;
+  shootDrawn(points, wanted, drawn, drawn.tally);
+}
+
+LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& known, const LampSight& above,
+                             const Splits& splits) const {
   LeafDirect result;
   const hierarchy::ElementGeometry& g = elements_.shape(patch);
   Points points(elements_, scene_, patch, known);
-  struct Asked {
-    const Lamp* lamp;
-    double potential, weight;  // weight: one over the chance of being drawn
-  };
+  result.tooWideForBeam = lamps_.tooWideForBeam(g);
+  if (!points.have(1)) return result;
+  Drawn drawn{g, {}, {}, {}, false, {}, {}};
+  lamps_.tree().cut(g, above.none() ? tuning::kFirstShare : tuning::kAskedShare, tuning::kLampsAsked, above.seen,
+                    drawn.cut);
   std::vector<Asked> asked;
-  double rest = 0;
-  for (const Lamp& lamp : lamps_.all()) {
-    const double potential = lamps_.potential(lamp, g);
-    if (!(potential > 0)) continue;
-    asked.push_back({&lamp, potential, 1});
-    result.tooWideForBeam = result.tooWideForBeam || g.radius > tuning::kBeam * lamps_.beamWidth(lamp, g);
-  }
-  if (asked.empty() || !points.have(1)) return result;
-  if (asked.size() > tuning::kLampsAsked + tuning::kLampsDrawn) {
-    // The many that may bring little stand for each other, drawn in proportion to what that is.
-    std::stable_sort(asked.begin(), asked.end(),
-                     [](const Asked& a, const Asked& b) { return a.potential > b.potential; });
-    std::vector<Asked> drawn(asked.begin(), asked.begin() + tuning::kLampsAsked);
-    for (std::size_t i = tuning::kLampsAsked; i < asked.size(); ++i) rest += asked[i].potential;
-    const double offset = toUnit(combineKeys(points.sequence.key(), kDrawKey));
-    double before = 0;
-    int taken = 0;
-    for (std::size_t i = tuning::kLampsAsked; i < asked.size(); ++i) {
-      before += asked[i].potential * tuning::kLampsDrawn / rest;
-      int times = 0;
-      while (taken < tuning::kLampsDrawn && taken + offset < before) ++taken, ++times;
-      if (times > 0)
-        drawn.push_back({asked[i].lamp, asked[i].potential, times * rest / (tuning::kLampsDrawn * asked[i].potential)});
-    }
-    asked = std::move(drawn);
-  }
-
-  // Pilot samples decide how many others are worth taking, and take no part in the estimate: where few rays pass, what
-  // is refined because one did would be worth less than it counts, and the rest nothing.
-  std::vector<Tally> pilots(asked.size());
+  asked.reserve(lamps_.suns().size() + drawn.cut.lamps.size() + tuning::kDrawnPilots);
+  for (const std::uint32_t i : lamps_.suns())
+    if (const double most = potential(lamps_.all()[i], g); most > 0) ask(lamps_.all()[i], most, above, points, asked);
+  for (const LampTree::Reaching& r : drawn.cut.lamps) ask(lamps_.all()[r.lamp], r.potential, above, points, asked);
   double found = 0;
-  for (std::size_t l = 0; l < asked.size(); ++l) {
-    const Lamp& lamp = *asked[l].lamp;
-    Tally& t = pilots[l];
-    shoot(lamp, points, lamp.sun ? tuning::kSunPilots : tuning::kLampPilots, t);
-    if (t.samples > 0) found += asked[l].weight * gray(t.lit) / t.samples;
-    result.rays += t.rays;
-  }
-  std::vector<Tally> tallies(asked.size());
+  for (const Asked& a : asked) found += a.pilot.mean();
+  askDrawn(above, found, points, drawn, asked);
+  finishDrawn(above, points, drawn);
+
   std::array<double, 4> quadrants{};
-  double variance = 0;
-  for (std::size_t l = 0; l < asked.size(); ++l) {
-    const Lamp& lamp = *asked[l].lamp;
-    const Tally& pilot = pilots[l];
-    const double weight = asked[l].weight;
-    const double open = pilot.shot > 0 ? gray(pilot.open) / pilot.samples : asked[l].potential;
-    int wanted = lamp.sun ? (pilot.mixed() ? mixedSunRays_ : tuning::kSunRays) : pilot.mixed() ? mixedRays_ : lampRays_;
-    if (!lamp.sun && !(weight * open > tuning::kMatters * found)) wanted = tuning::kFaintRays;
-    Tally& t = tallies[l];
-    t.first = pilot.samples;
-    shoot(lamp, points, wanted, t);
-    if (t.samples == 0) t = pilot;  // there are no more points
-    if (!lamp.sun && t.shot == 0) {
-      // Of a narrow beam few points may lie in it: shadow rays start from some that do.
-      t.unshadowed = unshadowed(lamp, points, kMostPoints), t.measured = true;
-      for (int more = wanted; t.shot == 0 && !isBlack(t.unshadowed) && t.samples == more && more < kMostPoints;)
-        shoot(lamp, points, more = std::min(2 * more, kMostPoints), t);
-    }
-    result.rays += t.rays;
+  double variance = drawn.tally.variance();
+  for (Asked& a : asked) {
+    finish(found, points, a);
+    const Tally& t = a.tally;
+    result.rays += a.pilot.rays + t.rays;
+    result.sight.asked |= lampBit(a.lamp->id);
+    if (a.pilot.passed > 0 || t.passed > 0) result.sight.seen |= lampBits(a.lamp->id);
     if (t.passed == 0) continue;
-    result.E += static_cast<float>(weight / t.samples) * Rgb(t.lit);
-    const double mean = gray(t.lit) / t.samples;
-    if (t.samples > 1 && t.mixed())
-      variance += weight * weight * std::max(0.0, t.squares / t.samples - mean * mean) / (t.samples - 1);
-    for (std::size_t q = 0; q < 4; ++q)
-      quadrants[q] += weight * (t.counts[q] > 0 ? t.quadrants[q] / t.counts[q] : mean);
+    result.E += t.light();
+    if (t.mixed()) variance += t.variance();
+    t.addQuadrants(quadrants);
   }
-  const double mean = 0.25 * (quadrants[0] + quadrants[1] + quadrants[2] + quadrants[3]);
-  double between = 0;
-  for (const double q : quadrants) between += (q - mean) * (q - mean) / 3;
-  result.variation = static_cast<float>(std::sqrt(between));
+  result.rays += drawn.pilot.rays + drawn.tally.rays;
+  result.sight.drawnAsked = drawn.matter;
+  result.sight.drawnSeen = drawn.pilot.passed > 0 || drawn.tally.passed > 0;
+  result.E += drawn.tally.light();
+  if (drawn.pilot.passed > 0) drawn.tally.addQuadrants(quadrants);
+  result.variation = static_cast<float>(deviationOf(quadrants));
   result.deviation = static_cast<float>(std::sqrt(variance));
   if (splits && splits(result)) return result;
 
   const double light = gray(result.E);
-  result.E = Rgb(0.0f);
-  for (std::size_t l = 0; l < asked.size(); ++l) {
-    const Lamp& lamp = *asked[l].lamp;
-    Tally& t = tallies[l];
-    if (t.passed == 0) continue;
-    Rgb E(t.lit / double(t.samples));
-    if (!lamp.sun) {
-      const bool much = asked[l].weight * gray(t.lit) > tuning::kMuch * light * t.samples;
-      const bool varied = t.shot < t.samples || nearBy(lamp, g);
-      if (!t.measured)
-        t.unshadowed = unshadowed(lamp, points, much && varied ? kMostPoints : tuning::kUnshadowedPoints);
-      for (int c = 0; c < 3; ++c)
-        E[c] = t.open[c] > 0 ? t.unshadowed[c] * static_cast<float>(t.lit[c] / t.open[c]) : 0.0f;
-    }
-    result.E += static_cast<float>(asked[l].weight) * E;
-  }
+  result.E = drawn.tally.light();
+  for (const Asked& a : asked)
+    if (a.tally.passed > 0) result.E += refined(a, light, g, points);
   return result;
 }
 

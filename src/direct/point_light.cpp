@@ -70,9 +70,14 @@ PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer)
 
 std::vector<Source> PointSampler::lampsOver(const hierarchy::ElementGeometry& patch) const {
   std::vector<Source> out;
-  for (std::size_t i = 0; i < whole_.size(); ++i)
-    if (const double potential = lamps_.potential(whole_[i], patch); potential > 0)
-      out.push_back({static_cast<std::uint32_t>(i), static_cast<float>(potential), tuning::kOpenLamp});
+  const auto add = [&](std::uint32_t i, double bright) {
+    if (bright > 0) out.push_back({i, static_cast<float>(bright), tuning::kOpenLamp});
+  };
+  for (const std::uint32_t i : lamps_.suns()) add(i, potential(whole_[i], patch));
+  for (std::size_t i = lamps_.all().size(); i < whole_.size(); ++i)
+    add(static_cast<std::uint32_t>(i), potential(whole_[i], patch));
+  lamps_.tree().reaching(patch, add);
+  std::sort(out.begin(), out.end(), [](const Source& a, const Source& b) { return a.id < b.id; });
   return out;
 }
 

@@ -19,9 +19,17 @@ constexpr double kMatters = 0.01;
 constexpr int kUnshadowedPoints = 16;
 constexpr double kMuch = 0.1;
 constexpr float kNearBy = 8;
-/// Lamps that are asked one by one; of the others' sum some are drawn by what they may bring. Fewer: noise where very
-/// many lamps are equally bright.
-constexpr int kLampsAsked = 24, kLampsDrawn = 8;
+/// Lamps that are asked one by one, those that may bring more than such a share of what all may bring, less where the
+/// patch is a part of none that has asked, and by a factor where that has seen them; the others are drawn by what they
+/// may bring. Fewer, more: noise where many lamps are equally bright. More, less: rays to lamps that hardly matter.
+constexpr std::size_t kLampsAsked = 24;
+constexpr double kAskedShare = 1.0 / 32, kFirstShare = 1.0 / 256, kSeenRank = 16;
+/// Shadow rays to those that are drawn: that tell whether others are worth it, and how many where none of those passes,
+/// all pass, or some. Fewer: grain where many faint lamps shine.
+constexpr int kDrawnPilots = 4, kHiddenDrawn = 4, kOpenDrawn = 16, kMixedDrawn = 32;
+/// The same to a lamp, and to those that are drawn, that all rays of the patch have missed that this one is a part of.
+/// Fewer: edges of its light are noticed late. More: rays at walls.
+constexpr int kMissedPilots = 1, kMissedRays = 1, kMissedDrawn = 2;
 /// Split where direct light varies over quadrants, times area, by more than this many errors of the light there.
 /// Higher: shadows' edges are blurred.
 constexpr double kVariation = 2;

@@ -40,7 +40,9 @@ struct Samplers {
   std::uint64_t light(hierarchy::ElementId patch, const direct::DirectSampler::Splits& splits = {}) const {
     const lines::LeafScale& scale = x.samples.scale[patch.index()];
     direct::LeafDirect& light = x.samples.direct[patch.index()];
-    light = direct.at(patch, {scale.covered, scale.known}, splits);
+    const hierarchy::ElementId above = x.s.elements.at(patch).parent;
+    const direct::LampSight sight = above.valid() ? x.samples.direct[above.index()].sight : direct::LampSight{};
+    light = direct.at(patch, {scale.covered, scale.known}, sight, splits);
     return light.rays;
   }
 

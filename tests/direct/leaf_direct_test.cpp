@@ -20,9 +20,9 @@ struct Lit {
     elements = hierarchy::buildElements(scene, hierarchy::surfaceSides(scene));
     lamps.emplace(scene);
   }
-  direct::LeafDirect front(PrimitiveId p) const {
+  direct::LeafDirect front(PrimitiveId p, const direct::LampSight& above = {}) const {
     const direct::DirectSampler sampler(elements, scene, *tracer, *lamps, 0.05);
-    return sampler.at(elements.side(p, 0, true), {});
+    return sampler.at(elements.side(p, 0, true), {}, above);
   }
 
   Scene scene;
@@ -85,6 +85,80 @@ TEST(LeafDirect, ManyLampsAreRightInTheMean) {
     }
   const Lit lit(std::move(scene));
   EXPECT_NEAR(lit.front(tile).E.g, expected, 0.15 * expected);
+}
+
+/// Unshadowed light of a lamp of intensity 1 on the ground [W/m2].
+double fromLampAt(const Vec3& d) { return d.z / std::pow(glm::dot(d, d), 1.5); }
+
+/// A row of small tiles, and many lamps of different power over them; a wall at x = 0 hides those beyond.
+struct ManyLamps {
+  ManyLamps(int visible, int hidden, double bright = 1) {
+    for (int i = 0; i < 64; ++i) tiles.push_back(addTile(scene, 1 + 0.1 * i, 0.001));
+    addPolygon(scene, addMaterial(scene, "wall", lambert(0)), {{0, -99, -1}, {0, 99, -1}, {0, 99, 99}, {0, -99, 99}});
+    expected.assign(tiles.size(), 0);
+    const auto add = [&](int i, double side) {
+      const double power = (1 + i % 7) * (side > 0 ? bright : 1.0);
+      const Vec3 at(side * (1 + i % 10), -8 + 1.7 * (i / 10 % 10), 3 + 0.1 * (i / 100));
+      addLight(scene, PointLight{at, Rgb(static_cast<float>(power))});
+      for (std::size_t t = 0; side > 0 && t < tiles.size(); ++t)
+        expected[t] += power * fromLampAt(at - Vec3(1.001 + 0.1 * static_cast<double>(t), 0, 0));
+    };
+    for (int i = 0; i < visible; ++i) add(i, 1);
+    for (int i = 0; i < hidden; ++i) add(i, -1);
+  }
+
+  Scene scene;
+  std::vector<PrimitiveId> tiles;
+  std::vector<double> expected;
+};
+
+TEST(LeafDirect, DrawnLampsAreRightInTheMean) {
+  ManyLamps many(200, 200);
+  const Lit lit(std::move(many.scene));
+  double sum = 0, expected = 0;
+  for (std::size_t t = 0; t < many.tiles.size(); ++t) {
+    const direct::LeafDirect light = lit.front(many.tiles[t]);
+    sum += light.E.g, expected += many.expected[t];
+    EXPECT_NEAR(light.E.g, many.expected[t], 0.5 * many.expected[t]);
+    EXPECT_GT(light.deviation, 0);
+  }
+  EXPECT_NEAR(sum, expected, 0.03 * expected);
+}
+
+TEST(LeafDirect, HiddenLampsCostFewRays) {
+  ManyLamps alone(4, 0, 40), many(4, 400, 40);
+  const Lit few(std::move(alone.scene)), all(std::move(many.scene));
+  std::uint32_t raysOfFew = 0, raysOfAll = 0;
+  for (std::size_t t = 0; t < many.tiles.size(); ++t) {
+    const direct::LeafDirect first = all.front(many.tiles[t]);
+    EXPECT_NEAR(first.E.g, many.expected[t], 1e-3 * many.expected[t]);
+    raysOfFew += few.front(alone.tiles[t]).rays;
+    raysOfAll += all.front(many.tiles[t], first.sight).rays;
+  }
+  const auto tiles = static_cast<std::uint32_t>(many.tiles.size());
+  EXPECT_LT(raysOfAll, raysOfFew + 60 * tiles);  // 24 asked one by one, and some of the others
+}
+
+TEST(LeafDirect, WhatThePatchAboveHasMissedIsFound) {
+  ManyLamps many(200, 0);
+  const Lit lit(std::move(many.scene));
+  direct::LampSight missed;
+  missed.asked = ~std::uint64_t(0), missed.drawnAsked = true;
+  double sum = 0, expected = 0;
+  for (std::size_t t = 0; t < many.tiles.size(); ++t) {
+    const direct::LeafDirect light = lit.front(many.tiles[t], missed);
+    sum += light.E.g, expected += many.expected[t];
+    EXPECT_TRUE(light.sight.drawnSeen);
+  }
+  EXPECT_NEAR(sum, expected, 0.03 * expected);
+}
+
+TEST(LeafDirect, DoublesWithThePowerOfAllLamps) {
+  ManyLamps once(60, 60), twice(60, 60);
+  for (Light& light : twice.scene.lights) light.scale *= 2.0f;
+  const Lit first(std::move(once.scene)), second(std::move(twice.scene));
+  for (std::size_t t = 0; t < once.tiles.size(); t += 7)
+    EXPECT_FLOAT_EQ(2 * first.front(once.tiles[t]).E.g, second.front(twice.tiles[t]).E.g);
 }
 
 TEST(Lamps, ANarrowBeamIsFoundByItsWidth) {
