@@ -21,11 +21,12 @@ enum class SenderKind : std::uint8_t {
 
 struct SenderCell {
   SenderKind kind = SenderKind::Side;
-  bool front = true;      // Side, Lamp
-  LightId light;          // all but Side
-  PrimitiveId primitive;  // Side, Lamp
-  UnitRect rect;          // Side, Lamp: of the numbers that sample the shape; Sky: of azimuth and height
-  float measure = 0;      // Side, Lamp: area, 0 when it was removed; Sun, Sky: solid angle
+  bool front = true;         // Side, Lamp
+  std::uint16_t unused = 0;  // so that no byte of a stored record is left to chance
+  LightId light;             // all but Side
+  PrimitiveId primitive;     // Side, Lamp
+  UnitRect rect;             // Side, Lamp: of the numbers that sample the shape; Sky: of azimuth and height
+  float measure = 0;         // Side, Lamp: area, 0 when it was removed; Sun, Sky: solid angle
 };
 
 class Senders {
