@@ -77,6 +77,12 @@ LineEnd LineTracer::follow(tracing::Ray ray, tracing::Hit hit, Rng random) const
     } else {
       const double u = random.uniform(), v = random.uniform(), w = random.uniform();
       const auto s = scene::sample(surface.specular, wo, {u, v, w});
+      // What facets of a rough lobe send below the surface is lost to it.
+      if (!surface.body)
+        end.absorbed += end.weight *
+                        (surface.specular.reflection.reflectance + surface.specular.transmission.reflectance -
+                         (s ? s->weight : Rgb(0.0f))) /
+                        onward;
       if (!s) return end;
       end.weight *= s->weight / onward;
       end.rough = end.rough || !scene::isDirac(s->event);

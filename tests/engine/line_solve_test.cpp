@@ -77,6 +77,18 @@ TEST(LineSolve, EnergyIsKeptToAThousandth) {
   EXPECT_NEAR(residue(l), 0, 0.002);
 }
 
+TEST(LineSolve, GlossyRoomsKeepTheirLight) {
+  // Every line may end or go on: what a few find by chance is no reason to cut rows off.
+  Scene scene;
+  const SpecularLobe gloss{Rgb(0.35f), 0.15f, SpecularLobe::Distribution::Ggx};
+  addBox(scene, addMaterial(scene, "wall", Opaque{Rgb(0.4f), {}, gloss}), {0, 0, 0}, {3, 4, 2.5}, true);
+  addBox(scene, addMaterial(scene, "block", Opaque{Rgb(0.3f), {}, gloss}), {1, 1, 0}, {1.5, 1.6, 0.7}, false);
+  addLight(scene, PointLight{{1.5, 2.5, 2}, Rgb(1.0f)});
+  const Engine engine = solvedByLines(std::move(scene));
+  const EnergyLedger l = engine.solution().report().energy;
+  EXPECT_NEAR(residue(l), 0, 0.005);
+}
+
 /// A room with a block and a ball, about the z axis turned by `angle`, and two lamps.
 Scene turnedRoom(double angle, float first, float second) {
   const glm::dmat3 turn(glm::rotate(Mat4(1.0), angle, Vec3(0, 0, 1)));
