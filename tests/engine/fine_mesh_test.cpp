@@ -102,6 +102,26 @@ TEST(FineMesh, CausticsFallOnIt) {
   EXPECT_NEAR(particlesOn(fine) / particlesOn(plain), 1, 0.01);
 }
 
+TEST(FineMesh, ANarrowSpotIsFoundWhereverItFalls) {
+  for (const Vec2 at : {Vec2(0.31, 3.7), Vec2(2.02, 1.33)}) {
+    Scene scene;
+    addShape(scene, addMaterial(scene, "ground", lambert(0.5f)), ground(4, 224, hills));
+    addBox(scene, addMaterial(scene, "wall", lambert(0.5f)), Vec3(0), {4, 4, 2.5}, true);
+    SpotLight spot;
+    spot.position = Vec3(at, 2.4), spot.direction = {0, 0, -1}, spot.intensity = Rgb(100.0f);
+    spot.cosInner = std::cos(0.015), spot.cosOuter = std::cos(0.016);
+    addLight(scene, spot);
+    const Engine engine = solvedByLines(std::move(scene));
+    const hierarchy::Elements& e = engine.solution().get().elements;
+    double direct = 0;
+    for (std::size_t i = 0; i < e.size(); ++i)
+      if (e.isReceivingLeaf(hierarchy::ElementId(i))) direct += e.geometry[i].area * gray(e.radiometry[i].direct);
+    // Between the cones of full and of no light, whatever the falloff.
+    EXPECT_GT(direct, 0.95 * 100 * 2 * kPi * (1 - std::cos(0.015)));
+    EXPECT_LT(direct, 1.05 * 100 * 2 * kPi * (1 - std::cos(0.016)));
+  }
+}
+
 TEST(FineMesh, IsTheSameByAnyNumberOfThreadsAndFromAFile) {
   std::vector<std::uint64_t> hashes;
   for (const std::size_t threads : {1, 2, 3}) {

@@ -130,7 +130,9 @@ TEST(FacesPatch, EverySideIsHeldByTheLowestPatchWithAllOfIt) {
         if (m.elements.hasFaces(leaf)) held[leaf.index()] += 0.5 * glm::length(glm::cross(q - p, r - p));
       }
     for (std::size_t i = 0; i < held.size(); ++i)
-      if (held[i] > 0) EXPECT_NEAR(held[i] / m.elements.geometry[i].area, 1, 1e-4);
+      if (held[i] > 0) {
+        EXPECT_NEAR(held[i] / m.elements.geometry[i].area, 1, 1e-4);
+      }
     m.refine(1);
   }
   // Down to parts of faces.
