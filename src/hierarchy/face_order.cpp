@@ -1,5 +1,7 @@
 #include "hierarchy/face_order.hpp"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -50,7 +52,7 @@ FaceOrder::FaceOrder(PrimitiveId primitive, const Mesh& mesh) : primitive_(primi
     const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &r = mesh.positions[c];
     coded[f] = {codeOf((p + q + r) / 3.0, glm::cross(q - p, r - p), box.lower, size), static_cast<std::uint32_t>(f)};
   });
-  std::sort(coded.begin(), coded.end());
+  tbb::parallel_sort(coded.begin(), coded.end());  // no two are equal
   faces_.resize(n), places_.resize(n), codes_.resize(n), areaBefore_.resize(n + 1, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint32_t f = coded[i].face;

@@ -183,49 +183,76 @@ void shapeCurved(Elements& elements, const Scene& scene, ElementId e) {
   for (float& w : n.weight) w /= sum;
 }
 
+/// Sums over the faces of a patch.
+struct FaceSums {
+  Box box;
+  Vec3 center{0}, normal{0};
+  double area = 0;
+
+  FaceSums& operator+=(const FaceSums& o) {
+    box.extend(o.box);
+    center += o.center, normal += o.normal, area += o.area;
+    return *this;
+  }
+};
+
+/// The farthest of the faces' corners from a centre, squared, the least cosine to a normal, and means over normals.
+struct FaceSpread {
+  double radius = 0, cone = 1;
+  NormalMoments moments;
+
+  FaceSpread& operator+=(const FaceSpread& o) {
+    radius = std::max(radius, o.radius), cone = std::min(cone, o.cone);
+    for (int k = 0; k < kHarmonics; ++k) moments.m[k] += o.moments.m[k];
+    return *this;
+  }
+};
+
 void shapeFaces(Elements& elements, const Scene& scene, ElementId e) {
+  constexpr std::size_t kBlock = 2048;
   const auto& mesh = std::get<Mesh>(scene[elements.domain[e.index()].primitive].shape);
   const FaceOrder& order = elements.orderOf(e);
   const FaceRange range = elements.facesOf(e);
   const double sign = elements.at(e).front ? 1.0 : -1.0;
   ElementGeometry& g = elements.geometry[e.index()];
   ElementNodes& n = elements.nodes[e.index()];
-  /// visit(corners, area vector of length twice the area)
-  const auto forEachFace = [&](const auto& visit) {
-    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-      const auto& [a, b, c] = mesh.triangles[order.faceAt(i)];
-      const std::array<Vec3, 3> p = {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
-      visit(p, sign * glm::cross(p[1] - p[0], p[2] - p[0]));
-    }
+  const auto cornersOf = [&](std::size_t i) {
+    const auto& [a, b, c] = mesh.triangles[order.faceAt(range.first + static_cast<std::uint32_t>(i))];
+    return std::array<Vec3, 3>{mesh.positions[a], mesh.positions[b], mesh.positions[c]};
   };
-  Box box;
-  Vec3 center(0), mean(0);
-  double twice = 0;
-  forEachFace([&](const std::array<Vec3, 3>& p, const Vec3& v) {
-    const double w = glm::length(v);
-    for (const Vec3& q : p) box.extend(q);
-    center += w / 3 * (p[0] + p[1] + p[2]), mean += v, twice += w;
+  const auto areaVector = [&](const std::array<Vec3, 3>& p) {
+    return 0.5 * sign * glm::cross(p[1] - p[0], p[2] - p[0]);
+  };
+  FaceSums sums = parallelSum<FaceSums>(range.count, kBlock, [&](std::size_t i) {
+    const std::array<Vec3, 3> p = cornersOf(i);
+    FaceSums face;
+    for (const Vec3& q : p) face.box.extend(q);
+    face.normal = areaVector(p), face.area = glm::length(face.normal);
+    face.center = face.area / 3 * (p[0] + p[1] + p[2]);
+    return face;
   });
-  center /= twice;
-  g.area = static_cast<float>(0.5 * twice);
-  g.center = Vec3f(center);
-  setExtent(g, box);
-  const double length = glm::length(mean) / twice;
-  const Vec3 normal = length > 0.05 ? glm::normalize(mean) : Vec3(0);
+  sums.center /= sums.area;
+  g.area = static_cast<float>(sums.area);
+  g.center = Vec3f(sums.center);
+  setExtent(g, sums.box);
+  const bool hasNormal = glm::length(sums.normal) > 0.05 * sums.area;
+  const Vec3 normal = hasNormal ? glm::normalize(sums.normal) : Vec3(0);
   g.normal = Vec3f(normal);
-  double radius = 0, cone = length > 0.05 ? 1 : -1;
-  NormalMoments moments;
-  forEachFace([&](const std::array<Vec3, 3>& p, const Vec3& v) {
-    const double w = glm::length(v);
-    for (const Vec3& q : p) radius = std::max(radius, glm::dot(q - center, q - center));
-    cone = std::min(cone, glm::dot(v, normal) / w);
-    const auto y = harmonics(Vec3f(v / w));
-    for (int k = 0; k < kHarmonics; ++k) moments.m[k] += static_cast<float>(w / twice) * y[k];
+  const FaceSpread spread = parallelSum<FaceSpread>(range.count, kBlock, [&](std::size_t i) {
+    const std::array<Vec3, 3> p = cornersOf(i);
+    const Vec3 v = areaVector(p);
+    const double area = glm::length(v);
+    FaceSpread face;
+    for (const Vec3& q : p) face.radius = std::max(face.radius, glm::dot(q - sums.center, q - sums.center));
+    face.cone = glm::dot(v, normal) / area;
+    const auto y = harmonics(Vec3f(v / area));
+    for (int k = 0; k < kHarmonics; ++k) face.moments.m[k] = static_cast<float>(area / sums.area) * y[k];
+    return face;
   });
-  g.radius = static_cast<float>(std::sqrt(radius));
+  g.radius = static_cast<float>(std::sqrt(spread.radius));
   // Rounding must not part normals that are all the same from their mean.
-  g.normalCone = cone > 1 - 1e-9 ? 1.0f : length > 0.05 ? static_cast<float>(cone) - 1e-6f : -1.0f;
-  elements.moments[e.index()] = moments;
+  g.normalCone = spread.cone > 1 - 1e-9 ? 1.0f : hasNormal ? static_cast<float>(spread.cone) - 1e-6f : -1.0f;
+  elements.moments[e.index()] = spread.moments;
   for (int q = 0; q < 4; ++q) {
     const PatchPoint p = pointOn(elements, scene, e, (q + 0.5) / 4, 1.0 / 3);
     n.position[q] = p.position, n.normal[q] = p.normal, n.weight[q] = 0.25f;
