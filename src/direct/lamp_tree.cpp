@@ -10,7 +10,7 @@ namespace deltalux::direct {
 
 namespace {
 
-constexpr double kRounding = 1 + 1e-5;
+constexpr double kWidened = 1 + 1e-5;
 
 Vec3f centerOf(const Lamp& lamp) { return 0.5f * (lamp.lower + lamp.upper); }
 
@@ -79,7 +79,7 @@ void LampTree::build(std::span<std::uint32_t> which, std::span<const Lamp> lamps
     node.sphere.cone = i == which.front() ? lamp.cone : joined(node.sphere.cone, lamp.cone);
   }
   node.sphere.center = 0.5f * (box.lower + box.upper), node.sphere.half = 0.5f * (box.upper - box.lower);
-  node.sphere.radius = glm::length(node.sphere.half) * static_cast<float>(kRounding);
+  node.sphere.radius = glm::length(node.sphere.half) * static_cast<float>(kWidened);
   if (which.size() == 1) {
     node.lamp = static_cast<std::uint32_t>(lamps_.size());
     lamps_.push_back(lamps[which.front()]), index_.push_back(which.front());
@@ -100,7 +100,7 @@ double LampTree::bound(std::uint32_t node, const hierarchy::ElementGeometry& g) 
   if (!(cosine > 0)) return 0;
   const Vec3f beyond = glm::max(glm::abs(g.center - n.sphere.center) - n.sphere.half, Vec3f(0.0f));
   const double nearest = std::max<double>(glm::length(beyond) - g.radius, 0.5f * (g.radius + n.smallest));
-  return kRounding * n.most * cosine / std::max(nearest * nearest, 1e-30);
+  return kWidened * n.most * cosine / std::max(nearest * nearest, 1e-30);
 }
 
 void LampTree::cut(const hierarchy::ElementGeometry& g, double share, std::size_t most, std::uint64_t seen,
