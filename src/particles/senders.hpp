@@ -25,8 +25,8 @@ struct SenderCell {
   std::uint16_t unused = 0;  // so that no byte of a stored record is left to chance
   LightId light;             // all but Side
   PrimitiveId primitive;     // Side, Lamp
-  UnitRect rect;             // Side, Lamp: of the numbers that sample the shape; Sky: of azimuth and height
   float measure = 0;         // Side, Lamp: area, 0 when it was removed; Sun, Sky: solid angle
+  UnitRect rect;             // Side, Lamp: of the numbers that sample the shape; Sky: of azimuth and height
 };
 
 class Senders {
