@@ -34,7 +34,7 @@ LampTree::LampTree(std::span<const Lamp> lamps, std::vector<std::uint32_t> which
 }
 
 /// Sorts them so that those before the number returned and the others are far apart and small.
-std::size_t LampTree::parted(std::span<std::uint32_t> which, std::span<const Lamp> lamps) const {
+std::size_t LampTree::splitAt(std::span<std::uint32_t> which, std::span<const Lamp> lamps) const {
   struct Split {
     double cost = kInfinity;
     int axis = 0;
@@ -87,7 +87,7 @@ void LampTree::build(std::span<std::uint32_t> which, std::span<const Lamp> lamps
     return;
   }
   nodes_.push_back(node);
-  const std::size_t first = parted(which, lamps);
+  const std::size_t first = splitAt(which, lamps);
   build(which.first(first), lamps);
   nodes_[at].second = static_cast<std::uint32_t>(nodes_.size());
   build(which.subspan(first), lamps);

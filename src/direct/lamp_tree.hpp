@@ -3,7 +3,7 @@
 // proportion to the most that they may bring: no lamp is left out, few are looked at. [WFABDG05 (light tree, cut by
 // bounds); CK18 (cones of emission, importance down the tree)]
 // Departures: the cut is of what a patch may get at all, before any ray; below it lamps are drawn, not represented, so
-// that what a ray finds belongs to one lamp and the sum is right in the mean. Children are parted by power times the
+// that what a ray finds belongs to one lamp and the sum is right in the mean. Nodes are split by power times the
 // square of the box's diagonal, without regard to cones.
 // Cost: O(n log^2 n) to build; a bound is some thirty operations, a cut two of them a lamp that is asked, a draw two a
 // level.
@@ -66,7 +66,7 @@ class LampTree {
     std::uint32_t lamp = 0;    // of lamps_ and index_
   };
   void build(std::span<std::uint32_t> which, std::span<const Lamp> lamps);
-  std::size_t parted(std::span<std::uint32_t> which, std::span<const Lamp> lamps) const;
+  std::size_t splitAt(std::span<std::uint32_t> which, std::span<const Lamp> lamps) const;
   double bound(std::uint32_t node, const hierarchy::ElementGeometry&) const;
 
   template <class Visit>

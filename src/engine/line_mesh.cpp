@@ -26,7 +26,8 @@ struct Samplers {
   explicit Samplers(LineSolve& solve)
       : x(solve),
         meter(x.s.elements, x.tracer, x.cover, x.enclosed),
-        direct(x.s.elements, x.s.scene, *x.s.tracer, x.lamps, x.s.settings.error) {}
+        direct(x.s.elements, x.s.scene, *x.s.tracer, x.lamps, x.s.settings.error),
+        slot(lines::slotWidth(x.s.scene, x.s.elements.sceneBox.diagonal())) {}
 
   /// Rays that were traced.
   std::uint64_t measure(hierarchy::ElementId patch) const {
@@ -49,6 +50,7 @@ struct Samplers {
   LineSolve& x;
   lines::ScaleMeter meter;
   direct::DirectSampler direct;
+  double slot;  // see lines::tooWide()
 };
 
 /// Whether a patch is to be split; adds the rays that tell.
@@ -59,8 +61,7 @@ bool splits(const Samplers& samplers, hierarchy::ElementId patch, std::uint64_t&
   const hierarchy::ElementLight& coarse = x.s.elements.radiometry[patch.index()];
   rays += samplers.measure(patch);
   const double dim = x.floor > 0 ? gray(coarse.indirect + coarse.direct) / x.floor : 1.0;
-  const double slot = lines::slotWidth(x.s.scene, x.s.elements.sceneBox.diagonal());
-  if (lines::tooWide(g, x.samples.scale[patch.index()], error, dim, slot)) return true;
+  if (lines::tooWide(g, x.samples.scale[patch.index()], error, dim, samplers.slot)) return true;
   // Where a wall crosses a patch, light of one side would come out on the other.
   if (hierarchy::wallsAcross(x.s.elements, x.s.scene, patch)) return true;
   bool split = false;

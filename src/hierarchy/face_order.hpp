@@ -1,6 +1,6 @@
 #pragma once
 // Fine meshes: the order of a mesh's faces in which any patch of many faces is a range, and parts of it are ranges
-// again, like the nodes of a bounding-volume hierarchy over a space-filling curve [Lauterbach09]. Faces are parted by
+// again, like the nodes of a bounding-volume hierarchy over a space-filling curve [Lauterbach09]. Faces are split by
 // which way they look first, then by where they lie, so that sides of a thin shape do not share a patch.
 // Cost: a sort of the faces; 28 bytes a face.
 #include <deltalux/scene.hpp>

@@ -25,9 +25,9 @@ LeafLocator::LeafLocator(const Elements& elements, const Scene& scene, const Lea
   for (const ElementId input : elements.inputs) {
     if (!elements.receives(input)) continue;
     forEachBelow(elements, input, [&](ElementId e) {
-      const bool parted = elements.hasFaces(e) && !elements.isLeaf(e);
-      if (!parted) addSide(e);
-      return parted;
+      const bool split = elements.hasFaces(e) && !elements.isLeaf(e);
+      if (!split) addSide(e);
+      return split;
     });
   }
 }

@@ -8,21 +8,13 @@
 #include "lines/lines.hpp"
 #include "scene/light_sampling.hpp"
 #include "support/fine_meshes.hpp"
-#include "support/solved.hpp"
+#include "support/solved_by_lines.hpp"
 #include "support/temp_folder.hpp"
 
 namespace deltalux {
 namespace {
 
 using namespace test;
-
-Engine solvedByLines(Scene scene, double error = 0.05) {
-  SolveSettings settings;
-  settings.error = error, settings.method = SolveMethod::Lines;
-  Engine engine(std::move(scene), settings);
-  engine.solve();
-  return engine;
-}
 
 double hills(double x, double y) { return 0.4 + 0.3 * std::sin(1.5 * x) * std::cos(1.3 * y); }
 
@@ -134,11 +126,7 @@ TEST(FineMesh, IsTheSameByAnyNumberOfThreadsAndFromAFile) {
   for (const std::size_t threads : {1, 2, 3}) {
     const ThreadLimit limit(threads);
     const Engine engine = solvedByLines(room(ball({2, 2, 1}, 0.6, 30), lambert(0.4f)), 0.1);
-    const Solution& s = engine.solution().get();
-    const hierarchy::LeafTable leaves(s.elements);
-    std::vector<std::uint64_t> keys;
-    for (const hierarchy::ElementId leaf : leaves.leaves) keys.push_back(s.elements.key[leaf.index()]);
-    hashes.push_back(s.lines.hash(keys));
+    hashes.push_back(hashOf(engine));
   }
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);

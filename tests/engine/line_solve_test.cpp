@@ -15,29 +15,12 @@
 #include "support/residue.hpp"
 #include "support/run_cli.hpp"
 #include "support/shared.hpp"
-#include "support/solved.hpp"
+#include "support/solved_by_lines.hpp"
 
 namespace deltalux {
 namespace {
 
 using namespace test;
-
-Engine solvedByLines(Scene scene, double error = 0.05) {
-  SolveSettings settings;
-  settings.error = error, settings.method = SolveMethod::Lines;
-  Engine engine(std::move(scene), settings);
-  engine.solve();
-  return engine;
-}
-
-std::uint64_t hashOf(const Engine& engine) {
-  const SolutionView view = engine.solution();
-  const Solution& s = view.get();
-  const hierarchy::LeafTable leaves(s.elements);
-  std::vector<std::uint64_t> keys;
-  for (const hierarchy::ElementId leaf : leaves.leaves) keys.push_back(s.elements.key[leaf.index()]);
-  return combineKeys(s.lines.hash(keys), s.particles.hash());
-}
 
 TEST(LineSolve, AFurnaceIsExactOnTheMesh) {
   Scene scene;

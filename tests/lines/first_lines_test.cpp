@@ -3,25 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <deltalux/engine.hpp>
-
 #include "lines/leaf_scale.hpp"
 #include "solution/solution.hpp"
-#include "support/rooms.hpp"
 #include "support/solution_scenes.hpp"
+#include "support/solved_by_lines.hpp"
 
 namespace deltalux {
 namespace {
 
 using namespace test;
-
-SolutionView solvedByLines(Scene scene) {
-  SolveSettings settings;
-  settings.method = SolveMethod::Lines;
-  Engine engine(std::move(scene), settings);
-  engine.solve();
-  return engine.solution();
-}
 
 Scene everything() {
   Scene scene;
@@ -71,7 +61,7 @@ void expectTheSameWithFirstLines(const SolutionView& view) {
   }
 }
 
-TEST(FirstLines, AreTheLinesOfTheLeaf) { expectTheSameWithFirstLines(solvedByLines(everything())); }
+TEST(FirstLines, AreTheLinesOfTheLeaf) { expectTheSameWithFirstLines(solvedByLines(everything()).solution()); }
 
 }  // namespace
 }  // namespace deltalux
