@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
+#include "direct/open_light.hpp"
 #include "direct/tuning.hpp"
 #include "hierarchy/leaf_sequence.hpp"
-#include "tracing/shadow_ray.hpp"
 
 namespace deltalux::direct {
 
@@ -140,24 +139,6 @@ bool nearBy(const Lamp& lamp, const hierarchy::ElementGeometry& g) {
   return glm::length(center - g.center) < tuning::kNearBy * (g.radius + glm::length(half));
 }
 
-/// What a light would bring to a point without shadows, by a sample that shines there [W/m2].
-struct OpenLight {
-  Rgb E{0.0f};
-  std::optional<scene::LightSample> sample;
-
-  tracing::Ray ray(const hierarchy::PatchPoint& x) const {
-    return tracing::shadowRay(Vec3(x.position), Vec3(x.normal), sample->direction, sample->distance, sample->normal);
-  }
-};
-
-OpenLight openLight(const scene::LightSampler& sampler, LightId id, const hierarchy::PatchPoint& x, const UnitPair& u) {
-  OpenLight light{Rgb(0.0f), sampler.sample(id, Vec3(x.position), {u.x, u.y})};
-  if (!light.sample) return light;
-  const double cosine = glm::dot(light.sample->direction, Vec3(x.normal)), pdf = light.sample->pdf;
-  if (cosine > 0) light.E = light.sample->radiance * static_cast<float>(cosine / (pdf > 0 ? pdf : 1.0));
-  return light;
-}
-
 }  // namespace
 
 void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, Tally& t) const {
@@ -242,6 +223,25 @@ void DirectSampler::finish(double found, Points& points, Asked& a) const {
     shoot(lamp, points, more = std::min(2 * more, kMostPoints), t);
 }
 
+/// A patch that is kept because a lamp hardly varies over it would be kept least often where its rays have seen the
+/// lamp: what has decided must not tell its light too, or light that few rays see is lost. Rays that were traced.
+std::uint32_t DirectSampler::askAgain(double found, Points& points, Asked& a) const {
+  const int seen = a.pilot.passed + a.tally.passed, all = a.pilot.shot + a.tally.shot;
+  if (all == 0 || seen == all) return 0;
+  int wanted = std::max(a.tally.samples, 1);
+  if (seen == 0) {
+    const double open = gray(a.pilot.open + a.tally.open) / (a.pilot.samples + a.tally.samples);
+    wanted = open > found ? tuning::kUnseenRays : 1;
+  }
+  Tally fresh;
+  fresh.first = a.tally.first + a.tally.samples;
+  shoot(*a.lamp, points, wanted, fresh);
+  if (fresh.samples == 0) return 0;  // there are no more points
+  fresh.unshadowed = a.tally.unshadowed, fresh.measured = a.tally.measured;
+  a.missed = a.missed || seen == 0, a.tally = fresh;
+  return fresh.rays;
+}
+
 /// The share that passes times what would without shadows; `light`: about how much there is of all lamps.
 Rgb DirectSampler::refined(const Asked& a, double light, const hierarchy::ElementGeometry& g, Points& points) const {
   const Tally& t = a.tally;
@@ -320,7 +320,13 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   if (drawn.pilot.passed > 0) drawn.tally.addQuadrants(quadrants);
   result.variation = static_cast<float>(deviationOf(quadrants));
   result.deviation = static_cast<float>(std::sqrt(variance));
-  if (splits && splits(result)) return result;
+  const Choice choice = splits ? splits(result) : Choice::Whole;
+  if (choice == Choice::Split) return result;
+  if (choice == Choice::Keep) {
+    variance = drawn.tally.variance();
+    for (Asked& a : asked) result.rays += askAgain(found, points, a), variance += a.tally.mixed() ? a.tally.variance() : 0.0;
+    result.deviation = static_cast<float>(std::sqrt(variance));
+  }
 
   const double light = gray(result.E);
   result.E = drawn.tally.light();
@@ -329,11 +335,14 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   return result;
 }
 
-bool variesTooMuch(const LeafDirect& direct, const hierarchy::ElementGeometry& g, double meanDistance, double level,
-                   double error) {
+DirectSampler::Choice choiceOf(const LeafDirect& direct, const hierarchy::ElementGeometry& g, double meanDistance,
+                               double level, double error) {
+  using enum DirectSampler::Choice;
+  if (direct.tooWideForBeam) return Split;
   const double side = tuning::kScale * meanDistance, around = side * side;
-  if (g.area < tuning::kFinest * error * around) return false;
-  return direct.variation * g.area > tuning::kVariation * error * level * std::max<double>(around, g.area);
+  if (g.area < tuning::kFinest * error * around) return Whole;
+  return direct.variation * g.area > tuning::kVariation * error * level * std::max<double>(around, g.area) ? Split
+                                                                                                           : Keep;
 }
 
 }  // namespace deltalux::direct

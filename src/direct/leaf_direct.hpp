@@ -45,10 +45,13 @@ class DirectSampler {
   /// All must outlive this. `error`: relative, that shadow rays are as many as it needs.
   DirectSampler(const hierarchy::Elements&, const Scene&, const tracing::RayTracer&, const Lamps&, double error);
 
-  /// The light of a patch by all the samples that it is worth, unless `splits` says of what its shadow rays have found
-  /// (of E their mean alone) that this will be told of its parts. `above`: what the patch has found that it is a part
-  /// of.
-  using Splits = std::function<bool(const LeafDirect&)>;
+  /// What becomes of a patch: this will be told of its parts; it is kept as what its rays have found wants no parts; it
+  /// would be kept whatever they find.
+  enum class Choice : std::uint8_t { Split, Keep, Whole };
+  /// By what shadow rays have found, of E their mean alone.
+  using Splits = std::function<Choice(const LeafDirect&)>;
+  /// The light of a patch by all the samples that it is worth, unless it is split. `above`: what the patch has found
+  /// that it is a part of.
   LeafDirect at(hierarchy::ElementId patch, const KnownPoints&, const LampSight& above = {},
                 const Splits& splits = {}) const;
 
@@ -61,6 +64,7 @@ class DirectSampler {
   void shootDrawn(Points&, int upTo, Drawn&, Tally&) const;
   void ask(const Lamp&, double potential, const LampSight& above, Points&, std::vector<Asked>&) const;
   void finish(double found, Points&, Asked&) const;
+  std::uint32_t askAgain(double found, Points&, Asked&) const;
   void askDrawn(const LampSight& above, double& found, Points&, Drawn&, std::vector<Asked>&) const;
   void finishDrawn(const LampSight& above, Points&, Drawn&) const;
   Rgb unshadowed(const Lamp&, Points&, int wanted) const;
@@ -75,8 +79,8 @@ class DirectSampler {
 };
 
 /// Whether direct light varies over a patch by more than its surroundings can stand, where there is about as much light
-/// as `level` [W/m2, gray]. `meanDistance`: of its lines.
-bool variesTooMuch(const LeafDirect&, const hierarchy::ElementGeometry&, double meanDistance, double level,
-                   double error);
+/// as `level` [W/m2, gray]; Whole: it is too small for that to matter. `meanDistance`: of its lines.
+DirectSampler::Choice choiceOf(const LeafDirect&, const hierarchy::ElementGeometry&, double meanDistance, double level,
+                               double error);
 
 }  // namespace deltalux::direct

@@ -47,8 +47,10 @@ std::vector<direct::SkyAtLeaf> skyOf(LineSolve& x, const hierarchy::LeafTable& l
       const lines::EscapedLine& e = traced.escaped[k];
       escaped.push_back({e.direction, e.cosine, e.weight, e.chance});
     }
+    // Where lines are so many that they would be their own guides, what they have found by chance would count less.
+    const std::size_t rays = count < direct::tuning::kGuideLines ? direct::tuning::kSkyRays : 0;
     std::vector<std::uint32_t> points;
-    for (std::uint32_t k = 0; k < count && points.size() < direct::tuning::kSkyRays; ++k)
+    for (std::uint32_t k = 0; k < count && points.size() < rays; ++k)
       if (traced.lines.end[traced.lines.first[i] + k] != lines::kCovered) points.push_back(k);
     sky[i] = direct::skyLight(x.skies, open, x.s.elements, x.s.scene, *x.s.tracer,
                               {static_cast<std::uint32_t>(i), leaves[i], count - traced.covered[i], escaped, points});
@@ -64,8 +66,8 @@ lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base) {
   const hierarchy::LeafTable leaves(elements);
   const std::vector<std::uint32_t> counts = lines::lineCounts(elements, leaves, powerOf(x, leaves), x.enclosed, base);
   const hierarchy::LeafLocator locator(elements, x.s.scene, leaves);
-  lines::TracedLines traced =
-      lines::traceLines({elements, leaves, locator, x.tracer, x.cover, x.enclosed, x.samples.first}, counts);
+  const lines::LineScene over{elements, leaves, locator, x.tracer, x.cover, x.enclosed, x.samples.first};
+  lines::TracedLines traced = lookIntoTheDark(x, over, lines::traceLines(over, counts));
   DELTALUX_VALIDATED(validate(traced.lines));
   x.s.report.counts.raysVisibility += traced.rays;
   return traced;

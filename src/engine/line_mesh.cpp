@@ -67,8 +67,9 @@ bool splits(const Samplers& samplers, hierarchy::ElementId patch, std::uint64_t&
   bool split = false;
   rays += samplers.light(patch, [&](const direct::LeafDirect& light) {
     const double level = std::max<double>(gray(light.E + coarse.indirect), x.floor);
-    split = light.tooWideForBeam || variesTooMuch(light, g, g.meanFreePath, level, error);
-    return split;
+    const auto choice = direct::choiceOf(light, g, g.meanFreePath, level, error);
+    split = choice == direct::DirectSampler::Choice::Split;
+    return choice;
   });
   return split;
 }

@@ -4,7 +4,8 @@
 //   particles of lights -> sides and hollows -> coarse light -> mesh -> lines -> exchange -> light
 //
 // The coarse light is that of the input level, a solution of its own that is there soon; by it the mesh knows how much
-// light there is about where direct light varies. Stages: line_mesh.cpp, line_light.cpp; their order: line_solve.cpp.
+// light there is about where direct light varies. Stages: line_mesh.cpp, line_light.cpp, dim_leaves.cpp; their order:
+// line_solve.cpp.
 #include <deltalux/progress.hpp>
 #include <functional>
 #include <memory>
@@ -55,6 +56,8 @@ bool refineMesh(LineSolve&, std::vector<hierarchy::ElementId> patches, const std
 
 // The light.
 
+/// More lines, and shadow rays, of leaves in rooms where hardly any light arrives. dim_leaves.cpp.
+lines::TracedLines lookIntoTheDark(LineSolve&, const lines::LineScene&, lines::TracedLines);
 /// About `base` lines of each of the leaves there are.
 lines::TracedLines traceLeaves(LineSolve&, std::uint32_t base);
 /// Light of the leaves over those, from their direct light and particles: writes the elements' irradiance and

@@ -1,11 +1,13 @@
 #include "lines/iterate.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.hpp"
 #include "hierarchy/below.hpp"
 #include "hierarchy/outline.hpp"
 #include "hierarchy/patch.hpp"
+#include "lines/tuning.hpp"
 
 namespace deltalux::lines {
 
@@ -65,6 +67,17 @@ void addBehind(const hierarchy::Elements& elements, const hierarchy::LeafTable& 
   for (std::size_t i = first; i < behind.size(); ++i) behind[i].share /= all;
 }
 
+/// Of leaves in a pass: summed power, and the most relative to what a leaf has.
+struct Change {
+  RgbSum power{0.0};
+  double most = 0;
+
+  Change& operator+=(const Change& other) {
+    power += other.power, most = std::max(most, other.most);
+    return *this;
+  }
+};
+
 void reflect(const LeafLight& light, std::size_t i, Rgb& B) {
   B = light.rho[i] * (light.source[i] + light.indirect[i]);
 }
@@ -101,11 +114,13 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     exchange.gather(light.B, light.indirect);
     reflectAll(next);
     ++report.passes;
-    report.residual = parallelSum<RgbSum>(n, kLeafBlock, [&](std::size_t i) {
-      return double(exchange.area(i)) * RgbSum(glm::abs(next[i] - light.B[i]));
+    const Change change = parallelSum<Change>(n, kLeafBlock, [&](std::size_t i) {
+      const Rgb d = glm::abs(next[i] - light.B[i]);
+      return Change{double(exchange.area(i)) * RgbSum(d), isBlack(next[i]) ? 0.0 : double(gray(d)) / gray(next[i])};
     });
+    report.residual = change.power, report.change = change.most;
     light.B.swap(next);
-    if (gray(report.residual) <= converged * gray(report.emitted)) break;
+    if (gray(report.residual) <= converged * gray(report.emitted) && report.change <= tuning::kSettled) break;
   }
   return report;
 }

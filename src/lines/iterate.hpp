@@ -25,9 +25,11 @@ struct IterationReport {
   int passes = 0;
   RgbSum emitted{0.0};   // by diffuse surfaces of their sources' light [W, unit^2 as area]
   RgbSum residual{0.0};  // power that the last pass changed
+  double change = 0;     // most of a leaf's radiosity that it changed, relative
 };
 
-/// Passes until the residual is below `converged` times the emitted, or `most` are done.
+/// Passes until the residual is below `converged` times the emitted and no leaf, however dim, has changed by more than
+/// kSettled, or `most` are done.
 IterationReport iterate(Exchange&, LeafLight&, double converged, int most);
 
 }  // namespace deltalux::lines

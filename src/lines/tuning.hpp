@@ -11,6 +11,15 @@ constexpr double kBaseError = 0.05;
 /// Octaves of lines below and above the base. Fewer below: narrow places take most of the time. More above: large
 /// leaves do.
 constexpr int kFewestOctaves = -2, kMostOctaves = 4;
+/// Lines that shall lead out of a room that hardly any light reaches, and its lines by which it counts as closed where
+/// none does. Fewer: rooms behind a slot of a millimetre are noise. More: time in the dark.
+constexpr double kDimWays = 400, kClosedLines = 262144;
+/// Lines of a leaf in such a room, at most; mean distance of its leaves' lines at least [m]; how many times all other
+/// lines those may be, or as many as that in scenes of few; bounces that tell how much light there is; rounds, of which
+/// the next knows how many lines lead out. Fewer, wider: as above. More, narrower: dark cupboards take most of the
+/// time.
+constexpr double kMostDim = 1 << 20, kDimRoom = 0.5, kDimShare = 1.0 / 16, kDimFree = 1 << 23;
+constexpr int kDimBounces = 4, kDimRounds = 2;
 /// Lines that tell a leaf's surroundings before there are others. Fewer: splits by chance.
 constexpr int kFirstLines = 16;
 /// Non-diffuse events of a line. Fewer: light between facing mirrors is lost.
@@ -64,6 +73,9 @@ constexpr int kScalingPasses = 8;
 constexpr float kMostScale = 4;
 /// Power that changes in the last pass, relative to emitted, and the most passes.
 constexpr double kConverged = 1e-6;
+/// Most that a leaf's radiosity changes in the last pass, relative. Larger: dark rooms beside bright places are not
+/// done.
+constexpr double kSettled = 2e-3;
 /// The same of the coarse light, by which the mesh is refined. Larger: dark rooms are meshed for too little light.
 constexpr double kCoarseConverged = 1e-3;
 constexpr int kMostPasses = 2048;

@@ -1,0 +1,82 @@
+// Places that light hardly reaches: more lines and shadow rays for their leaves, so that a room behind a slot is no
+// matter of chance.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.hpp"
+#include "direct/dim_direct.hpp"
+#include "engine/line_solve.hpp"
+#include "lines/dim_rooms.hpp"
+#include "lines/own_light.hpp"
+#include "lines/tuning.hpp"
+
+namespace deltalux::engine {
+
+namespace {
+
+constexpr std::size_t kLeaves = 1024, kDimLeaves = 16;  // of a task
+
+/// What the leaves' own lines say of what others send them [W/m2, gray].
+std::vector<float> roughIndirect(const LineSolve& x, const hierarchy::LeafTable& leaves,
+                                 const lines::TracedLines& traced) {
+  const std::size_t n = leaves.size();
+  std::vector<float> rho(n), source(n);
+  parallelFor(n, kLeaves, [&](std::size_t i) {
+    const hierarchy::ElementLight& l = x.s.elements.radiometry[leaves[i].index()];
+    rho[i] = gray(l.rho + l.tau), source[i] = gray(x.samples.direct[leaves[i].index()].E + l.particle);
+  });
+  if (!x.skies.empty())
+    for (const lines::EscapedLine& e : traced.escaped) {
+      const auto count = static_cast<float>(traced.lines.countOf(e.leaf) - traced.covered[e.leaf]);
+      source[e.leaf] += std::numbers::pi_v<float> * gray(e.weight * x.skies.radiance(e.direction)) / count;
+    }
+  return lines::ownIndirect(traced, rho, source);
+}
+
+/// Whether a leaf faces what is as wide as a room.
+std::vector<char> inRooms(const LineSolve& x, const hierarchy::LeafTable& leaves) {
+  const double room = std::min(lines::tuning::kDimRoom / x.s.scene.metresPerUnit,
+                               lines::tuning::kSlotOfScene * x.s.elements.sceneBox.diagonal());
+  std::vector<char> in(leaves.size(), 0);
+  parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
+    const lines::LeafScale& scale = x.samples.scale[leaves[i].index()];
+    in[i] = scale.mean > room && std::isfinite(scale.harmonic) && x.takesPart(leaves[i]);
+  });
+  return in;
+}
+
+/// From as many points as they have lines.
+void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Lines& lines) {
+  x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(leaves.size(), kDimLeaves, [&](std::size_t i) {
+    std::vector<std::uint32_t> points;
+    for (std::uint32_t k = 0; k < lines.countOf(i); ++k)
+      if (lines.end[lines.first[i] + k] != lines::kCovered) points.push_back(k);
+    if (points.empty()) return std::uint64_t(0);
+    const direct::DimDirect found = direct::dimDirect(x.s.elements, x.s.scene, *x.s.tracer, x.lamps, leaves[i], points);
+    direct::LeafDirect& light = x.samples.direct[leaves[i].index()];
+    light.E = found.E, light.deviation = found.deviation;
+    return found.rays;
+  });
+}
+
+}  // namespace
+
+lines::TracedLines lookIntoTheDark(LineSolve& x, const lines::LineScene& over, lines::TracedLines traced) {
+  if (!(x.floor > 0)) return traced;
+  const hierarchy::LeafTable& leaves = over.leaves;
+  const std::vector<char> rooms = inRooms(x, leaves);
+  std::vector<float> area(leaves.size());
+  for (std::size_t i = 0; i < leaves.size(); ++i) area[i] = x.s.elements.shape(leaves[i]).area;
+  for (int round = 0; round < lines::tuning::kDimRounds; ++round) {
+    const std::vector<std::uint32_t> counts =
+        lines::dimCounts(traced, area, roughIndirect(x, leaves, traced), x.floor, rooms, !x.skies.empty());
+    if (std::ranges::all_of(counts, [](std::uint32_t count) { return count == 0; })) break;
+    const lines::TracedLines more = lines::traceLines(over, counts);
+    lightByManyPoints(x, leaves, more.lines);
+    traced = lines::replaced(std::move(traced), more);
+  }
+  return traced;
+}
+
+}  // namespace deltalux::engine

@@ -1,0 +1,116 @@
+#include "lines/dim_rooms.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "base/parallel.hpp"
+#include "lines/tuning.hpp"
+
+namespace deltalux::lines {
+
+namespace {
+
+constexpr std::size_t kLeaves = 1024;  // of a task
+
+/// Where a leaf lies. What is narrow neither parts rooms nor lights them.
+enum Place : std::uint8_t { kLit, kDim, kNarrow };
+
+/// Disjoint sets of leaves, each named by its least.
+class Rooms {
+ public:
+  explicit Rooms(std::size_t leaves) : parent_(leaves) { std::iota(parent_.begin(), parent_.end(), 0u); }
+
+  std::uint32_t of(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t i, std::uint32_t j) {
+    i = of(i), j = of(j);
+    if (i != j) parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// Lines that lead out of the dark, by the leaf in the dark.
+std::vector<std::uint32_t> waysOut(const TracedLines& traced, std::span<const Place> place, bool skies) {
+  const Lines& lines = traced.lines;
+  std::vector<std::atomic<std::uint32_t>> ways(place.size());
+  const auto count = [&](std::uint32_t i, std::uint32_t j) {
+    if (place[i] == kDim && place[j] == kLit) ways[i].fetch_add(1, std::memory_order_relaxed);
+    if (place[j] == kDim && place[i] == kLit) ways[j].fetch_add(1, std::memory_order_relaxed);
+  };
+  parallelFor(place.size(), kLeaves, [&](std::size_t i) {
+    for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k)
+      if (lines.end[k] < kFirstMark) count(static_cast<std::uint32_t>(i), lines.end[k]);
+  });
+  for (const ExceptionalLine& e : lines.exceptions) count(e.leaf, e.end);
+  if (skies)
+    for (const EscapedLine& e : traced.escaped)
+      if (place[e.leaf] == kDim) ways[e.leaf].fetch_add(1, std::memory_order_relaxed);
+  return {ways.begin(), ways.end()};
+}
+
+Rooms roomsOf(const Lines& lines, std::span<const Place> place) {
+  Rooms rooms(place.size());
+  for (std::uint32_t i = 0; i < place.size(); ++i) {
+    if (place[i] != kDim) continue;
+    for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k)
+      if (lines.end[k] < kFirstMark && place[lines.end[k]] == kDim) rooms.join(i, lines.end[k]);
+  }
+  for (const ExceptionalLine& e : lines.exceptions)
+    if (place[e.leaf] == kDim && place[e.end] == kDim) rooms.join(e.leaf, e.end);
+  return rooms;
+}
+
+/// Of a room.
+struct Room {
+  double area = 0, lines = 0, ways = 0;
+
+  double wanted() const {
+    return ways > 0 ? lines * std::max(1.0, tuning::kDimWays / ways) : std::max(lines, tuning::kClosedLines);
+  }
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> dimCounts(const TracedLines& traced, std::span<const float> area,
+                                     std::span<const float> indirect, double floor, const std::vector<char>& inRoom,
+                                     bool skies) {
+  const std::size_t n = indirect.size();
+  std::vector<Place> place(n);
+  parallelFor(n, kLeaves, [&](std::size_t i) {
+    place[i] = !(indirect[i] < floor) ? kLit : inRoom[i] ? kDim : kNarrow;
+  });
+  const std::vector<std::uint32_t> out = waysOut(traced, place, skies);
+  Rooms rooms = roomsOf(traced.lines, place);
+  std::vector<Room> all(n);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    if (place[i] != kDim) continue;
+    Room& room = all[rooms.of(i)];
+    room.area += area[i], room.lines += traced.lines.countOf(i), room.ways += out[i];
+  }
+  // In octaves, so that small changes leave nearly all leaves' lines as they are; by so many less, all of them, that
+  // they are not too many.
+  const auto lines = static_cast<double>(traced.lines.size());
+  const double most = std::max(tuning::kDimShare * lines, tuning::kDimFree - 4 * lines);
+  std::vector<std::uint32_t> counts(n, 0);
+  for (double share = 1, more = kInfinity; more > most; share /= 2) {
+    more = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      counts[i] = 0;
+      if (place[i] != kDim) continue;
+      const Room& room = all[rooms.of(i)];
+      const double wanted = std::min(share * room.wanted() * area[i] / room.area, tuning::kMostDim);
+      if (!(wanted > 2.0 * traced.lines.countOf(i))) continue;
+      counts[i] = std::bit_floor(static_cast<std::uint32_t>(wanted)), more += counts[i];
+    }
+  }
+  return counts;
+}
+
+}  // namespace deltalux::lines

@@ -1,0 +1,16 @@
+#pragma once
+// Rooms that hardly any light reaches: leaves in the dark that see each other. Where a room is lit through a slot, few
+// of its lines lead out, and what light comes in is a matter of chance unless there are more.
+#include "lines/lines.hpp"
+
+namespace deltalux::lines {
+
+/// By leaf: how many lines it wants in place of those it has, so that enough of its room's lead out, as many an area
+/// all over the room; 0 where it has enough, or is in no such room, or so many of its room's lines lead nowhere that it
+/// is closed. `area`: of leaves; `indirect`: light of leaves by way of others [W/m2, gray], without what may shine in
+/// on a few; `floor`: light that matters; `inRoom`: whether a leaf sees far enough to lie in a room; `skies`: whether
+/// what leaves the scene meets light.
+std::vector<std::uint32_t> dimCounts(const TracedLines&, std::span<const float> area, std::span<const float> indirect,
+                                     double floor, const std::vector<char>& inRoom, bool skies);
+
+}  // namespace deltalux::lines
