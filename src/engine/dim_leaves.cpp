@@ -21,10 +21,11 @@ constexpr std::size_t kLeaves = 1024, kDimLeaves = 16;  // of a task
 std::vector<float> roughIndirect(const LineSolve& x, const hierarchy::LeafTable& leaves,
                                  const lines::TracedLines& traced) {
   const std::size_t n = leaves.size();
+  const std::vector<direct::DimDirect> lamps = directOf(x, leaves);
   std::vector<float> rho(n), source(n);
   parallelFor(n, kLeaves, [&](std::size_t i) {
     const hierarchy::ElementLight& l = x.s.elements.radiometry[leaves[i].index()];
-    rho[i] = gray(l.rho + l.tau), source[i] = gray(x.samples.direct[leaves[i].index()].E + l.particle);
+    rho[i] = gray(l.rho + l.tau), source[i] = gray(lamps[i].E + l.particle);
   });
   if (!x.skies.empty())
     for (const lines::EscapedLine& e : traced.escaped) {
@@ -48,16 +49,19 @@ std::vector<char> inRooms(const LineSolve& x, const hierarchy::LeafTable& leaves
 
 /// From as many points as they have lines.
 void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Lines& lines) {
-  x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(leaves.size(), kDimLeaves, [&](std::size_t i) {
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t i = 0; i < leaves.size(); ++i)
+    if (lines.countOf(i) > 0) all.push_back(i);
+  std::vector<std::pair<hierarchy::ElementId, direct::DimDirect>> found(all.size());
+  parallelFor(all.size(), kDimLeaves, [&](std::size_t n) {
+    const std::uint32_t i = all[n];
     std::vector<std::uint32_t> points;
     for (std::uint32_t k = 0; k < lines.countOf(i); ++k)
       if (lines.end[lines.first[i] + k] != lines::kCovered) points.push_back(k);
-    if (points.empty()) return std::uint64_t(0);
-    const direct::DimDirect found = direct::dimDirect(x.s.elements, x.s.scene, *x.s.tracer, x.lamps, leaves[i], points);
-    direct::LeafDirect& light = x.samples.direct[leaves[i].index()];
-    light.E = found.E, light.deviation = found.deviation;
-    return found.rays;
+    found[n] = {leaves[i], direct::dimDirect(x.s.elements, x.s.scene, *x.s.tracer, x.lamps, leaves[i], points)};
   });
+  for (const auto& [leaf, light] : found) x.s.report.counts.raysVisibility += light.rays;
+  x.dim.insert(x.dim.end(), found.begin(), found.end());  // of a leaf the last counts
 }
 
 }  // namespace

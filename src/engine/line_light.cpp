@@ -61,12 +61,26 @@ std::vector<direct::SkyAtLeaf> skyOf(LineSolve& x, const hierarchy::LeafTable& l
 
 }  // namespace
 
+std::vector<direct::DimDirect> directOf(const LineSolve& x, const hierarchy::LeafTable& leaves) {
+  std::vector<direct::DimDirect> all(leaves.size());
+  parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
+    const direct::LeafDirect& l = x.samples.direct[leaves[i].index()];
+    all[i] = {l.E, l.deviation, 0};
+  });
+  for (const auto& [leaf, light] : x.dim) all[leaves.indexOf[leaf.index()]] = light;
+  return all;
+}
+
 lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base) {
   const hierarchy::Elements& elements = x.s.elements;
   const hierarchy::LeafTable leaves(elements);
+  x.dim.clear();
   const std::vector<std::uint32_t> counts = lines::lineCounts(elements, leaves, powerOf(x, leaves), x.enclosed, base);
   const hierarchy::LeafLocator locator(elements, x.s.scene, leaves);
-  const lines::LineScene over{elements, leaves, locator, x.tracer, x.cover, x.enclosed, x.samples.first};
+  const std::optional<lines::KnownLines> known =
+      x.known && x.floor > 0 ? x.known->takeLines(elements, leaves) : std::nullopt;
+  const lines::LineScene over{elements, leaves,     locator,         x.tracer,
+                              x.cover,  x.enclosed, x.samples.first, known ? &*known : nullptr};
   lines::TracedLines traced = lookIntoTheDark(x, over, lines::traceLines(over, counts));
   DELTALUX_VALIDATED(validate(traced.lines));
   x.s.report.counts.raysVisibility += traced.rays;
@@ -80,12 +94,13 @@ void lightLeaves(LineSolve& x, lines::TracedLines traced, double converged) {
   const std::size_t n = leaves.size();
   lines::Exchange exchange(traced.lines, elements, leaves, x.tracer, traced.covered);
   const std::vector<direct::SkyAtLeaf> sky = skyOf(x, leaves, traced);
+  const std::vector<direct::DimDirect> lamps = directOf(x, leaves);
 
   lines::LeafLight light = lines::leafLight(elements, leaves);
   parallelFor(n, kLeaves, [&](std::size_t i) {
     const std::size_t e = leaves[i].index();
     hierarchy::ElementLight& l = elements.radiometry[e];
-    l.direct = exchange.area(i) > 0 ? x.samples.direct[e].E + sky[i].E : Rgb(0.0f);
+    l.direct = exchange.area(i) > 0 ? lamps[i].E + sky[i].E : Rgb(0.0f);
     light.source[i] = l.direct + l.particle;
   });
   const lines::IterationReport iterated = lines::iterate(exchange, light, converged, lines::tuning::kMostPasses);
@@ -95,10 +110,10 @@ void lightLeaves(LineSolve& x, lines::TracedLines traced, double converged) {
   parallelFor(n, kLeaves, [&](std::size_t i) {
     const std::size_t e = leaves[i].index();
     elements.radiometry[e].indirect = light.indirect[i], elements.radiometry[e].B = light.B[i];
-    const double own = s.deviation[i], lamps = x.samples.direct[e].deviation, dome = sky[i].deviation;
-    s.deviation[i] = static_cast<float>(std::sqrt(own * own + lamps * lamps + dome * dome));
+    const double own = s.deviation[i], lamp = lamps[i].deviation, dome = sky[i].deviation;
+    s.deviation[i] = static_cast<float>(std::sqrt(own * own + lamp * lamp + dome * dome));
   });
-  s.lines = std::move(traced.lines);
+  s.lines = std::move(traced.lines), x.escaped = std::move(traced.escaped);
   s.report.counts.lines = s.lines.size();
   s.report.memory.lines = s.lines.memoryBytes() + exchange.memoryBytes();
 }

@@ -33,18 +33,54 @@ struct Samplers {
   std::uint64_t measure(hierarchy::ElementId patch) const {
     lines::LeafScale& scale = x.samples.scale[patch.index()];
     if (scale.known > 0) return 0;
+    if (x.known && x.known->takeScale(x.s.elements, x.s.scene, patch, x.samples)) {
+      setExposed(x, patch);
+      return 0;
+    }
     auto& first = x.samples.first[patch.index()] = std::make_unique<lines::FirstLines>();
     scale = meter.measure(patch, *first);
     setExposed(x, patch);
     return scale.rays;
   }
-  std::uint64_t light(hierarchy::ElementId patch, const direct::DirectSampler::Splits& splits = {}) const {
-    const lines::LeafScale& scale = x.samples.scale[patch.index()];
-    direct::LeafDirect& light = x.samples.direct[patch.index()];
+
+  /// Direct light of what is not split.
+  std::uint64_t light(hierarchy::ElementId patch) const {
+    const std::size_t e = patch.index();
+    const lines::LeafScale& scale = x.samples.scale[e];
+    const direct::LampSight above = sightAbove(patch);
+    x.samples.judged[e].reset();
+    const direct::LeafDirect* before = x.known ? x.known->whole(x.s.elements, x.lamps, patch, scale, above) : nullptr;
+    x.samples.direct[e] = before ? *before : direct.at(patch, {scale.covered, scale.known}, above);
+    x.samples.whole[e] = std::make_unique<direct::LeafDirect>(x.samples.direct[e]);
+    return before ? 0 : x.samples.direct[e].rays;
+  }
+  /// Direct light, or what of it tells that the patch is to be split: by `choose`.
+  std::uint64_t light(hierarchy::ElementId patch, const direct::DirectSampler::Splits& choose) const {
+    using enum direct::DirectSampler::Choice;
+    const std::size_t e = patch.index();
+    const lines::LeafScale& scale = x.samples.scale[e];
+    auto judged = std::make_unique<JudgedLight>(JudgedLight{{}, sightAbove(patch), Whole});
+    const KnownSolve::Judged before =
+        x.known ? x.known->judged(x.s.elements, x.lamps, patch, scale, judged->above) : KnownSolve::Judged{};
+    std::uint64_t rays = 0;
+    const auto choice = before.how ? choose(before.how->found) : Whole;
+    if (before.how && (choice == Split || choice == before.how->choice)) {
+      *judged = *before.how, judged->choice = choice;
+      x.samples.direct[e] = choice == Split ? before.how->found : *before.light;
+    } else {
+      x.samples.direct[e] =
+          direct.at(patch, {scale.covered, scale.known}, judged->above, [&](const direct::LeafDirect& found) {
+            judged->found = found;
+            return judged->choice = choose(found);
+          });
+      rays = x.samples.direct[e].rays;
+    }
+    x.samples.judged[e] = std::move(judged);
+    return rays;
+  }
+  direct::LampSight sightAbove(hierarchy::ElementId patch) const {
     const hierarchy::ElementId above = x.s.elements.at(patch).parent;
-    const direct::LampSight sight = above.valid() ? x.samples.direct[above.index()].sight : direct::LampSight{};
-    light = direct.at(patch, {scale.covered, scale.known}, sight, splits);
-    return light.rays;
+    return above.valid() ? x.samples.direct[above.index()].sight : direct::LampSight{};
   }
 
   LineSolve& x;
@@ -108,7 +144,6 @@ bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const s
         whole.push_back(chosen[i]);
         continue;
       }
-      x.samples.first[chosen[i].index()].reset();
       // Corners of what sees far are no narrow places.
       const float wide = lines::tuning::kOfWhole * x.samples.scale[chosen[i].index()].mean;
       for (std::size_t c = 0; c < elements.at(chosen[i]).childCount; ++c) {

@@ -104,8 +104,9 @@ void refineForParticles(LineSolve& x) {
 
 }  // namespace
 
-LineSolve::LineSolve(Solution& solution)
+LineSolve::LineSolve(Solution& solution, KnownSolve* before)
     : s(solution),
+      known(before),
       responses(s.scene, !s.settings.diffuseOnly),
       tracer(s.scene, *s.tracer, responses),
       cover(s.scene, *s.tracer),
@@ -116,9 +117,9 @@ bool LineSolve::takesPart(hierarchy::ElementId patch) const {
   return !enclosed[hierarchy::surfaceOf(s.elements, patch).index()];
 }
 
-std::unique_ptr<LineSolve> solveCoarsely(Solution& s, const TimeBudget& budget, Progress* progress) {
+std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const TimeBudget& budget, Progress* progress) {
   Clock watch;
-  auto solve = std::make_unique<LineSolve>(s);
+  auto solve = std::make_unique<LineSolve>(s, known);
   solve->allParticles = traceParticles(s, budget);
   s.report.times.particles += watch.lap();
   if (progress) progress->report("particles", 1.0);
@@ -131,6 +132,7 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, const TimeBudget& budget, 
   divideSkies(s.elements, s.scene);
   solve->enclosed = lines::enclosedSides(s.elements, solve->tracer, s.report.counts.raysVisibility);
   openToParticles(*solve);
+  if (known) known->holdTo(s.elements, solve->enclosed);
   s.report.times.hierarchy += watch.lap();
   checkInterrupted(progress);
 
@@ -178,7 +180,6 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
         std::clamp(affordable, double(lines::tuning::kFirstLines), static_cast<double>(wanted)));
   }
   lines::TracedLines traced = traceLeaves(x, base);
-  x.samples.first.clear();  // a tenth of all memory, which is wanted now
   lightLeaves(x, std::move(traced), lines::tuning::kConverged);
   radiosity::pull(s.elements);
   DELTALUX_VALIDATED(validate(s.elements));

@@ -10,29 +10,22 @@
 #include <functional>
 #include <memory>
 
-#include "direct/leaf_direct.hpp"
+#include "direct/dim_direct.hpp"
 #include "direct/sky_light.hpp"
+#include "engine/known_solve.hpp"
 #include "engine/time_budget.hpp"
 #include "lines/leaf_scale.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::engine {
 
-/// What is known of patches before their lines: by element.
-struct PatchSamples {
-  std::vector<lines::LeafScale> scale;
-  std::vector<direct::LeafDirect> direct;
-  std::vector<std::unique_ptr<lines::FirstLines>> first;  // of those that are not split
-
-  void resize(std::size_t elements) { scale.resize(elements), direct.resize(elements), first.resize(elements); }
-};
-
 /// What the stages share: the scene as each layer sees it, and what they have found so far.
 struct LineSolve {
-  /// The solution must outlive this.
-  explicit LineSolve(Solution&);
+  /// The solution must outlive this, and what is known of one before.
+  explicit LineSolve(Solution&, KnownSolve* known = nullptr);
 
   Solution& s;
+  KnownSolve* known;
   lines::SurfaceResponses responses;
   lines::LineTracer tracer;
   lines::Cover cover;
@@ -40,8 +33,10 @@ struct LineSolve {
   direct::Skies skies;
   std::vector<char> enclosed;  // by element of the input level
   PatchSamples samples;
-  double floor = 0;          // light that still matters [W/m2, gray]
-  bool allParticles = true;  // as many as the error asks for: there was time
+  std::vector<std::pair<hierarchy::ElementId, direct::DimDirect>> dim;  // direct light where light hardly comes
+  std::vector<lines::EscapedLine> escaped;                              // of the lines, in the end
+  double floor = 0;                                                     // light that still matters [W/m2, gray]
+  bool allParticles = true;                                             // as many as the error asks for: there was time
 
   bool takesPart(hierarchy::ElementId patch) const;
 };
@@ -56,6 +51,8 @@ bool refineMesh(LineSolve&, std::vector<hierarchy::ElementId> patches, const std
 
 // The light.
 
+/// Direct light of leaves by suns and lamps.
+std::vector<direct::DimDirect> directOf(const LineSolve&, const hierarchy::LeafTable&);
 /// More lines, and shadow rays, of leaves in rooms where hardly any light arrives. dim_leaves.cpp.
 lines::TracedLines lookIntoTheDark(LineSolve&, const lines::LineScene&, lines::TracedLines);
 /// About `base` lines of each of the leaves there are.
@@ -68,8 +65,8 @@ ErrorEstimate estimateError(const Solution&, double floor);
 
 // The rounds.
 
-/// The coarse solution. Throws Interrupted.
-std::unique_ptr<LineSolve> solveCoarsely(Solution&, const TimeBudget&, Progress*);
+/// The coarse solution; what is known of one before may be none. Throws Interrupted.
+std::unique_ptr<LineSolve> solveCoarsely(Solution&, KnownSolve*, const TimeBudget&, Progress*);
 /// From that to the error that was asked for, as far as the time goes. Returns whether that was all of it. Throws
 /// Interrupted.
 bool solveFinely(LineSolve&, const TimeBudget&, Progress*);

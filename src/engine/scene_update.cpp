@@ -32,6 +32,15 @@ bool alike(const A&, const B&) {
 
 }  // namespace
 
+void SceneUpdate::add(const SceneUpdate& later) {
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(whole.moved, later.whole.moved), append(whole.lights, later.whole.lights);
+  append(whole.materials, later.whole.materials);
+  append(moved, later.moved), append(movedLights, later.movedLights), append(dimmed, later.dimmed);
+  append(materials, later.materials);
+  op = later.op, subject = later.subject;
+}
+
 bool haveElements(const hierarchy::Elements& elements, const Scene& scene, const SceneUpdate& update) {
   const bool nothing = update.moved.empty() && update.movedLights.empty();
   if (!elements.sceneRoot.valid()) return nothing;  // nothing was lit

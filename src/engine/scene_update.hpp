@@ -15,6 +15,8 @@ struct SceneUpdate {
   std::vector<MaterialId> materials;
   std::string op, subject;
 
+  /// What came later.
+  void add(const SceneUpdate&);
   bool empty() const { return moved.empty() && movedLights.empty() && dimmed.empty() && materials.empty(); }
 };
 

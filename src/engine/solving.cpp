@@ -50,7 +50,7 @@ void Engine::State::lineRound(Progress* progress) {
   Solution& s = *solution;
   if (!lineSolve) {
     budget = engine::TimeBudget(s.settings.seconds, clock.seconds());
-    lineSolve = engine::solveCoarsely(s, budget, progress);
+    lineSolve = engine::solveCoarsely(s, known ? &*known : nullptr, budget, progress);
     countParticles();
     if (!s.elements.sceneRoot.valid()) {
       finished = s.report.converged = true;
@@ -64,7 +64,10 @@ void Engine::State::lineRound(Progress* progress) {
   }
   finished = true;
   s.report.converged = engine::solveFinely(*lineSolve, budget, progress);
-  lineSolve.reset();
+  if (!budget.limited())
+    s.memory = std::make_shared<SolveMemory>(
+        SolveMemory{std::move(lineSolve->samples), std::move(lineSolve->enclosed), std::move(lineSolve->escaped)});
+  lineSolve.reset(), known.reset();
   makeTextures(), count();
   budget = engine::TimeBudget(0);  // updates take what time they need
 }
@@ -218,8 +221,9 @@ bool Engine::State::settle(Progress* progress) {
 
 void Engine::State::solveAfresh(Progress* progress) {
   Solution& s = *solution;
-  s.tracer = tracing::makeEmbreeTracer(s.scene);
-  tracing.reset(), transfer.reset(), upkeep.reset(), settling.reset(), backlog = {}, groups = {};
+  if (!known) s.tracer = tracing::makeEmbreeTracer(s.scene), s.memory.reset();
+  tracing.reset(), transfer.reset(), upkeep.reset(), settling.reset(), backlog = {};
+  if (!known) groups = {};
   s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.lines = {}, s.deviation.clear(),
   lineSolve.reset(), s.caustics = {}, s.report = {};
   finished = false;

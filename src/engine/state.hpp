@@ -55,6 +55,8 @@ struct Engine::State {
   engine::Backlog backlog;                              // what edits that were taken in have still to do
   engine::MovingGroups groups;                          // of the tracer
   std::unique_ptr<engine::LineSolve> lineSolve;         // between rounds of a solve over lines
+  engine::SceneUpdate lineEdits;                        // since the last solve over lines
+  std::optional<engine::KnownSolve> known;              // of the solution before, while the next is found
 
   /// Whether light is exchanged by lines: an update is then a solve of the edited scene.
   bool byLines() const { return solution->settings.method == SolveMethod::Lines; }
@@ -104,6 +106,8 @@ struct Engine::State {
   engine::RowWork arriveInLight(const engine::SceneUpdate& edits, Motion& motion, bool split, StepReport& step);
   /// Edits reach the scene's emission, the tracer, and the lists of what has to follow.
   void takeIn(StepReport& step, bool inMotion = false);
+  /// What the solve before knows that edits leave as it was, for the next.
+  void recall(const engine::SceneUpdate& edits);
   /// Whether a light is so much brighter than when links were refined and rows sampled that it needs its own.
   bool outshines(const engine::SceneUpdate& edits) const;
   /// Retraces particles that edits have touched: `count` of those that wait. [GD01 4]

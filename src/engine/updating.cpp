@@ -26,8 +26,11 @@ StepReport Engine::State::update(Progress* progress) {
   const std::uint64_t traced = tracer().traced();
   takeIn(step);
   if (backlog.afresh) {
+    recall(std::exchange(lineEdits, {}));
+    const std::uint64_t before = known ? traced : 0;  // or by a tracer of its own
     solveAfresh(progress);
-    step.rays = tracer().traced();  // by a tracer of its own
+    step.rays = tracer().traced() - before;
+    step.times = solution->report.times;
     step.times.total = time.seconds();
     return step;
   }
@@ -73,6 +76,7 @@ engine::RowWork Engine::State::arriveInLight(const engine::SceneUpdate& edits, M
 void Engine::State::takeIn(StepReport& step, bool inMotion) {
   const engine::SceneUpdate edits = std::exchange(pending, {});
   step.op = edits.op, step.object = edits.subject;
+  if (byLines()) lineEdits.add(edits);
   backlog.afresh |= byLines() || !engine::haveElements(solution->elements, solution->scene, edits) || outshines(edits);
   if (backlog.afresh) return;
   backlog.dimmed |= !edits.dimmed.empty();
@@ -88,6 +92,23 @@ void Engine::State::takeIn(StepReport& step, bool inMotion) {
   if (inMotion) worth = [&](std::size_t path) { return engine::deposited(*solution, *transfer, path); };
   tracing->note(solution->particles, edits.whole, worth);
   step.times.particles += time.seconds();
+}
+
+void Engine::State::recall(const engine::SceneUpdate& edits) {
+  Solution& s = *solution;
+  known.reset();
+  const std::shared_ptr<SolveMemory> before = std::exchange(s.memory, {});
+  // Lines go on as materials say. What others hold too is theirs.
+  if (before.use_count() != 1 || !edits.materials.empty() || !finished) return;
+  std::vector<PrimitiveId> moved;
+  bool lampMoves = false;
+  for (const SceneChange::Moved& m : edits.moved) {
+    moved.push_back(m.primitive);
+    lampMoves = lampMoves || sendsLight(s.scene.materialOf(m.primitive));
+  }
+  groups.rebuild(tracer(), s.scene, moved);
+  const bool lightsHold = edits.movedLights.empty() && edits.dimmed.empty() && !lampMoves;
+  known.emplace(std::move(*before), s, change::MovedSpace(s.scene, edits.moved), lightsHold);
 }
 
 bool Engine::State::outshines(const engine::SceneUpdate& edits) const {
@@ -139,7 +160,7 @@ std::vector<hierarchy::ElementId> Engine::State::relight(const engine::SceneUpda
     if (std::find(edits.materials.begin(), edits.materials.end(), s.scene.primitives[i].material) !=
         edits.materials.end())
       repainted.emplace_back(i);
-  const std::size_t known = backlog.painted.size();
+  const std::size_t earlier = backlog.painted.size();
   for (const hierarchy::ElementId e : hierarchy::elementsOf(s.elements, repainted)) {
     if (s.elements.at(e).emitter) continue;
     backlog.painted.push_back(e);
@@ -148,7 +169,7 @@ std::vector<hierarchy::ElementId> Engine::State::relight(const engine::SceneUpda
     hierarchy::setReflectance(s.elements, s.scene, e);
     if (wasBlack && !(isBlack(l.rho) && isBlack(l.tau))) reflecting.push_back(e);
   }
-  s.transfers.followReflectance(s.elements, std::span(backlog.painted).subspan(known), backlog.rescaled);
+  s.transfers.followReflectance(s.elements, std::span(backlog.painted).subspan(earlier), backlog.rescaled);
   return reflecting;
 }
 

@@ -4,6 +4,7 @@ namespace deltalux::lines {
 
 FirstLine firstLine(const LineEnd& end, const Vec3f& direction, bool covered) {
   FirstLine line;
+  line.code = lineCode(direction, end.distance);
   if (covered)
     line.primitive = kCovered;
   else if (end.fate == LineFate::Lost)
@@ -15,7 +16,6 @@ FirstLine firstLine(const LineEnd& end, const Vec3f& direction, bool covered) {
   else
     line.primitive = end.side.primitive.value, line.triangle = end.side.triangle | (end.side.front ? line.kFront : 0u),
     line.position = end.position;
-  line.code = lineCode(direction, end.distance);
   return line;
 }
 

@@ -10,7 +10,7 @@ namespace deltalux::lines {
 
 /// One of them: where it ended, whatever leaf that is on.
 struct FirstLine {
-  static constexpr std::uint32_t kAgain = kFirstMark - 1;  // in place of the primitive: to be traced once more
+  static constexpr std::uint32_t kAgain = KnownLines::kAgain;  // in place of the primitive: to be traced once more
   static constexpr std::uint32_t kFront = 1u << 31;
 
   std::uint32_t primitive = kAgain;  // or a LineMark

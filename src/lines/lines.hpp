@@ -74,6 +74,14 @@ struct TracedLines {
 
 struct FirstLines;
 
+/// Lines that were traced before and are what they would be now, but for those that are marked kAgain.
+struct KnownLines {
+  static constexpr std::uint32_t kAgain = kFirstMark - 1;
+
+  std::vector<std::uint32_t> of;  // by leaf: the leaf of `lines` that it was; LeafTable::kNone: none
+  Lines lines;                    // they end on leaves that there are now
+};
+
 /// What lines are traced over. All must outlive whoever uses it.
 struct LineScene {
   const hierarchy::Elements& elements;
@@ -83,6 +91,7 @@ struct LineScene {
   const Cover& cover;
   const std::vector<char>& enclosed;                        // by element of the input level
   std::span<const std::unique_ptr<FirstLines>> first = {};  // by element: of those that are known
+  const KnownLines* known = nullptr;
 };
 
 /// `counts` lines of each leaf.

@@ -18,6 +18,23 @@ struct Found {
   std::uint64_t rays = 0;
 };
 
+/// The lines of a leaf that are known from before.
+class KnownOfLeaf {
+ public:
+  KnownOfLeaf(const KnownLines* known, std::uint32_t leaf) {
+    if (!known || known->of[leaf] == hierarchy::LeafTable::kNone) return;
+    lines_ = &known->lines, first_ = lines_->first[known->of[leaf]], count_ = lines_->countOf(known->of[leaf]);
+  }
+  /// Leaf or mark; kAgain where it is not known.
+  std::uint32_t end(std::uint32_t i) const { return i < count_ ? lines_->end[first_ + i] : KnownLines::kAgain; }
+  LineCode code(std::uint32_t i) const { return lines_->code[first_ + i]; }
+
+ private:
+  const Lines* lines_ = nullptr;
+  std::uint64_t first_ = 0;
+  std::uint32_t count_ = 0;
+};
+
 class LeafTracing {
  public:
   explicit LeafTracing(const LineScene& s) : s_(s) {}
@@ -35,12 +52,14 @@ class LeafTracing {
     const std::uint64_t first = out.lines.first[leaf];
     const std::uint32_t count = out.lines.countOf(leaf);
     const FirstLines* known = e.index() < s_.first.size() ? s_.first[e.index()].get() : nullptr;
+    const KnownOfLeaf before(s_.known, leaf);
     std::uint32_t covered = 0;
     for (std::uint32_t begin = 0; begin < count; begin += kBatch, known = nullptr) {
       const std::uint32_t last = std::min<std::uint32_t>(count, begin + kBatch);
       std::size_t live = 0;
       for (std::uint32_t i = begin; i < last; ++i) {
         if (known && known->line[i].primitive != FirstLine::kAgain) continue;
+        if (!known && before.end(i) != KnownLines::kAgain) continue;
         const hierarchy::PatchPoint x = points.point(i);
         const Vec3f w = directions(i, x.normal);
         if (s_.cover.covers(x.position, x.normal, own, about, found.rays)) {
@@ -59,6 +78,13 @@ class LeafTracing {
           mark = take(
               known->line[i], leaf, [&] { return points.point(i).normal; }, found);
           out.lines.code[first + i] = known->line[i].code;
+        } else if (!known && before.end(i) != KnownLines::kAgain) {
+          mark = before.end(i);
+          out.lines.code[first + i] = before.code(i);
+          if (mark == kEscaped) {
+            const Vec3f normal = points.point(i).normal, w = directions(i, normal);
+            found.escaped.push_back({leaf, w, glm::dot(w, normal), Rgb(1.0f), 1});
+          }
         } else if (k < live && which[k] == i) {
           const LineEnd end = s_.tracer.follow(rays[k], hits[k], LineDirections::random(points.key(), i));
           mark = take(end, leaf, first + i, rays[k].direction, cosines[k], found);

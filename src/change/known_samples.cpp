@@ -1,0 +1,88 @@
+#include "change/known_samples.hpp"
+
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "hierarchy/leaf_sequence.hpp"
+
+namespace deltalux::change {
+
+namespace {
+
+constexpr std::size_t kLeaves = 256;  // of a task
+constexpr float kStray = 0.02f;       // of a coded direction from the true one [radians]
+
+float reachOf(lines::LineCode code) { return std::bit_cast<float>(static_cast<std::uint32_t>(code.reach) << 16); }
+
+/// Whether a line from anywhere about a leaf may pass where something has moved.
+bool mayCross(const MovedSpace& space, const hierarchy::ElementGeometry& g, lines::LineCode code) {
+  return space.crosses(g.center, g.radius, lines::direction(code), reachOf(code), kStray);
+}
+
+}  // namespace
+
+bool holdFirstLines(const MovedSpace& space, const hierarchy::Elements& elements, const Scene& scene,
+                    hierarchy::ElementId patch, const lines::LeafScale& scale, const lines::FirstLines& first) {
+  const hierarchy::ElementGeometry& g = elements.shape(patch);
+  if (space.moved(elements.domain[patch.index()].primitive) || space.touches(g.center, g.radius)) return false;
+  if (scale.hollow) return false;  // lines beyond the first tell too
+  const hierarchy::LeafSequence points(elements, scene, patch);
+  for (std::uint32_t i = 0; i < first.line.size(); ++i) {
+    const lines::LineCode code = first.line[i].code;
+    if (code.reach == 0 || !mayCross(space, g, code)) continue;
+    if (space.crosses(points.point(i).position, 0, lines::direction(code), reachOf(code), kStray)) return false;
+  }
+  return true;
+}
+
+bool holdShadowRays(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::Elements& elements,
+                    hierarchy::ElementId patch) {
+  const hierarchy::ElementGeometry& g = elements.shape(patch);
+  if (space.moved(elements.domain[patch.index()].primitive) || space.touches(g.center, g.radius)) return false;
+  for (const std::uint32_t i : lamps.suns()) {
+    const direct::Lamp& sun = lamps.all()[i];
+    if (!(direct::potential(sun, g) > 0)) continue;
+    const auto stray = static_cast<float>(std::tan(sun.halfAngle));
+    if (space.crosses(g.center, g.radius, Vec3f(sun.axis), std::numeric_limits<float>::infinity(), stray)) return false;
+  }
+  bool holds = true;
+  lamps.tree().reaching(g, [&](std::uint32_t i, double) {
+    const direct::Lamp& lamp = lamps.all()[i];
+    holds = holds && !space.between(g.center, g.radius, {lamp.lower, lamp.upper});
+  });
+  return holds;
+}
+
+lines::KnownLines knownLines(const MovedSpace& space, lines::Lines lines, std::span<const lines::EscapedLine> escaped,
+                             std::vector<std::uint32_t> of, const hierarchy::Elements& before,
+                             const hierarchy::LeafTable& leavesBefore) {
+  constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone, kAgain = lines::KnownLines::kAgain;
+  std::vector<std::uint32_t> now(lines.leaves(), kNone), firstEscaped(lines.leaves() + 1, 0);
+  for (std::uint32_t i = 0; i < of.size(); ++i)
+    if (of[i] != kNone) now[of[i]] = i;
+  for (const lines::EscapedLine& e : escaped) ++firstEscaped[e.leaf + 1];
+  for (std::size_t i = 0; i < lines.leaves(); ++i) firstEscaped[i + 1] += firstEscaped[i];
+  parallelFor(lines.leaves(), kLeaves, [&](std::size_t i) {
+    const hierarchy::ElementGeometry& g = before.shape(leavesBefore[i]);
+    const bool starts = now[i] != kNone && !space.touches(g.center, g.radius);
+    std::uint32_t nextEscaped = firstEscaped[i];
+    for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k) {
+      std::uint32_t& end = lines.end[k];
+      bool holds = starts;
+      if (end == lines::kEscaped) {
+        const lines::EscapedLine& e = escaped[nextEscaped++];
+        holds = holds && e.weight == Rgb(1.0f) && e.chance == 1;
+      } else if (end < lines::kFirstMark) {
+        holds = holds && now[end] != kNone;
+        end = holds ? now[end] : kAgain;
+      } else {
+        holds = holds && end == lines::kCovered;  // what goes on is not known where
+      }
+      const lines::LineCode code = lines.code[k];
+      if (!holds || (code.reach > 0 && mayCross(space, g, code))) end = kAgain;
+    }
+  });
+  return {std::move(of), std::move(lines)};
+}
+
+}  // namespace deltalux::change

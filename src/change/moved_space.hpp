@@ -1,0 +1,38 @@
+#pragma once
+// Where an edit has moved surfaces from and to: what a ray has found is what it would find now, unless it starts there
+// or passes there. [GD01 4.1: the shafts of links against boxes, here for each line]
+#include <deltalux/edit.hpp>
+#include <span>
+#include <vector>
+
+#include "base/box_tree.hpp"
+#include "hierarchy/element.hpp"
+
+namespace deltalux::change {
+
+class MovedSpace {
+ public:
+  MovedSpace() = default;
+  /// Boxes of each object before and after, and of what moved alone; of the scene as it is now.
+  MovedSpace(const Scene&, std::span<const SceneChange::Moved>);
+
+  /// A surface more that is not what it was.
+  void add(PrimitiveId, const BoxF&);
+
+  bool empty() const { return boxes_.empty(); }
+  bool moved(PrimitiveId p) const { return p.index() < moved_.size() && moved_[p.index()]; }
+  /// Whether one of the boxes comes so near to the point.
+  bool touches(const Vec3f& point, float radius) const;
+  /// Whether a line may pass one that starts so near to the point and runs along `direction`, of any length, for so
+  /// long (infinite as well); it may go astray by `stray` of the way.
+  bool crosses(const Vec3f& point, float radius, const Vec3f& direction, float length, float stray = 0) const;
+  /// Whether a segment between a point so near to `point` and one of the box may pass one.
+  bool between(const Vec3f& point, float radius, const BoxF& box) const;
+
+ private:
+  float margin_ = 0;
+  std::vector<BoxF> boxes_;
+  std::vector<char> moved_;  // by primitive
+};
+
+}  // namespace deltalux::change

@@ -1,0 +1,107 @@
+#include "engine/known_solve.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace deltalux::engine {
+
+namespace {
+
+bool sameSight(const direct::LampSight& a, const direct::LampSight& b) {
+  return a.asked == b.asked && a.seen == b.seen && a.drawnAsked == b.drawnAsked && a.drawnSeen == b.drawnSeen;
+}
+
+bool samePlace(const hierarchy::Elements& a, std::uint32_t i, const hierarchy::Elements& b, std::size_t j) {
+  const hierarchy::PatchDomain &x = a.domain[i], &y = b.domain[j];
+  const hierarchy::ElementGeometry &g = a.geometry[i], &h = b.geometry[j];
+  return x.primitive == y.primitive && x.triangle == y.triangle && x.u0 == y.u0 && x.v0 == y.v0 && x.u1 == y.u1 &&
+         x.v1 == y.v1 && x.address == y.address && a.topology[i].front == b.topology[j].front && g.center == h.center &&
+         g.area == h.area && g.radius == h.radius && g.lower == h.lower && g.upper == h.upper && g.normal == h.normal;
+}
+
+}  // namespace
+
+KnownSolve::KnownSolve(SolveMemory memory, Solution& s, change::MovedSpace space, bool lightsHold)
+    : memory_(std::move(memory)),
+      elements_(std::exchange(s.elements, {})),
+      leaves_(elements_),
+      lines_(std::exchange(s.lines, {})),
+      space_(std::move(space)),
+      lightsHold_(lightsHold) {
+  for (std::uint32_t i = 0; i < elements_.size(); ++i)
+    if (elements_.receives(hierarchy::ElementId(i))) byKey_.emplace_back(elements_.key[i], i);
+  std::sort(byKey_.begin(), byKey_.end());
+}
+
+std::uint32_t KnownSolve::find(const hierarchy::Elements& elements, hierarchy::ElementId e) const {
+  if (!holds_ || space_.moved(elements.domain[e.index()].primitive)) return kNone;
+  const std::uint64_t key = elements.key[e.index()];
+  const auto at = std::lower_bound(byKey_.begin(), byKey_.end(), std::pair(key, std::uint32_t(0)));
+  if (at == byKey_.end() || at->first != key || !samePlace(elements_, at->second, elements, e.index())) return kNone;
+  return at->second;
+}
+
+void KnownSolve::holdTo(const hierarchy::Elements& elements, const std::vector<char>& enclosed) {
+  const Box &now = elements.sceneBox, &before = elements_.sceneBox;
+  holds_ = now.lower == before.lower && now.upper == before.upper;  // scales of the scene are measured by it
+  std::vector<hierarchy::ElementId> other;
+  for (const hierarchy::ElementId e : elements.inputs) {
+    if (!elements.receives(e) || space_.moved(elements.domain[e.index()].primitive)) continue;
+    const std::uint32_t old = find(elements, e);
+    if (old == kNone || memory_.enclosed[old] != enclosed[e.index()]) other.push_back(e);
+  }
+  for (const hierarchy::ElementId e : other)
+    space_.add(elements.domain[e.index()].primitive, {elements.shape(e).lower, elements.shape(e).upper});
+}
+
+bool KnownSolve::takeScale(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId e,
+                           PatchSamples& to) {
+  const std::uint32_t old = find(elements, e);
+  if (old == kNone || old >= memory_.samples.first.size() || !memory_.samples.first[old]) return false;
+  const lines::LeafScale& scale = memory_.samples.scale[old];
+  if (!change::holdFirstLines(space_, elements, scene, e, scale, *memory_.samples.first[old])) return false;
+  to.scale[e.index()] = scale;
+  to.first[e.index()] = std::move(memory_.samples.first[old]);
+  // What was lost beyond mirrors may be found now.
+  for (lines::FirstLine& line : to.first[e.index()]->line)
+    if (line.primitive == lines::kLost || line.primitive == lines::kLostBeyond) line.primitive = line.kAgain;
+  return true;
+}
+
+std::uint32_t KnownSolve::findLit(const hierarchy::Elements& elements, const direct::Lamps& lamps,
+                                  hierarchy::ElementId e, const lines::LeafScale& scale) const {
+  if (!lightsHold_) return kNone;
+  const std::uint32_t old = find(elements, e);
+  if (old == kNone || old >= memory_.samples.direct.size()) return kNone;
+  const lines::LeafScale& before = memory_.samples.scale[old];
+  if (before.covered != scale.covered || before.known != scale.known) return kNone;
+  return change::holdShadowRays(space_, lamps, elements, e) ? old : kNone;
+}
+
+const direct::LeafDirect* KnownSolve::whole(const hierarchy::Elements& elements, const direct::Lamps& lamps,
+                                            hierarchy::ElementId e, const lines::LeafScale& scale,
+                                            const direct::LampSight& above) const {
+  const std::uint32_t old = findLit(elements, lamps, e, scale);
+  if (old == kNone || !memory_.samples.whole[old]) return nullptr;
+  // Of the input level, and of what could not be split: nothing, or the same, is known from above.
+  return elements.at(e).depth == 0 && above.none() ? memory_.samples.whole[old].get() : nullptr;
+}
+
+KnownSolve::Judged KnownSolve::judged(const hierarchy::Elements& elements, const direct::Lamps& lamps,
+                                      hierarchy::ElementId e, const lines::LeafScale& scale,
+                                      const direct::LampSight& above) const {
+  const std::uint32_t old = findLit(elements, lamps, e, scale);
+  if (old == kNone || !memory_.samples.judged[old] || !sameSight(memory_.samples.judged[old]->above, above)) return {};
+  return {memory_.samples.judged[old].get(), &memory_.samples.direct[old]};
+}
+
+std::optional<lines::KnownLines> KnownSolve::takeLines(const hierarchy::Elements& elements,
+                                                       const hierarchy::LeafTable& leaves) {
+  if (!holds_) return {};
+  std::vector<std::uint32_t> of(leaves.size(), kNone);
+  for (std::size_t i = 0; i < leaves.size(); ++i)
+    if (const std::uint32_t old = find(elements, leaves[i]); old != kNone) of[i] = leaves_.indexOf[old];
+  return change::knownLines(space_, std::exchange(lines_, {}), memory_.escaped, std::move(of), elements_, leaves_);
+}
+
+}  // namespace deltalux::engine

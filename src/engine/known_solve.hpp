@@ -1,0 +1,48 @@
+#pragma once
+// What a solve over lines has found, kept for the next: an update is a solve of the edited scene that asks here first.
+// What is found here is what it would find itself, so that both end at the same bits.
+#include "change/known_samples.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux::engine {
+
+class KnownSolve {
+ public:
+  /// Of the solution that there was, out of which elements and lines are taken. `lightsHold`: they shine as they did.
+  KnownSolve(SolveMemory, Solution&, change::MovedSpace, bool lightsHold);
+
+  /// The element there was for a patch that is where it was, by index; kNone.
+  std::uint32_t find(const hierarchy::Elements&, hierarchy::ElementId) const;
+  /// Takes sides of hollows that have opened or closed for moved: lines into them count otherwise.
+  void holdTo(const hierarchy::Elements&, const std::vector<char>& enclosed);
+
+  /// Takes what is known of a patch's surroundings; false where that may have changed.
+  bool takeScale(const hierarchy::Elements&, const Scene&, hierarchy::ElementId, PatchSamples& to);
+  /// Direct light without a choice, likewise; nullptr.
+  const direct::LeafDirect* whole(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId,
+                                  const lines::LeafScale&, const direct::LampSight& above) const;
+  struct Judged {
+    const JudgedLight* how = nullptr;
+    const direct::LeafDirect* light = nullptr;
+  };
+  /// With one.
+  Judged judged(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId, const lines::LeafScale&,
+                const direct::LampSight& above) const;
+  /// The lines, as they are now; once.
+  std::optional<lines::KnownLines> takeLines(const hierarchy::Elements&, const hierarchy::LeafTable&);
+
+ private:
+  std::uint32_t findLit(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId,
+                        const lines::LeafScale&) const;
+
+  static constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone;
+  SolveMemory memory_;
+  hierarchy::Elements elements_;
+  hierarchy::LeafTable leaves_;
+  lines::Lines lines_;
+  change::MovedSpace space_;
+  bool lightsHold_ = false, holds_ = true;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> byKey_;  // ascending
+};
+
+}  // namespace deltalux::engine
