@@ -223,22 +223,18 @@ void DirectSampler::finish(double found, Points& points, Asked& a) const {
     shoot(lamp, points, more = std::min(2 * more, kMostPoints), t);
 }
 
-/// A patch that is kept because a lamp hardly varies over it would be kept least often where its rays have seen the
-/// lamp: what has decided must not tell its light too, or light that few rays see is lost. Rays that were traced.
+/// A patch is kept most often where its rays have missed a lamp: what has decided must not tell the light too, or what
+/// few rays see is lost. Where some have seen it and the patch is kept all the same, it is too little to matter. Rays
+/// that were traced.
 std::uint32_t DirectSampler::askAgain(double found, Points& points, Asked& a) const {
-  const int seen = a.pilot.passed + a.tally.passed, all = a.pilot.shot + a.tally.shot;
-  if (all == 0 || seen == all) return 0;
-  int wanted = std::max(a.tally.samples, 1);
-  if (seen == 0) {
-    const double open = gray(a.pilot.open + a.tally.open) / (a.pilot.samples + a.tally.samples);
-    wanted = open > found ? tuning::kUnseenRays : 1;
-  }
+  if (a.pilot.passed + a.tally.passed > 0 || a.pilot.shot + a.tally.shot == 0) return 0;
+  const double open = gray(a.pilot.open + a.tally.open) / (a.pilot.samples + a.tally.samples);
   Tally fresh;
   fresh.first = a.tally.first + a.tally.samples;
-  shoot(*a.lamp, points, wanted, fresh);
+  shoot(*a.lamp, points, a.lamp->sun ? tuning::kUnseenSunRays : open > found ? tuning::kUnseenRays : 1, fresh);
   if (fresh.samples == 0) return 0;  // there are no more points
   fresh.unshadowed = a.tally.unshadowed, fresh.measured = a.tally.measured;
-  a.missed = a.missed || seen == 0, a.tally = fresh;
+  a.missed = true, a.tally = fresh;
   return fresh.rays;
 }
 
@@ -324,7 +320,8 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   if (choice == Choice::Split) return result;
   if (choice == Choice::Keep) {
     variance = drawn.tally.variance();
-    for (Asked& a : asked) result.rays += askAgain(found, points, a), variance += a.tally.mixed() ? a.tally.variance() : 0.0;
+    for (Asked& a : asked)
+      result.rays += askAgain(found, points, a), variance += a.tally.mixed() ? a.tally.variance() : 0.0;
     result.deviation = static_cast<float>(std::sqrt(variance));
   }
 

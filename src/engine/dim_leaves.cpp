@@ -73,12 +73,13 @@ lines::TracedLines lookIntoTheDark(LineSolve& x, const lines::LineScene& over, l
   std::vector<float> area(leaves.size());
   for (std::size_t i = 0; i < leaves.size(); ++i) area[i] = x.s.elements.shape(leaves[i]).area;
   for (int round = 0; round < lines::tuning::kDimRounds; ++round) {
-    const std::vector<std::uint32_t> counts =
+    const lines::DimCounts counts =
         lines::dimCounts(traced, area, roughIndirect(x, leaves, traced), x.floor, rooms, !x.skies.empty());
-    if (std::ranges::all_of(counts, [](std::uint32_t count) { return count == 0; })) break;
-    const lines::TracedLines more = lines::traceLines(over, counts);
+    if (std::ranges::all_of(counts.lines, [](std::uint32_t count) { return count == 0; })) break;
+    const lines::TracedLines more = lines::traceLines(over, counts.lines);
     lightByManyPoints(x, leaves, more.lines);
     traced = lines::replaced(std::move(traced), more);
+    if (counts.told) break;
   }
   return traced;
 }

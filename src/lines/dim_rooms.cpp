@@ -78,9 +78,8 @@ struct Room {
 
 }  // namespace
 
-std::vector<std::uint32_t> dimCounts(const TracedLines& traced, std::span<const float> area,
-                                     std::span<const float> indirect, double floor, const std::vector<char>& inRoom,
-                                     bool skies) {
+DimCounts dimCounts(const TracedLines& traced, std::span<const float> area, std::span<const float> indirect,
+                    double floor, const std::vector<char>& inRoom, bool skies) {
   const std::size_t n = indirect.size();
   std::vector<Place> place(n);
   parallelFor(n, kLeaves, [&](std::size_t i) {
@@ -98,16 +97,17 @@ std::vector<std::uint32_t> dimCounts(const TracedLines& traced, std::span<const 
   // they are not too many.
   const auto lines = static_cast<double>(traced.lines.size());
   const double most = std::max(tuning::kDimShare * lines, tuning::kDimFree - 4 * lines);
-  std::vector<std::uint32_t> counts(n, 0);
+  DimCounts counts{std::vector<std::uint32_t>(n, 0)};
   for (double share = 1, more = kInfinity; more > most; share /= 2) {
-    more = 0;
+    more = 0, counts.told = true;
     for (std::uint32_t i = 0; i < n; ++i) {
-      counts[i] = 0;
+      counts.lines[i] = 0;
       if (place[i] != kDim) continue;
       const Room& room = all[rooms.of(i)];
       const double wanted = std::min(share * room.wanted() * area[i] / room.area, tuning::kMostDim);
       if (!(wanted > 2.0 * traced.lines.countOf(i))) continue;
-      counts[i] = std::bit_floor(static_cast<std::uint32_t>(wanted)), more += counts[i];
+      counts.lines[i] = std::bit_floor(static_cast<std::uint32_t>(wanted)), more += counts.lines[i];
+      counts.told = counts.told && room.ways > 0;
     }
   }
   return counts;

@@ -10,7 +10,11 @@ namespace deltalux::lines {
 /// is closed. `area`: of leaves; `indirect`: light of leaves by way of others [W/m2, gray], without what may shine in
 /// on a few; `floor`: light that matters; `inRoom`: whether a leaf sees far enough to lie in a room; `skies`: whether
 /// what leaves the scene meets light.
-std::vector<std::uint32_t> dimCounts(const TracedLines&, std::span<const float> area, std::span<const float> indirect,
-                                     double floor, const std::vector<char>& inRoom, bool skies);
+struct DimCounts {
+  std::vector<std::uint32_t> lines;  // by leaf
+  bool told = true;                  // no room gets more without any that lead out: those it gets may find some
+};
+DimCounts dimCounts(const TracedLines&, std::span<const float> area, std::span<const float> indirect, double floor,
+                    const std::vector<char>& inRoom, bool skies);
 
 }  // namespace deltalux::lines

@@ -40,6 +40,9 @@ class LeafTracing {
   explicit LeafTracing(const LineScene& s) : s_(s) {}
 
   void operator()(std::uint32_t leaf, TracedLines& out, Found& found) const {
+    const std::uint32_t count = out.lines.countOf(leaf);
+    out.covered[leaf] = 0;
+    if (count == 0) return;
     const hierarchy::ElementId e = s_.leaves[leaf];
     const hierarchy::LeafSequence points(s_.elements, s_.tracer.scene(), e);
     LineDirections directions(points.key());
@@ -50,7 +53,6 @@ class LeafTracing {
     std::array<float, kBatch> cosines;
     std::array<std::uint32_t, kBatch> which;
     const std::uint64_t first = out.lines.first[leaf];
-    const std::uint32_t count = out.lines.countOf(leaf);
     const FirstLines* known = e.index() < s_.first.size() ? s_.first[e.index()].get() : nullptr;
     const KnownOfLeaf before(s_.known, leaf);
     std::uint32_t covered = 0;

@@ -18,8 +18,8 @@ constexpr double kDimWays = 400, kClosedLines = 262144;
 /// lines those may be, or as many as that in scenes of few; bounces that tell how much light there is; rounds, of which
 /// the next knows how many lines lead out. Fewer, wider: as above. More, narrower: dark cupboards take most of the
 /// time.
-constexpr double kMostDim = 1 << 20, kDimRoom = 0.5, kDimShare = 1.0 / 16, kDimFree = 1 << 23;
-constexpr int kDimBounces = 4, kDimRounds = 2;
+constexpr double kMostDim = 1 << 20, kDimRoom = 0.5, kDimShare = 1.0 / 32, kDimFree = 1 << 23;
+constexpr int kDimBounces = 2, kDimRounds = 2;
 /// Lines that tell a leaf's surroundings before there are others. Fewer: splits by chance.
 constexpr int kFirstLines = 16;
 /// Non-diffuse events of a line. Fewer: light between facing mirrors is lost.
@@ -75,7 +75,7 @@ constexpr float kMostScale = 4;
 constexpr double kConverged = 1e-6;
 /// Most that a leaf's radiosity changes in the last pass, relative. Larger: dark rooms beside bright places are not
 /// done.
-constexpr double kSettled = 2e-3;
+constexpr double kSettled = 6e-3;
 /// The same of the coarse light, by which the mesh is refined. Larger: dark rooms are meshed for too little light.
 constexpr double kCoarseConverged = 1e-3;
 constexpr int kMostPasses = 2048;
