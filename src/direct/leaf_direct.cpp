@@ -91,6 +91,11 @@ struct DirectSampler::Asked {
   double potential;
   bool missed;  // by the patch above
   Tally pilot, tally;
+
+  /// What it would bring, where no ray has seen it.
+  double unseen() const {
+    return pilot.passed + tally.passed > 0 ? 0.0 : gray(pilot.open + tally.open) / (pilot.samples + tally.samples);
+  }
 };
 
 /// Lamps that are drawn, and those that turned out to be worth asking.
@@ -226,12 +231,12 @@ void DirectSampler::finish(double found, Points& points, Asked& a) const {
 /// A patch is kept most often where its rays have missed a lamp: what has decided must not tell the light too, or what
 /// few rays see is lost. Where some have seen it and the patch is kept all the same, it is too little to matter. Rays
 /// that were traced.
-std::uint32_t DirectSampler::askAgain(double found, Points& points, Asked& a) const {
-  if (a.pilot.passed + a.tally.passed > 0 || a.pilot.shot + a.tally.shot == 0) return 0;
-  const double open = gray(a.pilot.open + a.tally.open) / (a.pilot.samples + a.tally.samples);
+std::uint32_t DirectSampler::askAgain(double all, Points& points, Asked& a) const {
+  const double open = a.unseen();
+  if (!(open > 0)) return 0;
   Tally fresh;
   fresh.first = a.tally.first + a.tally.samples;
-  shoot(*a.lamp, points, a.lamp->sun ? tuning::kUnseenSunRays : open > found ? tuning::kUnseenRays : 1, fresh);
+  shoot(*a.lamp, points, a.lamp->sun ? tuning::kUnseenSunRays : 2 * open > all ? tuning::kUnseenRays : 1, fresh);
   if (fresh.samples == 0) return 0;  // there are no more points
   fresh.unshadowed = a.tally.unshadowed, fresh.measured = a.tally.measured;
   a.missed = true, a.tally = fresh;
@@ -320,8 +325,10 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   if (choice == Choice::Split) return result;
   if (choice == Choice::Keep) {
     variance = drawn.tally.variance();
+    double rest = found;  // and what unseen ones would bring
+    for (const Asked& a : asked) rest += a.unseen();
     for (Asked& a : asked)
-      result.rays += askAgain(found, points, a), variance += a.tally.mixed() ? a.tally.variance() : 0.0;
+      result.rays += askAgain(rest, points, a), variance += a.tally.mixed() ? a.tally.variance() : 0.0;
     result.deviation = static_cast<float>(std::sqrt(variance));
   }
 

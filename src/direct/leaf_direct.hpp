@@ -64,7 +64,7 @@ class DirectSampler {
   void shootDrawn(Points&, int upTo, Drawn&, Tally&) const;
   void ask(const Lamp&, double potential, const LampSight& above, Points&, std::vector<Asked>&) const;
   void finish(double found, Points&, Asked&) const;
-  std::uint32_t askAgain(double found, Points&, Asked&) const;
+  std::uint32_t askAgain(double all, Points&, Asked&) const;
   void askDrawn(const LampSight& above, double& found, Points&, Drawn&, std::vector<Asked>&) const;
   void finishDrawn(const LampSight& above, Points&, Drawn&) const;
   Rgb unshadowed(const Lamp&, Points&, int wanted) const;
