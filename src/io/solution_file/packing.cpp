@@ -68,8 +68,8 @@ std::string packBlock(std::string_view bytes, std::size_t stride, const Compress
     const std::string_view trial = bytes.substr(0, std::max(stride, std::min(bytes.size(), kTrial) / stride * stride));
     if (compressed(trial).size() <= compressed(transposed(trial, stride)).size()) stride = 1;
   }
-  std::string packed = compressed(stride > 1 ? std::string_view(transposed(bytes, stride)) : bytes);
-  if (packed.size() >= bytes.size()) packed = bytes, stride = 0;
+  // What does not pack is a few bytes longer for it, and has a checksum like all else.
+  const std::string packed = compressed(stride > 1 ? std::string_view(transposed(bytes, stride)) : bytes);
   std::string block;
   block.reserve(kBlockFrame + packed.size());
   for (const std::size_t number : {packed.size(), bytes.size(), stride}) appendNumber(block, number);
@@ -78,10 +78,6 @@ std::string packBlock(std::string_view bytes, std::size_t stride, const Compress
 
 /// Whether the block holds what it says.
 bool unpackBlock(const PackedBlock& block, char* to) {
-  if (block.stride == 0) {
-    std::memcpy(to, block.packed.data(), block.length);
-    return true;
-  }
   std::string planes(block.stride > 1 ? block.length : 0, '\0');
   char* const flat = block.stride > 1 ? planes.data() : to;
   const std::size_t length = ZSTD_decompress(flat, block.length, block.packed.data(), block.packed.size());
@@ -158,9 +154,8 @@ std::vector<PackedBlock> packedBlocks(std::string_view payload, const std::strin
     if (packed > payload.size()) refusePacking(file, "is damaged: a block is longer than its section");
     block.packed = payload.substr(0, packed);
     payload.remove_prefix(packed);
-    const bool fits = block.stride == 0 ? block.length == packed
-                                        : block.length <= kBlock && block.length / kMostHeld <= packed &&
-                                              block.length % block.stride == 0;
+    const bool fits = block.stride > 0 && block.length <= kBlock && block.length / kMostHeld <= packed &&
+                      block.length % block.stride == 0;
     if (!fits) refusePacking(file, "is damaged: a block cannot hold what it says");
     blocks.push_back(block);
   }

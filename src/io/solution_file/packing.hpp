@@ -5,7 +5,7 @@
 //
 //   block   u32 length of the packed bytes, u32 length of what they hold, u32 stride, packed bytes
 //
-// A stride of 0: the bytes as they are; 1: compressed; more: records of so many bytes, transposed and compressed.
+// A stride of 1: compressed; more: records of so many bytes, transposed and compressed.
 #include <cstdint>
 #include <string>
 #include <string_view>

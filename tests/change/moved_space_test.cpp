@@ -1,0 +1,86 @@
+// What rays may pass where something has moved: never too little.
+#include "change/moved_space.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/random.hpp"
+#include "lines/line_code.hpp"
+#include "support/rooms.hpp"
+
+namespace deltalux {
+namespace {
+
+using namespace test;
+
+/// A room with a box in it that has come from elsewhere.
+struct Moved {
+  Scene scene;
+  std::vector<SceneChange::Moved> parts;
+
+  Moved() {
+    const MaterialId white = addMaterial(scene, "white", lambert(0.7f));
+    addBox(scene, white, Vec3(0), {4, 4, 3}, true);
+    const std::size_t first = scene.primitives.size();
+    addBox(scene, white, {1, 1, 0}, {1.5, 1.4, 0.8}, false);
+    for (std::size_t i = first; i < scene.primitives.size(); ++i) {
+      const Box now = bounds(scene.primitives[i].shape);
+      parts.push_back({PrimitiveId(i), {now.lower + Vec3(1, 0.5, 0), now.upper + Vec3(1, 0.5, 0)}, now});
+    }
+  }
+};
+
+const Box kBoxes[] = {{{1, 1, 0}, {1.5, 1.4, 0.8}}, {{2, 1.5, 0}, {2.5, 1.9, 0.8}}};
+
+/// Whether a segment meets one of the boxes, by many points of it.
+bool meets(const Vec3& from, const Vec3& to) {
+  for (int i = 0; i <= 2000; ++i) {
+    const Vec3 p = from + (i / 2000.0) * (to - from);
+    for (const Box& b : kBoxes)
+      if (glm::all(glm::greaterThanEqual(p, b.lower)) && glm::all(glm::lessThanEqual(p, b.upper))) return true;
+  }
+  return false;
+}
+
+TEST(MovedSpace, KnowsEverySegmentThatMeetsWhereThingsWereOrAre) {
+  const Moved m;
+  const change::MovedSpace space(m.scene, m.parts);
+  Rng random(5);
+  int met = 0, free = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const auto point = [&] {
+      const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+      return Vec3(4 * x, 4 * y, 3 * z);
+    };
+    const Vec3 from = point(), to = point();
+    const auto length = static_cast<float>(glm::length(to - from));
+    const Vec3f way(glm::normalize(to - from));
+    const bool meeting = meets(from, to), said = space.crosses(Vec3f(from), 0, way, length);
+    EXPECT_TRUE(said || !meeting);
+    met += meeting, free += !said;
+    // From anywhere about a point that holds `from`, by the code of the line.
+    const lines::LineCode code = lines::lineCode(way, length);
+    const float reach = std::bit_cast<float>(static_cast<std::uint32_t>(code.reach) << 16);
+    const Vec3f near = Vec3f(from) + Vec3f(0.05f, -0.05f, 0.05f);
+    EXPECT_TRUE(space.crosses(near, 0.1f, lines::direction(code), reach, 0.02f) || !meeting);
+    const Vec3f half(0.1f);
+    EXPECT_TRUE(space.between(near, 0.1f, {Vec3f(to) - half, Vec3f(to) + half}) || !meeting);
+  }
+  EXPECT_GT(met, 200);
+  EXPECT_GT(free, 2000);  // and it does not say so of all
+}
+
+TEST(MovedSpace, KnowsWhatMovedAndWhatIsBeside) {
+  const Moved m;
+  change::MovedSpace space(m.scene, m.parts);
+  EXPECT_FALSE(space.moved(PrimitiveId(0)));
+  EXPECT_TRUE(space.moved(m.parts.front().primitive));
+  EXPECT_TRUE(space.touches({1.2f, 1.2f, 0.9f}, 0.11f));
+  EXPECT_FALSE(space.touches({1.2f, 1.2f, 0.9f}, 0.09f));
+  EXPECT_FALSE(space.touches({3.5f, 3.5f, 2}, 0.5f));
+  space.add(PrimitiveId(0), {{3, 3, 1.5f}, {4, 4, 1.6f}});
+  EXPECT_TRUE(space.moved(PrimitiveId(0)) && space.touches({3.5f, 3.5f, 2}, 0.5f));
+  EXPECT_TRUE(change::MovedSpace(m.scene, {}).empty());
+}
+
+}  // namespace
+}  // namespace deltalux
