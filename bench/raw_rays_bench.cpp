@@ -109,7 +109,7 @@ void ofSolve(const std::string& name, Scene scene, bool raw) {
   const auto recorder = std::make_shared<Recorder>(tracing::makeEmbreeTracer(again.scene));
   again.tracer = recorder;
   const engine::TimeBudget all(0);
-  engine::solveFinely(*engine::solveCoarsely(again, all, nullptr), all, nullptr);
+  engine::solveFinely(*engine::solveCoarsely(again, nullptr, all, nullptr), all, nullptr);
   const Rays rays = recorder->take();
   compare(name, seconds, rays, rawSeconds(rays, *engine.solution().get().tracer));
 }
