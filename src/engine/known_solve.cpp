@@ -95,6 +95,11 @@ KnownSolve::Judged KnownSolve::judged(const hierarchy::Elements& elements, const
   return {memory_.samples.judged[old].get(), &memory_.samples.direct[old]};
 }
 
+Rgb KnownSolve::indirect(const hierarchy::Elements& elements, hierarchy::ElementId leaf) const {
+  const std::uint32_t old = find(elements, leaf);
+  return old == kNone ? Rgb(0.0f) : elements_.radiometry[old].indirect;
+}
+
 std::optional<lines::KnownLines> KnownSolve::takeLines(const hierarchy::Elements& elements,
                                                        const hierarchy::LeafTable& leaves) {
   if (!holds_) return {};

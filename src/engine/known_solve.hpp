@@ -28,6 +28,8 @@ class KnownSolve {
   /// With one.
   Judged judged(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId, const lines::LeafScale&,
                 const direct::LampSight& above) const;
+  /// Light of a leaf by way of others as it was; where it was none, black [W/m2].
+  Rgb indirect(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
   /// The lines, as they are now; once.
   std::optional<lines::KnownLines> takeLines(const hierarchy::Elements&, const hierarchy::LeafTable&);
 

@@ -76,9 +76,8 @@ void placeParticles(Solution& s) {
 
 bool traceParticles(Solution& s, const TimeBudget& budget) {
   if (s.settings.diffuseOnly) return true;
-  const std::uint64_t wanted = particleCount(s.settings);
-  particles::ParticleSettings settings{wanted, s.settings.seed};
-  settings.ofSurfaces = false;
+  const particles::ParticleSettings settings = lineParticles(s);
+  const std::uint64_t wanted = settings.count;
   particles::ParticleTracing tracing(s.scene, *s.tracer, settings);
   s.particles = budget.limited() ? tracing.traceWithin(kParticleTime * budget.seconds()) : tracing.trace();
   DELTALUX_VALIDATED(validate(s.particles, s.scene));
@@ -104,6 +103,12 @@ void refineForParticles(LineSolve& x) {
 
 }  // namespace
 
+particles::ParticleSettings lineParticles(const Solution& s) {
+  particles::ParticleSettings settings{particleCount(s.settings), s.settings.seed};
+  settings.ofSurfaces = false;
+  return settings;
+}
+
 LineSolve::LineSolve(Solution& solution, KnownSolve* before)
     : s(solution),
       known(before),
@@ -120,7 +125,7 @@ bool LineSolve::takesPart(hierarchy::ElementId patch) const {
 std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const TimeBudget& budget, Progress* progress) {
   Clock watch;
   auto solve = std::make_unique<LineSolve>(s, known);
-  solve->allParticles = traceParticles(s, budget);
+  solve->allParticles = known || traceParticles(s, budget);  // they have followed the edit
   s.report.times.particles += watch.lap();
   if (progress) progress->report("particles", 1.0);
   checkInterrupted(progress);

@@ -15,6 +15,7 @@
 #include "engine/known_solve.hpp"
 #include "engine/time_budget.hpp"
 #include "lines/leaf_scale.hpp"
+#include "particles/particle_tracing.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::engine {
@@ -64,6 +65,9 @@ void lightLeaves(LineSolve&, lines::TracedLines, double converged);
 ErrorEstimate estimateError(const Solution&, double floor);
 
 // The rounds.
+
+/// Of particles that start at lights alone.
+particles::ParticleSettings lineParticles(const Solution&);
 
 /// The coarse solution; what is known of one before may be none. Throws Interrupted.
 std::unique_ptr<LineSolve> solveCoarsely(Solution&, KnownSolve*, const TimeBudget&, Progress*);

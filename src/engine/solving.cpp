@@ -222,10 +222,10 @@ bool Engine::State::settle(Progress* progress) {
 void Engine::State::solveAfresh(Progress* progress) {
   Solution& s = *solution;
   if (!known) s.tracer = tracing::makeEmbreeTracer(s.scene), s.memory.reset();
-  tracing.reset(), transfer.reset(), upkeep.reset(), settling.reset(), backlog = {};
-  if (!known) groups = {};
-  s.elements = {}, s.links = {}, s.particles = {}, s.transfers = {}, s.lines = {}, s.deviation.clear(),
-  lineSolve.reset(), s.caustics = {}, s.report = {};
+  transfer.reset(), upkeep.reset(), settling.reset(), backlog = {};
+  if (!known) tracing.reset(), groups = {}, s.particles = {};
+  s.elements = {}, s.links = {}, s.transfers = {}, s.lines = {}, s.deviation.clear(), lineSolve.reset(),
+  s.caustics = {}, s.report = {};
   finished = false;
   clock = {};
   while (!finished) step(progress);

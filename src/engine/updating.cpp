@@ -107,6 +107,11 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
     lampMoves = lampMoves || sendsLight(s.scene.materialOf(m.primitive));
   }
   groups.rebuild(tracer(), s.scene, moved);
+  if (tracing) {
+    tracing->follow(s.particles, edits.whole);
+    DELTALUX_VALIDATED(validate(s.particles, s.scene));
+    if (gapsAreMany()) closeGaps();
+  }
   const bool lightsHold = edits.movedLights.empty() && edits.dimmed.empty() && !lampMoves;
   known.emplace(std::move(*before), s, change::MovedSpace(s.scene, edits.moved), lightsHold);
 }
@@ -135,7 +140,11 @@ Restore Engine::State::apply(const Edit& edit) {
 
 void Engine::State::prepareToFollow() {
   Solution& s = *solution;
-  if (!finished || byLines()) return;
+  if (!finished) return;
+  if (byLines()) {
+    if (s.memory && !tracing && !s.settings.diffuseOnly) tracing.emplace(s.scene, *s.tracer, engine::lineParticles(s));
+    return;
+  }
   if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
   if (!settling) settling.emplace(engine::LightSettling::Parts{s.scene, s.transfers, *transfer}, s.elements);
   if (s.settings.diffuseOnly) return;
