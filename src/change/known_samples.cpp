@@ -22,10 +22,11 @@ bool mayCross(const MovedSpace& space, const hierarchy::ElementGeometry& g, line
 }  // namespace
 
 bool holdFirstLines(const MovedSpace& space, const hierarchy::Elements& elements, const Scene& scene,
-                    hierarchy::ElementId patch, const lines::LeafScale& scale, const lines::FirstLines& first) {
+                    hierarchy::ElementId patch, const lines::FirstLines& first) {
   const hierarchy::ElementGeometry& g = elements.shape(patch);
   if (space.moved(elements.domain[patch.index()].primitive) || space.touches(g.center, g.radius)) return false;
-  if (scale.hollow) return false;  // lines beyond the first tell too
+  for (const lines::LineCode code : first.beyond)
+    if (mayCross(space, g, code)) return false;
   const hierarchy::LeafSequence points(elements, scene, patch);
   for (std::uint32_t i = 0; i < first.line.size(); ++i) {
     const lines::LineCode code = first.line[i].code;

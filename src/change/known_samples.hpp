@@ -4,13 +4,12 @@
 #include "change/moved_space.hpp"
 #include "direct/lamps.hpp"
 #include "lines/first_lines.hpp"
-#include "lines/leaf_scale.hpp"
 
 namespace deltalux::change {
 
 /// Whether a patch's first lines, and what they tell of its surroundings, are as they were. `patch`: as it is now.
 bool holdFirstLines(const MovedSpace&, const hierarchy::Elements&, const Scene&, hierarchy::ElementId patch,
-                    const lines::LeafScale&, const lines::FirstLines&);
+                    const lines::FirstLines&);
 /// Whether shadow rays of a patch to suns and lamps are.
 bool holdShadowRays(const MovedSpace&, const direct::Lamps&, const hierarchy::Elements&, hierarchy::ElementId patch);
 

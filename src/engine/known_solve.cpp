@@ -58,9 +58,8 @@ bool KnownSolve::takeScale(const hierarchy::Elements& elements, const Scene& sce
                            PatchSamples& to) {
   const std::uint32_t old = find(elements, e);
   if (old == kNone || old >= memory_.samples.first.size() || !memory_.samples.first[old]) return false;
-  const lines::LeafScale& scale = memory_.samples.scale[old];
-  if (!change::holdFirstLines(space_, elements, scene, e, scale, *memory_.samples.first[old])) return false;
-  to.scale[e.index()] = scale;
+  if (!change::holdFirstLines(space_, elements, scene, e, *memory_.samples.first[old])) return false;
+  to.scale[e.index()] = memory_.samples.scale[old];
   to.first[e.index()] = std::move(memory_.samples.first[old]);
   // What was lost beyond mirrors may be found now.
   for (lines::FirstLine& line : to.first[e.index()]->line)

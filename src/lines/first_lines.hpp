@@ -24,6 +24,7 @@ struct FirstLine {
 
 struct FirstLines {
   std::array<FirstLine, hierarchy::LeafSequence::kBatch> line;
+  std::vector<LineCode> beyond;  // of others that tell what is covered, where some lines end in hollows
 };
 
 /// What is to be kept of a line into unit `direction`. `covered`: it ends on an enclosed side, so that it is none.

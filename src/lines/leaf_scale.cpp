@@ -29,6 +29,7 @@ LeafScale ScaleMeter::measure(hierarchy::ElementId patch, FirstLines& first) con
   LeafScale scale;
   double inverse = 0, sum = 0;
   std::uint32_t open = 0;
+  bool hollow = false;  // whether some lines end in enclosed hollows, so that lines alone tell what is covered
   // Where something lies on the patch, how much of it is worth knowing.
   for (; scale.known < (scale.covered ? 64u : kBatch); scale.known += kBatch) {
     std::size_t live = 0;
@@ -39,7 +40,7 @@ LeafScale ScaleMeter::measure(hierarchy::ElementId patch, FirstLines& first) con
         if (i < kBatch) first.line[i] = coveredLine(directions(i, x.normal));
         continue;
       }
-      if (i >= kBatch && !scale.hollow) continue;
+      if (i >= kBatch && !hollow) continue;
       const Vec3f w = directions(i, x.normal);
       rays[live].origin = tracing::offsetOrigin(x.position, x.normal, w), rays[live].direction = w;
       which[live++] = i;
@@ -51,9 +52,12 @@ LeafScale ScaleMeter::measure(hierarchy::ElementId patch, FirstLines& first) con
       const hierarchy::ElementId side =
           end.fate == LineFate::Ended && !end.turned ? elements_.sides.at(end.side) : hierarchy::ElementId();
       const bool covered = side.valid() && enclosed_[hierarchy::surfaceOf(elements_, side).index()];
-      if (which[k] < kBatch) first.line[which[k]] = firstLine(end, rays[k].direction, covered);
+      if (which[k] < kBatch)
+        first.line[which[k]] = firstLine(end, rays[k].direction, covered);
+      else
+        first.beyond.push_back(lineCode(rays[k].direction, end.distance));
       if (covered) {
-        scale.covered |= std::uint64_t(1) << which[k], scale.hollow = true;
+        scale.covered |= std::uint64_t(1) << which[k], hollow = true;
         continue;
       }
       const float t = std::min(end.distance, farthest_);

@@ -11,7 +11,6 @@ struct LeafScale {
   std::uint64_t covered = 0;  // bit i: point i of the leaf's sequence lies under something
   std::uint32_t known = 0;    // how many points that is known of, at most 64
   std::uint32_t rays = 0;
-  bool hollow = false;  // some lines end in enclosed hollows, and tell what is covered besides the first ones
 };
 
 class ScaleMeter {
