@@ -65,8 +65,8 @@ void Engine::State::lineRound(Progress* progress) {
   finished = true;
   s.report.converged = engine::solveFinely(*lineSolve, budget, progress);
   if (!budget.limited())
-    s.memory = std::make_shared<SolveMemory>(
-        SolveMemory{std::move(lineSolve->samples), std::move(lineSolve->enclosed), std::move(lineSolve->escaped)});
+    s.memory = std::make_shared<SolveMemory>(SolveMemory{std::move(lineSolve->samples), std::move(lineSolve->enclosed),
+                                                         std::move(lineSolve->escaped), lineSolve->responses.plain()});
   lineSolve.reset(), known.reset();
   makeTextures(), count();
   budget = engine::TimeBudget(0);  // updates take what time they need

@@ -98,8 +98,10 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
   Solution& s = *solution;
   known.reset();
   const std::shared_ptr<SolveMemory> before = std::exchange(s.memory, {});
-  // Lines go on as materials say. What others hold too is theirs.
-  if (before.use_count() != 1 || !edits.materials.empty() || !finished) return;
+  if (before.use_count() != 1 || !finished) return;  // what others hold too is theirs
+  const std::vector<char> plain = lines::SurfaceResponses(s.scene, !s.settings.diffuseOnly).plain();
+  for (const MaterialId m : edits.materials)  // lines go on as others say
+    if (m.index() >= before->plain.size() || !before->plain[m.index()] || !plain[m.index()]) return;
   std::vector<PrimitiveId> moved;
   bool lampMoves = false;
   for (const SceneChange::Moved& m : edits.moved) {

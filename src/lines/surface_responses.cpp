@@ -43,4 +43,10 @@ SurfaceResponses::SurfaceResponses(const Scene& scene, bool speculars) : scene_(
     for (const bool front : {false, true}) all_.push_back(responseOf(m, front, speculars));
 }
 
+std::vector<char> SurfaceResponses::plain() const {
+  std::vector<char> plain(all_.size() / 2);
+  for (std::size_t m = 0; m < plain.size(); ++m) plain[m] = all_[2 * m].ends >= 1 && all_[2 * m + 1].ends >= 1;
+  return plain;
+}
+
 }  // namespace deltalux::lines

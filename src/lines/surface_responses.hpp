@@ -27,6 +27,8 @@ class SurfaceResponses {
     return all_[2 * scene_[primitive].material.index() + (front ? 1 : 0)];
   }
   bool speculars() const { return speculars_; }
+  /// By material: whether lines end on it and do nothing else, so that its colour changes none of them.
+  std::vector<char> plain() const;
 
  private:
   const Scene& scene_;

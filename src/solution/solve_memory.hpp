@@ -35,6 +35,7 @@ struct SolveMemory {
   PatchSamples samples;
   std::vector<char> enclosed;               // by element of the input level
   std::vector<lines::EscapedLine> escaped;  // of the solution's lines
+  std::vector<char> plain;                  // by material: SurfaceResponses::plain()
 };
 
 }  // namespace deltalux
