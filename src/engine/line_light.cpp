@@ -102,7 +102,8 @@ void lightLeaves(LineSolve& x, lines::TracedLines traced, double converged) {
     hierarchy::ElementLight& l = elements.radiometry[e];
     l.direct = exchange.area(i) > 0 ? lamps[i].E + sky[i].E : Rgb(0.0f);
     light.source[i] = l.direct + l.particle;
-    if (x.known) light.indirect[i] = x.known->indirect(elements, leaves[i]);
+    // Not of the coarse light, by which the mesh is refined: what iteration leaves would decide.
+    if (x.known && x.floor > 0) light.indirect[i] = x.known->indirect(elements, leaves[i]);
   });
   const lines::IterationReport iterated = lines::iterate(exchange, light, converged, lines::tuning::kMostPasses);
   s.report.counts.iterations += static_cast<std::uint64_t>(iterated.passes);
