@@ -96,7 +96,7 @@ DimCounts dimCounts(const TracedLines& traced, std::span<const float> area, std:
   // In octaves, so that small changes leave nearly all leaves' lines as they are; by so many less, all of them, that
   // they are not too many.
   const auto lines = static_cast<double>(traced.lines.size());
-  const double most = std::max(tuning::kDimShare * lines, tuning::kDimFree - 4 * lines);
+  const double most = std::max(tuning::kDimShare * lines, tuning::kDimFree - lines);
   DimCounts counts{std::vector<std::uint32_t>(n, 0)};
   for (double share = 1, more = kInfinity; more > most; share /= 2) {
     more = 0, counts.told = true;

@@ -18,7 +18,7 @@ constexpr double kDimWays = 400, kClosedLines = 262144;
 /// lines those may be, or as many as that in scenes of few; bounces that tell how much light there is; rounds, of which
 /// the next knows how many lines lead out. Fewer, wider: as above. More, narrower: dark cupboards take most of the
 /// time.
-constexpr double kMostDim = 1 << 20, kDimRoom = 0.5, kDimShare = 1.0 / 32, kDimFree = 1 << 23;
+constexpr double kMostDim = 1 << 20, kDimRoom = 0.5, kDimShare = 1.0 / 32, kDimFree = 1 << 21;
 constexpr int kDimBounces = 2, kDimRounds = 2;
 /// Lines that tell a leaf's surroundings before there are others. Fewer: splits by chance.
 constexpr int kFirstLines = 16;
