@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace deltalux::change {
 
 namespace {
 
+constexpr std::size_t kMost = 8;  // boxes of what was, and of what is: more tell more, and take longer
 constexpr double kMargin = 1e-5;  // that boxes are wider by, in shares of the scene's extent: roundings of origins
 
 float distanceTo(const BoxF& box, const Vec3f& p) {
@@ -25,38 +25,79 @@ void clip(float lower, float upper, float origin, float direction, float& begin,
   begin = std::max(begin, near), end = std::min(end, far);
 }
 
+float surface(const BoxF& box) {
+  const Vec3f d = box.upper - box.lower;
+  return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+/// Boxes that hold all of these, some kMost: the largest is parted, at the middle of its boxes.
+std::vector<BoxF> fewBoxes(std::vector<BoxF> boxes) {
+  struct Group {
+    std::size_t begin, end;
+    BoxF box;
+  };
+  const auto groupOf = [&](std::size_t begin, std::size_t end) {
+    Group g{begin, end, {}};
+    for (std::size_t i = begin; i < end; ++i) g.box.extend(boxes[i]);
+    return g;
+  };
+  if (boxes.empty()) return {};
+  std::vector<Group> groups{groupOf(0, boxes.size())};
+  while (groups.size() < kMost) {
+    const auto largest = std::ranges::max_element(
+        groups, {}, [](const Group& g) { return g.end - g.begin > 1 ? surface(g.box) : -1.0f; });
+    const Group g = *largest;
+    if (g.end - g.begin < 2) break;
+    const Vec3f d = g.box.upper - g.box.lower;
+    const int axis = d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
+    const std::size_t middle = (g.begin + g.end) / 2;
+    const auto at = [&](std::size_t i) { return boxes.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(g.begin), at(middle), at(g.end), [axis](const BoxF& a, const BoxF& b) {
+      return a.lower[axis] + a.upper[axis] < b.lower[axis] + b.upper[axis];
+    });
+    *largest = groupOf(g.begin, middle);
+    groups.push_back(groupOf(middle, g.end));
+  }
+  std::vector<BoxF> few;
+  for (const Group& g : groups) few.push_back(g.box);
+  return few;
+}
+
 }  // namespace
 
 MovedSpace::MovedSpace(const Scene& scene, std::span<const SceneChange::Moved> all) {
   moved_.resize(scene.primitives.size(), 0);
-  std::map<std::uint32_t, std::pair<Box, Box>> objects;
+  std::vector<BoxF> before, after;
   Box extent;
   for (const Primitive& p : scene.primitives) extent.extend(bounds(p.shape));
+  const auto add = [&](std::vector<BoxF>& to, const Box& box) {
+    if (!box.empty()) to.push_back({Vec3f(box.lower), Vec3f(box.upper)}), extent.extend(box);
+  };
   for (const SceneChange::Moved& m : all) {
     if (m.primitive.index() < moved_.size()) moved_[m.primitive.index()] = 1;
-    auto& [before, after] = objects[scene[m.primitive].object.value];
-    if (!m.before.empty()) before.extend(m.before), extent.extend(m.before);
-    if (!m.after.empty()) after.extend(m.after);
-    if (const Box now = bounds(scene[m.primitive].shape); !now.empty()) after.extend(now);
+    add(before, m.before), add(after, m.after);
+    add(after, bounds(scene[m.primitive].shape));
   }
   margin_ = static_cast<float>(kMargin * extent.diagonal());
-  for (const auto& [object, boxes] : objects)
-    for (const Box& box : {boxes.first, boxes.second})
-      if (!box.empty()) boxes_.push_back({Vec3f(box.lower) - margin_, Vec3f(box.upper) + margin_});
+  for (std::vector<BoxF>* boxes : {&before, &after})
+    for (const BoxF& box : fewBoxes(*boxes)) hold({box.lower - margin_, box.upper + margin_});
 }
+
+void MovedSpace::hold(const BoxF& box) { boxes_.push_back(box), all_.extend(box); }
 
 void MovedSpace::add(PrimitiveId primitive, const BoxF& box) {
   moved_[primitive.index()] = 1;
-  boxes_.push_back({box.lower - margin_, box.upper + margin_});
+  hold({box.lower - margin_, box.upper + margin_});
 }
 
 bool MovedSpace::touches(const Vec3f& point, float radius) const {
+  if (distanceTo(all_, point) > radius) return false;
   return std::ranges::any_of(boxes_, [&](const BoxF& box) { return distanceTo(box, point) <= radius; });
 }
 
 bool MovedSpace::crosses(const Vec3f& point, float radius, const Vec3f& direction, float length, float stray) const {
   const float unit = glm::length(direction);
-  return std::ranges::any_of(boxes_, [&](const BoxF& box) {
+  const auto crosses = [&](const BoxF& box) {
     // As wide as the line may have strayed where it is farthest in the box.
     const float far = std::min(length, glm::length(glm::max(glm::abs(box.lower - point), glm::abs(box.upper - point))));
     const float wide = radius + stray * far;
@@ -64,7 +105,8 @@ bool MovedSpace::crosses(const Vec3f& point, float radius, const Vec3f& directio
     for (int axis = 0; axis < 3; ++axis)
       clip(box.lower[axis] - wide, box.upper[axis] + wide, point[axis], direction[axis], begin, end);
     return begin <= end;
-  });
+  };
+  return !boxes_.empty() && crosses(all_) && std::ranges::any_of(boxes_, crosses);
 }
 
 bool MovedSpace::between(const Vec3f& point, float radius, const BoxF& target) const {

@@ -13,7 +13,7 @@ namespace deltalux::change {
 class MovedSpace {
  public:
   MovedSpace() = default;
-  /// Boxes of each object before and after, and of what moved alone; of the scene as it is now.
+  /// Of the scene as it is now.
   MovedSpace(const Scene&, std::span<const SceneChange::Moved>);
 
   /// A surface more that is not what it was.
@@ -30,8 +30,11 @@ class MovedSpace {
   bool between(const Vec3f& point, float radius, const BoxF& box) const;
 
  private:
+  void hold(const BoxF&);
+
   float margin_ = 0;
-  std::vector<BoxF> boxes_;
+  BoxF all_;
+  std::vector<BoxF> boxes_;  // few
   std::vector<char> moved_;  // by primitive
 };
 
