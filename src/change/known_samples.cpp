@@ -9,8 +9,8 @@ namespace deltalux::change {
 
 namespace {
 
-constexpr std::size_t kLeaves = 256;  // of a task
-constexpr float kStray = 0.02f;       // of a coded direction from the true one [radians]
+constexpr std::size_t kKnownLeaves = 256;  // of a task
+constexpr float kStray = 0.02f;            // of a coded direction from the true one [radians]
 
 float reachOf(lines::LineCode code) { return std::bit_cast<float>(static_cast<std::uint32_t>(code.reach) << 16); }
 
@@ -63,7 +63,7 @@ lines::KnownLines knownLines(const MovedSpace& space, lines::Lines lines, std::s
     if (of[i] != kNone) now[of[i]] = i;
   for (const lines::EscapedLine& e : escaped) ++firstEscaped[e.leaf + 1];
   for (std::size_t i = 0; i < lines.leaves(); ++i) firstEscaped[i + 1] += firstEscaped[i];
-  parallelFor(lines.leaves(), kLeaves, [&](std::size_t i) {
+  parallelFor(lines.leaves(), kKnownLeaves, [&](std::size_t i) {
     const hierarchy::ElementGeometry& g = before.shape(leavesBefore[i]);
     const bool starts = now[i] != kNone && !space.touches(g.center, g.radius);
     std::uint32_t nextEscaped = firstEscaped[i];

@@ -9,7 +9,7 @@ namespace deltalux::direct {
 
 namespace {
 
-constexpr std::uint64_t kKey = 0x64696d5f5f5f5f5full;
+constexpr std::uint64_t kDimKey = 0x64696d5f5f5f5f5full;
 
 }  // namespace
 
@@ -18,7 +18,7 @@ DimDirect dimDirect(const hierarchy::Elements& elements, const Scene& scene, con
   DimDirect result;
   const hierarchy::ElementGeometry& g = elements.shape(leaf);
   const hierarchy::LeafSequence sequence(elements, scene, leaf);
-  const std::uint64_t key = combineKeys(sequence.key(), kKey);
+  const std::uint64_t key = combineKeys(sequence.key(), kDimKey);
   LampTree::Cut all;
   lamps.tree().cut(g, 1, 0, 0, all);
   const ScrambledSobol choices(combineKeys(key, lamps.all().size()));

@@ -15,7 +15,7 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr std::size_t kLeaves = 1024, kDimLeaves = 16;  // of a task
+constexpr std::size_t kRoomLeaves = 1024, kDimLeaves = 16;  // of a task
 
 /// What the leaves' own lines say of what others send them [W/m2, gray].
 std::vector<float> roughIndirect(const LineSolve& x, const hierarchy::LeafTable& leaves,
@@ -23,7 +23,7 @@ std::vector<float> roughIndirect(const LineSolve& x, const hierarchy::LeafTable&
   const std::size_t n = leaves.size();
   const std::vector<direct::DimDirect> lamps = directOf(x, leaves);
   std::vector<float> rho(n), source(n);
-  parallelFor(n, kLeaves, [&](std::size_t i) {
+  parallelFor(n, kRoomLeaves, [&](std::size_t i) {
     const hierarchy::ElementLight& l = x.s.elements.radiometry[leaves[i].index()];
     rho[i] = gray(l.rho + l.tau), source[i] = gray(lamps[i].E + l.particle);
   });
@@ -40,7 +40,7 @@ std::vector<char> inRooms(const LineSolve& x, const hierarchy::LeafTable& leaves
   const double room = std::min(lines::tuning::kDimRoom / x.s.scene.metresPerUnit,
                                lines::tuning::kSlotOfScene * x.s.elements.sceneBox.diagonal());
   std::vector<char> in(leaves.size(), 0);
-  parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
+  parallelFor(leaves.size(), kRoomLeaves, [&](std::size_t i) {
     const lines::LeafScale& scale = x.samples.scale[leaves[i].index()];
     in[i] = scale.mean > room && std::isfinite(scale.harmonic) && x.takesPart(leaves[i]);
   });

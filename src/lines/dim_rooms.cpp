@@ -13,7 +13,7 @@ namespace deltalux::lines {
 
 namespace {
 
-constexpr std::size_t kLeaves = 1024;  // of a task
+constexpr std::size_t kRoomLeaves = 1024;  // of a task
 
 /// Where a leaf lies. What is narrow neither parts rooms nor lights them.
 enum Place : std::uint8_t { kLit, kDim, kNarrow };
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> waysOut(const TracedLines& traced, std::span<const Pl
     if (place[i] == kDim && place[j] == kLit) ways[i].fetch_add(1, std::memory_order_relaxed);
     if (place[j] == kDim && place[i] == kLit) ways[j].fetch_add(1, std::memory_order_relaxed);
   };
-  parallelFor(place.size(), kLeaves, [&](std::size_t i) {
+  parallelFor(place.size(), kRoomLeaves, [&](std::size_t i) {
     for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k)
       if (lines.end[k] < kFirstMark) count(static_cast<std::uint32_t>(i), lines.end[k]);
   });
@@ -82,7 +82,7 @@ DimCounts dimCounts(const TracedLines& traced, std::span<const float> area, std:
                     double floor, const std::vector<char>& inRoom, bool skies) {
   const std::size_t n = indirect.size();
   std::vector<Place> place(n);
-  parallelFor(n, kLeaves, [&](std::size_t i) {
+  parallelFor(n, kRoomLeaves, [&](std::size_t i) {
     place[i] = !(indirect[i] < floor) ? kLit : inRoom[i] ? kDim : kNarrow;
   });
   const std::vector<std::uint32_t> out = waysOut(traced, place, skies);

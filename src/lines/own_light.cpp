@@ -9,7 +9,7 @@ namespace deltalux::lines {
 
 namespace {
 
-constexpr std::size_t kLeaves = 1024;  // of a task
+constexpr std::size_t kOwnLeaves = 1024;  // of a task
 
 }  // namespace
 
@@ -18,7 +18,7 @@ std::vector<float> ownIndirect(const TracedLines& traced, std::span<const float>
   const std::size_t n = lines.leaves();
   std::vector<float> indirect(n, 0), brightest(n, 0), B(n);
   for (int bounce = 0; bounce < tuning::kDimBounces; ++bounce) {
-    parallelFor(n, kLeaves, [&](std::size_t i) {
+    parallelFor(n, kOwnLeaves, [&](std::size_t i) {
       B[i] = rho[i] * (source[i] + indirect[i]);
       indirect[i] = brightest[i] = 0;
     });
@@ -26,7 +26,7 @@ std::vector<float> ownIndirect(const TracedLines& traced, std::span<const float>
       indirect[i] += light, brightest[i] = std::max(brightest[i], light);
     };
     for (const ExceptionalLine& e : lines.exceptions) add(e.leaf, gray(e.weight) * B[e.end]);
-    parallelFor(n, kLeaves, [&](std::size_t i) {
+    parallelFor(n, kOwnLeaves, [&](std::size_t i) {
       const auto count = static_cast<float>(lines.countOf(i) - traced.covered[i]);
       if (!(count > 0)) return;
       for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k)
@@ -48,7 +48,7 @@ TracedLines replaced(TracedLines traced, const TracedLines& more) {
   const auto of = [&](std::size_t i) -> const TracedLines& { return more.lines.countOf(i) > 0 ? more : traced; };
   for (std::size_t i = 0; i < n; ++i) out.lines.first[i + 1] = out.lines.first[i] + of(i).lines.countOf(i);
   out.lines.end.resize(out.lines.size()), out.lines.code.resize(out.lines.size());
-  parallelFor(n, kLeaves, [&](std::size_t i) {
+  parallelFor(n, kOwnLeaves, [&](std::size_t i) {
     const Lines& l = of(i).lines;
     const auto begin = static_cast<std::ptrdiff_t>(l.first[i]), end = static_cast<std::ptrdiff_t>(l.first[i + 1]),
                at = static_cast<std::ptrdiff_t>(out.lines.first[i]);
