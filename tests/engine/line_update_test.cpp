@@ -43,5 +43,17 @@ TEST(LineUpdate, AsksOnlyWhatAMotionMayHaveChanged) {
   }
 }
 
+TEST(LineUpdate, FollowsAnEditThatComesAfterOneBeforeTheSolve) {
+  Engine engine(furnishedRoom(), settingsOf());
+  const std::string object = editableOfFurnishedRoom().objects.front();
+  engine.apply(TransformObject{object, glm::translate(Mat4(1), Vec3(0.02, 0, 0))});
+  engine.solve();
+  engine.apply(TransformObject{object, glm::translate(Mat4(1), Vec3(0, 0.05, 0))});
+  engine.update();
+  Engine fresh(engine.solution().scene(), settingsOf());
+  fresh.solve();
+  EXPECT_EQ(hashOf(engine), hashOf(fresh));
+}
+
 }  // namespace
 }  // namespace deltalux
