@@ -10,13 +10,10 @@ namespace deltalux::change {
 namespace {
 
 constexpr std::size_t kKnownLeaves = 256;  // of a task
-constexpr float kStray = 0.02f;            // of a coded direction from the true one [radians]
-
-float reachOf(lines::LineCode code) { return std::bit_cast<float>(static_cast<std::uint32_t>(code.reach) << 16); }
 
 /// Whether a line from anywhere about a leaf may pass where something has moved.
 bool mayCross(const MovedSpace& space, const hierarchy::ElementGeometry& g, lines::LineCode code) {
-  return space.crosses(g.center, g.radius, lines::direction(code), reachOf(code), kStray);
+  return space.crosses(g.center, g.radius, lines::direction(code), lines::lengthOf(code), lines::kDirectionError);
 }
 
 }  // namespace
@@ -31,7 +28,9 @@ bool holdFirstLines(const MovedSpace& space, const hierarchy::Elements& elements
   for (std::uint32_t i = 0; i < first.line.size(); ++i) {
     const lines::LineCode code = first.line[i].code;
     if (code.reach == 0 || !mayCross(space, g, code)) continue;
-    if (space.crosses(points.point(i).position, 0, lines::direction(code), reachOf(code), kStray)) return false;
+    if (space.crosses(points.point(i).position, 0, lines::direction(code), lines::lengthOf(code),
+                      lines::kDirectionError))
+      return false;
   }
   return true;
 }
@@ -54,21 +53,20 @@ bool holdShadowRays(const MovedSpace& space, const direct::Lamps& lamps, const h
   return holds;
 }
 
-lines::KnownLines knownLines(const MovedSpace& space, lines::Lines lines, std::span<const lines::EscapedLine> escaped,
+lines::KnownLines knownLines(const MovedSpace& space, lines::Lines all, std::span<const lines::EscapedLine> escaped,
                              std::vector<std::uint32_t> of, const hierarchy::Elements& before,
                              const hierarchy::LeafTable& leavesBefore) {
   constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone, kAgain = lines::KnownLines::kAgain;
-  std::vector<std::uint32_t> now(lines.leaves(), kNone), firstEscaped(lines.leaves() + 1, 0);
+  std::vector<std::uint32_t> now(all.leaves(), kNone);
   for (std::uint32_t i = 0; i < of.size(); ++i)
     if (of[i] != kNone) now[of[i]] = i;
-  for (const lines::EscapedLine& e : escaped) ++firstEscaped[e.leaf + 1];
-  for (std::size_t i = 0; i < lines.leaves(); ++i) firstEscaped[i + 1] += firstEscaped[i];
-  parallelFor(lines.leaves(), kKnownLeaves, [&](std::size_t i) {
+  const std::vector<std::uint32_t> firstEscaped = lines::firstEscaped(escaped, all.leaves());
+  parallelFor(all.leaves(), kKnownLeaves, [&](std::size_t i) {
     const hierarchy::ElementGeometry& g = before.shape(leavesBefore[i]);
     const bool starts = now[i] != kNone && !space.touches(g.center, g.radius);
     std::uint32_t nextEscaped = firstEscaped[i];
-    for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k) {
-      std::uint32_t& end = lines.end[k];
+    for (std::uint64_t k = all.first[i]; k < all.first[i + 1]; ++k) {
+      std::uint32_t& end = all.end[k];
       bool holds = starts;
       if (end == lines::kEscaped) {
         const lines::EscapedLine& e = escaped[nextEscaped++];
@@ -79,11 +77,11 @@ lines::KnownLines knownLines(const MovedSpace& space, lines::Lines lines, std::s
       } else {
         holds = holds && end == lines::kCovered;  // what goes on is not known where
       }
-      const lines::LineCode code = lines.code[k];
+      const lines::LineCode code = all.code[k];
       if (!holds || (code.reach > 0 && mayCross(space, g, code))) end = kAgain;
     }
   });
-  return {std::move(of), std::move(lines)};
+  return {std::move(of), std::move(all)};
 }
 
 }  // namespace deltalux::change

@@ -30,7 +30,7 @@ float surface(const BoxF& box) {
   return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-/// Boxes that hold all of these, some kMost: the largest is parted, at the middle of its boxes.
+/// Boxes that hold all of these, some kMost: the largest is split, at the middle of its boxes.
 std::vector<BoxF> fewBoxes(std::vector<BoxF> boxes) {
   struct Group {
     std::size_t begin, end;

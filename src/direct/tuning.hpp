@@ -27,11 +27,11 @@ constexpr double kAskedShare = 1.0 / 32, kFirstShare = 1.0 / 256, kSeenRank = 16
 /// Shadow rays to those that are drawn: that tell whether others are worth it, and how many where none of those passes,
 /// all pass, or some. Fewer: grain where many faint lamps shine.
 constexpr int kDrawnPilots = 4, kHiddenDrawn = 4, kOpenDrawn = 16, kMixedDrawn = 32;
-/// The same to a lamp, and to those that are drawn, that all rays of the patch have missed that this one is
-/// a part of. Fewer: edges of its light are noticed late. More: rays at walls.
+/// The same to a lamp, and to those that are drawn, that all rays of the patch have missed that this one is a part of.
+/// Fewer: edges of its light are noticed late. More: rays at walls.
 constexpr int kMissedPilots = 1, kMissedRays = 1, kMissedDrawn = 2;
 /// Rays that tell the light of a lamp at a patch that is kept as none of all before has seen it, where it may bring
-/// more than has been found, and of the sun. Fewer: specks where light comes through narrow gaps. More: rays at walls.
+/// most of what is not known, and of the sun. Fewer: specks where light comes through narrow gaps. More: rays at walls.
 constexpr int kUnseenRays = 6, kUnseenSunRays = 2;
 /// Split where direct light varies over quadrants, times area, by more than this many errors of the light there.
 /// Higher: shadows' edges are blurred.

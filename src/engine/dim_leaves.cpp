@@ -78,7 +78,7 @@ lines::TracedLines lookIntoTheDark(LineSolve& x, const lines::LineScene& over, l
     if (std::ranges::all_of(counts.lines, [](std::uint32_t count) { return count == 0; })) break;
     const lines::TracedLines more = lines::traceLines(over, counts.lines);
     lightByManyPoints(x, leaves, more.lines);
-    traced = lines::replaced(std::move(traced), more);
+    traced = lines::replaced(traced, more);
     if (counts.told) break;
   }
   return traced;

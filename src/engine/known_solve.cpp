@@ -86,12 +86,13 @@ const direct::LeafDirect* KnownSolve::whole(const hierarchy::Elements& elements,
   return elements.at(e).depth == 0 && above.none() ? memory_.samples.whole[old].get() : nullptr;
 }
 
-KnownSolve::Judged KnownSolve::judged(const hierarchy::Elements& elements, const direct::Lamps& lamps,
-                                      hierarchy::ElementId e, const lines::LeafScale& scale,
-                                      const direct::LampSight& above) const {
+KnownSolve::Evaluated KnownSolve::evaluated(const hierarchy::Elements& elements, const direct::Lamps& lamps,
+                                            hierarchy::ElementId e, const lines::LeafScale& scale,
+                                            const direct::LampSight& above) const {
   const std::uint32_t old = findLit(elements, lamps, e, scale);
-  if (old == kNone || !memory_.samples.judged[old] || !sameSight(memory_.samples.judged[old]->above, above)) return {};
-  return {memory_.samples.judged[old].get(), &memory_.samples.direct[old]};
+  if (old == kNone || !memory_.samples.evaluated[old] || !sameSight(memory_.samples.evaluated[old]->above, above))
+    return {};
+  return {memory_.samples.evaluated[old].get(), &memory_.samples.direct[old]};
 }
 
 Rgb KnownSolve::indirect(const hierarchy::Elements& elements, hierarchy::ElementId leaf) const {

@@ -11,8 +11,6 @@ class KnownSolve {
   /// Of the solution that there was, out of which elements and lines are taken. `lightsHold`: they shine as they did.
   KnownSolve(SolveMemory, Solution&, change::MovedSpace, bool lightsHold);
 
-  /// The element there was for a patch that is where it was, by index; kNone.
-  std::uint32_t find(const hierarchy::Elements&, hierarchy::ElementId) const;
   /// Takes sides of hollows that have opened or closed for moved: lines into them count otherwise.
   void holdTo(const hierarchy::Elements&, const std::vector<char>& enclosed);
 
@@ -21,19 +19,21 @@ class KnownSolve {
   /// Direct light without a choice, likewise; nullptr.
   const direct::LeafDirect* whole(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId,
                                   const lines::LeafScale&, const direct::LampSight& above) const;
-  struct Judged {
-    const JudgedLight* how = nullptr;
+  struct Evaluated {
+    const EvaluatedLight* how = nullptr;
     const direct::LeafDirect* light = nullptr;
   };
   /// With one.
-  Judged judged(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId, const lines::LeafScale&,
-                const direct::LampSight& above) const;
+  Evaluated evaluated(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId, const lines::LeafScale&,
+                      const direct::LampSight& above) const;
   /// Light of a leaf by way of others as it was; where it was none, black [W/m2].
   Rgb indirect(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
   /// The lines, as they are now; once.
   std::optional<lines::KnownLines> takeLines(const hierarchy::Elements&, const hierarchy::LeafTable&);
 
  private:
+  /// The element there was for a patch that is where it was, by index; kNone.
+  std::uint32_t find(const hierarchy::Elements&, hierarchy::ElementId) const;
   std::uint32_t findLit(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId,
                         const lines::LeafScale&) const;
 

@@ -36,9 +36,7 @@ std::vector<direct::SkyAtLeaf> skyOf(LineSolve& x, const hierarchy::LeafTable& l
   std::vector<direct::SkyAtLeaf> sky(leaves.size());
   if (x.skies.empty()) return sky;
   const direct::Openness open = skyOpenness(x.s.elements, leaves, traced.lines);
-  std::vector<std::uint32_t> first(leaves.size() + 1, 0);
-  for (const lines::EscapedLine& e : traced.escaped) ++first[e.leaf + 1];
-  for (std::size_t i = 0; i < leaves.size(); ++i) first[i + 1] += first[i];
+  const std::vector<std::uint32_t> first = lines::firstEscaped(traced.escaped, leaves.size());
   parallelFor(leaves.size(), kSkyLeaves, [&](std::size_t i) {
     const std::uint32_t count = traced.lines.countOf(i);
     if (count == traced.covered[i]) return;

@@ -48,7 +48,7 @@ struct Samplers {
     const std::size_t e = patch.index();
     const lines::LeafScale& scale = x.samples.scale[e];
     const direct::LampSight above = sightAbove(patch);
-    x.samples.judged[e].reset();
+    x.samples.evaluated[e].reset();
     const direct::LeafDirect* before = x.known ? x.known->whole(x.s.elements, x.lamps, patch, scale, above) : nullptr;
     x.samples.direct[e] = before ? *before : direct.at(patch, {scale.covered, scale.known}, above);
     x.samples.whole[e] = std::make_unique<direct::LeafDirect>(x.samples.direct[e]);
@@ -59,23 +59,23 @@ struct Samplers {
     using enum direct::DirectSampler::Choice;
     const std::size_t e = patch.index();
     const lines::LeafScale& scale = x.samples.scale[e];
-    auto judged = std::make_unique<JudgedLight>(JudgedLight{{}, sightAbove(patch), Whole});
-    const KnownSolve::Judged before =
-        x.known ? x.known->judged(x.s.elements, x.lamps, patch, scale, judged->above) : KnownSolve::Judged{};
+    auto evaluated = std::make_unique<EvaluatedLight>(EvaluatedLight{{}, sightAbove(patch), Whole});
+    const KnownSolve::Evaluated before =
+        x.known ? x.known->evaluated(x.s.elements, x.lamps, patch, scale, evaluated->above) : KnownSolve::Evaluated{};
     std::uint64_t rays = 0;
     const auto choice = before.how ? choose(before.how->found) : Whole;
     if (before.how && (choice == Split || choice == before.how->choice)) {
-      *judged = *before.how, judged->choice = choice;
+      *evaluated = *before.how, evaluated->choice = choice;
       x.samples.direct[e] = choice == Split ? before.how->found : *before.light;
     } else {
       x.samples.direct[e] =
-          direct.at(patch, {scale.covered, scale.known}, judged->above, [&](const direct::LeafDirect& found) {
-            judged->found = found;
-            return judged->choice = choose(found);
+          direct.at(patch, {scale.covered, scale.known}, evaluated->above, [&](const direct::LeafDirect& found) {
+            evaluated->found = found;
+            return evaluated->choice = choose(found);
           });
       rays = x.samples.direct[e].rays;
     }
-    x.samples.judged[e] = std::move(judged);
+    x.samples.evaluated[e] = std::move(evaluated);
     return rays;
   }
   direct::LampSight sightAbove(hierarchy::ElementId patch) const {

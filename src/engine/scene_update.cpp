@@ -59,20 +59,15 @@ bool haveElements(const hierarchy::Elements& elements, const Scene& scene, const
 Restore applyInto(SceneUpdate& update, Scene& scene, const Edit& edit) {
   const std::vector<Light> before = scene.lights;
   const AppliedEdit applied = applyEdit(scene, edit);
-  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  append(update.whole.moved, applied.change.moved);
-  append(update.whole.lights, applied.change.lights);
-  append(update.whole.materials, applied.change.materials);
-  append(update.moved, applied.change.moved);
+  SceneUpdate made{applied.change,      applied.change.moved, {}, {}, applied.change.materials,
+                   editOperation(edit), editSubject(edit)};
   for (const LightId light : applied.change.lights) {
     const bool stays =
         light.index() < before.size() && std::visit([](const auto& a, const auto& b) { return alike(a, b); },
                                                     before[light.index()].emitter, scene[light].emitter);
-    (stays ? update.dimmed : update.movedLights).push_back(light);
+    (stays ? made.dimmed : made.movedLights).push_back(light);
   }
-  update.materials.insert(update.materials.end(), applied.change.materials.begin(), applied.change.materials.end());
-  update.op = editOperation(edit);
-  update.subject = editSubject(edit);
+  update.add(made);
   return applied.inverse;
 }
 

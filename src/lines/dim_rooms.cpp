@@ -4,8 +4,8 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
+#include "base/disjoint_sets.hpp"
 #include "base/parallel.hpp"
 #include "lines/tuning.hpp"
 
@@ -17,24 +17,6 @@ constexpr std::size_t kRoomLeaves = 1024;  // of a task
 
 /// Where a leaf lies. What is narrow neither parts rooms nor lights them.
 enum Place : std::uint8_t { kLit, kDim, kNarrow };
-
-/// Disjoint sets of leaves, each named by its least.
-class Rooms {
- public:
-  explicit Rooms(std::size_t leaves) : parent_(leaves) { std::iota(parent_.begin(), parent_.end(), 0u); }
-
-  std::uint32_t of(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = of(i), j = of(j);
-    if (i != j) parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// Lines that lead out of the dark, by the leaf in the dark.
 std::vector<std::uint32_t> waysOut(const TracedLines& traced, std::span<const Place> place, bool skies) {
@@ -55,8 +37,8 @@ std::vector<std::uint32_t> waysOut(const TracedLines& traced, std::span<const Pl
   return {ways.begin(), ways.end()};
 }
 
-Rooms roomsOf(const Lines& lines, std::span<const Place> place) {
-  Rooms rooms(place.size());
+DisjointSets roomsOf(const Lines& lines, std::span<const Place> place) {
+  DisjointSets rooms(place.size());
   for (std::uint32_t i = 0; i < place.size(); ++i) {
     if (place[i] != kDim) continue;
     for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k)
@@ -86,7 +68,7 @@ DimCounts dimCounts(const TracedLines& traced, std::span<const float> area, std:
     place[i] = !(indirect[i] < floor) ? kLit : inRoom[i] ? kDim : kNarrow;
   });
   const std::vector<std::uint32_t> out = waysOut(traced, place, skies);
-  Rooms rooms = roomsOf(traced.lines, place);
+  DisjointSets rooms = roomsOf(traced.lines, place);
   std::vector<Room> all(n);
   for (std::uint32_t i = 0; i < n; ++i) {
     if (place[i] != kDim) continue;

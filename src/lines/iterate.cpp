@@ -120,7 +120,7 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     });
     report.residual = change.power, report.change = change.most;
     light.B.swap(next);
-    if (gray(report.residual) <= converged * gray(report.emitted) && report.change <= tuning::kSettled) break;
+    if (gray(report.residual) <= converged * gray(report.emitted) && report.change <= tuning::kLeafConverged) break;
   }
   return report;
 }

@@ -29,7 +29,7 @@ struct IterationReport {
 };
 
 /// Passes until the residual is below `converged` times the emitted and no leaf, however dim, has changed by more than
-/// kSettled, or `most` are done.
+/// kLeafConverged, or `most` are done.
 IterationReport iterate(Exchange&, LeafLight&, double converged, int most);
 
 }  // namespace deltalux::lines

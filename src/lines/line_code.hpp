@@ -30,6 +30,12 @@ inline LineCode lineCode(const Vec3f& w, float t) {
   return {static_cast<std::int8_t>(std::lround(127 * x)), static_cast<std::int8_t>(std::lround(127 * y)), reachCode(t)};
 }
 
+/// No less than the length that was coded.
+inline float lengthOf(LineCode code) { return std::bit_cast<float>(static_cast<std::uint32_t>(code.reach) << 16); }
+
+/// Angle between a direction and its code, at most [radians].
+inline constexpr float kDirectionError = 0.02f;
+
 /// Not of unit length; within a degree of the coded one.
 inline Vec3f direction(LineCode code) {
   const float x = static_cast<float>(code.x) / 127.0f, y = static_cast<float>(code.y) / 127.0f;

@@ -65,6 +65,9 @@ struct EscapedLine {
   float chance = 1;  // of its passages
 };
 
+/// By leaf: the first of those that start there, of lines ascending by leaf; one more for the end.
+std::vector<std::uint32_t> firstEscaped(std::span<const EscapedLine>, std::size_t leaves);
+
 struct TracedLines {
   Lines lines;
   std::vector<EscapedLine> escaped;    // ascending by leaf

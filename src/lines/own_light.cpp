@@ -38,7 +38,7 @@ std::vector<float> ownIndirect(const TracedLines& traced, std::span<const float>
   return indirect;
 }
 
-TracedLines replaced(TracedLines traced, const TracedLines& more) {
+TracedLines replaced(const TracedLines& traced, const TracedLines& more) {
   TracedLines out;
   const std::size_t n = traced.lines.leaves();
   out.lines.first.resize(n + 1);

@@ -10,6 +10,6 @@ namespace deltalux::lines {
 std::vector<float> ownIndirect(const TracedLines&, std::span<const float> rho, std::span<const float> source);
 
 /// What was traced, but of leaves that have lines in `more` those in their place. Both of the same leaves.
-TracedLines replaced(TracedLines, const TracedLines& more);
+TracedLines replaced(const TracedLines&, const TracedLines& more);
 
 }  // namespace deltalux::lines

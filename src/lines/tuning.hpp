@@ -75,7 +75,7 @@ constexpr float kMostScale = 4;
 constexpr double kConverged = 1e-6;
 /// Most that a leaf's radiosity changes in the last pass, relative. Larger: dark rooms beside bright places are not
 /// done.
-constexpr double kSettled = 6e-3;
+constexpr double kLeafConverged = 6e-3;
 /// The same of the coarse light, by which the mesh is refined. Larger: dark rooms are meshed for too little light.
 constexpr double kCoarseConverged = 1e-3;
 constexpr int kMostPasses = 2048;

@@ -1,6 +1,6 @@
 #pragma once
 // What a solve over lines has found besides the solution, by which an update finds the same without asking again. It is
-// cheaper to find anew than to read, so files do not have it.
+// cheaper to find again than to read, so files do not have it.
 #include <memory>
 
 #include "direct/leaf_direct.hpp"
@@ -10,7 +10,7 @@
 namespace deltalux {
 
 /// How the direct light of a patch came about.
-struct JudgedLight {
+struct EvaluatedLight {
   direct::LeafDirect found;  // by the rays that its choice was made by
   direct::LampSight above;   // what was known of lamps then
   direct::DirectSampler::Choice choice = direct::DirectSampler::Choice::Whole;
@@ -21,11 +21,11 @@ struct PatchSamples {
   std::vector<lines::LeafScale> scale;
   std::vector<direct::LeafDirect> direct;
   std::vector<std::unique_ptr<lines::FirstLines>> first;
-  std::vector<std::unique_ptr<JudgedLight>> judged;        // where a choice was made
+  std::vector<std::unique_ptr<EvaluatedLight>> evaluated;  // where a choice was made
   std::vector<std::unique_ptr<direct::LeafDirect>> whole;  // where light was asked for without a choice
 
   void resize(std::size_t elements) {
-    scale.resize(elements), direct.resize(elements), first.resize(elements), judged.resize(elements),
+    scale.resize(elements), direct.resize(elements), first.resize(elements), evaluated.resize(elements),
         whole.resize(elements);
   }
 };

@@ -59,9 +59,9 @@ TEST(MovedSpace, KnowsEverySegmentThatMeetsWhereThingsWereOrAre) {
     met += meeting, free += !said;
     // From anywhere about a point that holds `from`, by the code of the line.
     const lines::LineCode code = lines::lineCode(way, length);
-    const float reach = std::bit_cast<float>(static_cast<std::uint32_t>(code.reach) << 16);
     const Vec3f near = Vec3f(from) + Vec3f(0.05f, -0.05f, 0.05f);
-    EXPECT_TRUE(space.crosses(near, 0.1f, lines::direction(code), reach, 0.02f) || !meeting);
+    EXPECT_TRUE(space.crosses(near, 0.1f, lines::direction(code), lines::lengthOf(code), lines::kDirectionError) ||
+                !meeting);
     const Vec3f half(0.1f);
     EXPECT_TRUE(space.between(near, 0.1f, {Vec3f(to) - half, Vec3f(to) + half}) || !meeting);
   }

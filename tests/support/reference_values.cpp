@@ -36,8 +36,8 @@ std::vector<ReferenceValue> readReferenceValues(const std::filesystem::path& csv
     v.point.normal = {number("nx"), number("ny"), number("nz")};
     v.irradiance = {number("E_r"), number("E_g"), number("E_b")};
     v.standardError = {number("se_r"), number("se_g"), number("se_b")};
-    const auto surface = column.contains("surface") ? column["surface"] : column.at("surface_id");
-    v.region = fields[surface];
+    const char* const region = column.contains("surface") ? "surface" : column.contains("name") ? "name" : "surface_id";
+    v.region = fields.at(column.at(region));
     const auto bar = v.region.find('|');
     if (bar != std::string::npos) v.region = v.region.substr(bar + 1);
     values.push_back(v);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <deltalux/solution_mesh.hpp>
-#include <numeric>
 
 #include "base/box_tree.hpp"
+#include "base/disjoint_sets.hpp"
 
 namespace deltalux::rendering {
 
@@ -12,24 +12,6 @@ namespace {
 
 constexpr double kOnePlane = 1 - 1e-7;  // cosine between normals
 constexpr double kTouching = 2e-6;      // of the polygons' size: distance within which they touch
-
-class Groups {
- public:
-  explicit Groups(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0u); }
-
-  std::uint32_t of(std::uint32_t i) {
-    while (above_[i] != i) i = above_[i] = above_[above_[i]];
-    return i;
-  }
-  /// The lowest member stands for a group.
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = of(a), b = of(b);
-    above_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> above_;
-};
 
 std::uint32_t sideNumber(std::uint32_t primitive, bool front) { return 2 * primitive + (front ? 0 : 1); }
 
@@ -49,7 +31,7 @@ std::vector<std::vector<std::uint32_t>> planeGroups(const Scene& scene) {
     boxes.push_back({Vec3f(box.lower - slack), Vec3f(box.upper + slack)});
   }
   const BoxTree tree(boxes);
-  Groups groups(2 * scene.primitives.size());
+  DisjointSets groups(2 * scene.primitives.size());
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     const auto& a = std::get<Polygon>(scene.primitives[polygons[i]].shape);
     tree.overlapping(boxes[i], [&](std::uint32_t j) {
