@@ -47,6 +47,9 @@ class Engine {
   StepReport frame(double milliseconds, Progress* progress = nullptr);
 
   SolutionView solution() const;
+  /// Where the light of the solution goes, as it is now: some hundred thousand rays. After an update, the solution's
+  /// own report says only what is emitted.
+  EnergyLedger balance() const;
 
  private:
   struct State;

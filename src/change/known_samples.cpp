@@ -1,8 +1,12 @@
 #include "change/known_samples.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "change/line_sieve.hpp"
+#include "direct/tuning.hpp"
 #include "hierarchy/leaf_sequence.hpp"
 
 namespace deltalux::change {
@@ -11,77 +15,124 @@ namespace {
 
 constexpr std::size_t kKnownLeaves = 256;  // of a task
 
-/// Whether a line from anywhere about a leaf may pass where something has moved.
-bool mayCross(const MovedSpace& space, const hierarchy::ElementGeometry& g, lines::LineCode code) {
-  return space.crosses(g.center, g.radius, lines::direction(code), lines::lengthOf(code), lines::kDirectionError);
+BoxF boxOf(const hierarchy::ElementGeometry& g) { return {g.lower, g.upper}; }
+BoxF at(const Vec3f& p) { return {p, p}; }
+
+/// Whether a line from anywhere in a box may pass where something has moved.
+bool mayCross(const MovedSpace& space, const BoxF& from, lines::LineCode code) {
+  return space.crosses(from, lines::direction(code), lines::lengthOf(code), lines::kDirectionError);
 }
 
 }  // namespace
 
 bool holdFirstLines(const MovedSpace& space, const hierarchy::Elements& elements, const Scene& scene,
                     hierarchy::ElementId patch, const lines::FirstLines& first) {
-  const hierarchy::ElementGeometry& g = elements.shape(patch);
-  if (space.moved(elements.domain[patch.index()].primitive) || space.touches(g.center, g.radius)) return false;
+  const BoxF box = boxOf(elements.shape(patch));
+  if (space.moved(elements.domain[patch.index()].primitive) || space.touches(box)) return false;
   for (const lines::LineCode code : first.beyond)
-    if (mayCross(space, g, code)) return false;
+    if (mayCross(space, box, code)) return false;
+  std::array<lines::LineCode, hierarchy::LeafSequence::kBatch> codes;
+  std::array<char, hierarchy::LeafSequence::kBatch> near;
+  for (std::uint32_t i = 0; i < codes.size(); ++i) codes[i] = first.line[i].code;
+  LineSieve(space, box, lines::kDirectionError).mark(codes, near);
+  if (std::ranges::find(near, 1) == near.end()) return true;
   const hierarchy::LeafSequence points(elements, scene, patch);
-  for (std::uint32_t i = 0; i < first.line.size(); ++i) {
-    const lines::LineCode code = first.line[i].code;
-    if (code.reach == 0 || !mayCross(space, g, code)) continue;
-    if (space.crosses(points.point(i).position, 0, lines::direction(code), lines::lengthOf(code),
-                      lines::kDirectionError))
-      return false;
+  for (std::uint32_t i = 0; i < codes.size(); ++i) {
+    const lines::LineCode code = codes[i];
+    if (!near[i] || code.reach == 0 || !mayCross(space, box, code)) continue;
+    if (mayCross(space, at(points.point(i).position), code)) return false;
   }
   return true;
+}
+
+bool holdWalks(const MovedSpace& space, bool lightsHold, const lines::LightWalks& walks) {
+  if (!lightsHold || space.touches(walks.box)) return false;
+  return std::ranges::none_of(
+      walks.steps, [&](const lines::LineSegment& s) { return space.crosses(at(s.from), s.direction, s.length); });
 }
 
 bool holdShadowRays(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::Elements& elements,
                     hierarchy::ElementId patch) {
   const hierarchy::ElementGeometry& g = elements.shape(patch);
-  if (space.moved(elements.domain[patch.index()].primitive) || space.touches(g.center, g.radius)) return false;
+  const BoxF box = boxOf(g);
+  if (space.moved(elements.domain[patch.index()].primitive) || space.touches(box)) return false;
   for (const std::uint32_t i : lamps.suns()) {
     const direct::Lamp& sun = lamps.all()[i];
     if (!(direct::potential(sun, g) > 0)) continue;
     const auto stray = static_cast<float>(std::tan(sun.halfAngle));
-    if (space.crosses(g.center, g.radius, Vec3f(sun.axis), std::numeric_limits<float>::infinity(), stray)) return false;
+    if (space.crosses(box, Vec3f(sun.axis), std::numeric_limits<float>::infinity(), stray)) return false;
   }
   bool holds = true;
   lamps.tree().reaching(g, [&](std::uint32_t i, double) {
     const direct::Lamp& lamp = lamps.all()[i];
-    holds = holds && !space.between(g.center, g.radius, {lamp.lower, lamp.upper});
+    holds = holds && !space.between(box, {lamp.lower, lamp.upper});
   });
   return holds;
 }
 
-lines::KnownLines knownLines(const MovedSpace& space, lines::Lines all, std::span<const lines::EscapedLine> escaped,
-                             std::vector<std::uint32_t> of, const hierarchy::Elements& before,
-                             const hierarchy::LeafTable& leavesBefore) {
-  constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone, kAgain = lines::KnownLines::kAgain;
-  std::vector<std::uint32_t> now(all.leaves(), kNone);
+bool holdSkyRays(const MovedSpace& space, const hierarchy::Elements& elements, hierarchy::ElementId patch,
+                 std::span<const lines::LineCode> rays) {
+  const BoxF box = boxOf(elements.shape(patch));
+  if (space.touches(box)) return false;
+  std::array<char, direct::tuning::kSkyRays> near{};
+  LineSieve(space, box, lines::kDirectionError).mark(rays, std::span(near).first(rays.size()));
+  for (std::size_t k = 0; k < rays.size(); ++k)
+    if (near[k] && rays[k].reach > 0 && mayCross(space, box, rays[k])) return false;
+  return true;
+}
+
+lines::KnownLines knownLines(const MovedSpace& space, lines::TracedLines all, std::vector<std::uint32_t> of,
+                             const hierarchy::Elements& before, const hierarchy::LeafTable& leavesBefore) {
+  constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone;
+  using lines::KnownLines;
+  const std::size_t n = all.lines.leaves();
+  std::vector<std::uint32_t> now(n, kNone);
   for (std::uint32_t i = 0; i < of.size(); ++i)
     if (of[i] != kNone) now[of[i]] = i;
-  const std::vector<std::uint32_t> firstEscaped = lines::firstEscaped(escaped, all.leaves());
-  parallelFor(all.leaves(), kKnownLeaves, [&](std::size_t i) {
-    const hierarchy::ElementGeometry& g = before.shape(leavesBefore[i]);
-    const bool starts = now[i] != kNone && !space.touches(g.center, g.radius);
-    std::uint32_t nextEscaped = firstEscaped[i];
-    for (std::uint64_t k = all.first[i]; k < all.first[i + 1]; ++k) {
-      std::uint32_t& end = all.end[k];
+  KnownLines known;
+  known.of = std::move(of), known.now = std::move(now), known.lines = std::move(all.lines);
+  known.escaped = std::move(all.escaped), known.bends = std::move(all.bends);
+  known.firstEscaped = lines::firstOf(known.escaped, n), known.firstBend = lines::firstOf(known.bends, n);
+  known.whole.assign(n, 0);
+  known.firstException = lines::firstOf(known.lines.exceptions, n);
+  parallelFor(n, kKnownLeaves, [&](std::size_t i) {
+    const BoxF box = boxOf(before.shape(leavesBefore[i]));
+    const bool starts = known.now[i] != kNone && !space.touches(box);
+    std::uint32_t exception = known.firstException[i], bend = known.firstBend[i];
+    const std::uint64_t first = known.lines.first[i];
+    std::vector<char> near(known.lines.countOf(i), 0);
+    if (starts && !space.empty())
+      LineSieve(space, box, lines::kDirectionError).mark({known.lines.code.data() + first, near.size()}, near);
+    bool whole = true;
+    for (std::uint64_t k = first; k < known.lines.first[i + 1]; ++k) {
+      std::uint32_t& end = known.lines.end[k];
+      const std::uint32_t mark = end;
       bool holds = starts;
-      if (end == lines::kEscaped) {
-        const lines::EscapedLine& e = escaped[nextEscaped++];
-        holds = holds && e.weight == Rgb(1.0f) && e.chance == 1;
-      } else if (end < lines::kFirstMark) {
-        holds = holds && now[end] != kNone;
-        end = holds ? now[end] : kAgain;
-      } else {
-        holds = holds && end == lines::kCovered;  // what goes on is not known where
+      if (mark < lines::kFirstMark) {
+        holds = holds && known.now[mark] != kNone;
+        end = known.now[mark];
+      } else if (mark == lines::kException) {
+        std::uint32_t& on = known.lines.exceptions[exception++].end;
+        holds = holds && known.now[on] != kNone;
+        if (holds) on = known.now[on];
       }
-      const lines::LineCode code = all.code[k];
-      if (!holds || (code.reach > 0 && mayCross(space, g, code))) end = kAgain;
+      const lines::LineCode code = known.lines.code[k];
+      holds = holds && !(near[k - first] && code.reach > 0 && mayCross(space, box, code));
+      if (mark >= lines::kFirstMark && mark != lines::kEscaped && mark != lines::kCovered)
+        for (; bend < known.firstBend[i + 1] && known.bends[bend].number <= k - first; ++bend) {
+          const lines::Bend& b = known.bends[bend];
+          holds = holds && (b.number < k - first || !mayCross(space, at(b.from), b.code));
+        }
+      whole = whole && holds;
+      if (!holds)
+        end = mark == lines::kEscaped                     ? KnownLines::kEscapedAgain
+              : mark == lines::kException                 ? KnownLines::kExceptionAgain
+              : mark >= lines::kFirstMark || end == kNone ? KnownLines::kAgain
+                                                          : end | KnownLines::kLeafAgain;
     }
+    known.whole[i] = whole;
   });
-  return {std::move(of), std::move(all)};
+  return known;
 }
 
 }  // namespace deltalux::change

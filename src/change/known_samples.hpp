@@ -3,6 +3,7 @@
 // their rays starts or passes where something has moved.
 #include "change/moved_space.hpp"
 #include "direct/lamps.hpp"
+#include "lines/enclosed_sides.hpp"
 #include "lines/first_lines.hpp"
 
 namespace deltalux::change {
@@ -10,13 +11,18 @@ namespace deltalux::change {
 /// Whether a patch's first lines, and what they tell of its surroundings, are as they were. `patch`: as it is now.
 bool holdFirstLines(const MovedSpace&, const hierarchy::Elements&, const Scene&, hierarchy::ElementId patch,
                     const lines::FirstLines&);
+/// Whether walks that looked for light are. `lightsHold`: lamps shine as they did.
+bool holdWalks(const MovedSpace&, bool lightsHold, const lines::LightWalks&);
 /// Whether shadow rays of a patch to suns and lamps are.
 bool holdShadowRays(const MovedSpace&, const direct::Lamps&, const hierarchy::Elements&, hierarchy::ElementId patch);
 
-/// `lines` from before as they are now: `escaped` of them, ascending by leaf; `of` by leaf there is: the leaf of
-/// `lines` that it was where it stands, or kNone; what they were over (`before`) and are over now.
-lines::KnownLines knownLines(const MovedSpace&, lines::Lines lines, std::span<const lines::EscapedLine> escaped,
-                             std::vector<std::uint32_t> of, const hierarchy::Elements& before,
-                             const hierarchy::LeafTable& leavesBefore);
+/// Whether shadow rays of a patch to the sky are, by their codes in the order of its sequence.
+bool holdSkyRays(const MovedSpace&, const hierarchy::Elements&, hierarchy::ElementId patch,
+                 std::span<const lines::LineCode>);
+
+/// Lines from before as they are now; `of` by leaf there is: the leaf that it was where it stands, or kNone; what they
+/// were over (`before`).
+lines::KnownLines knownLines(const MovedSpace&, lines::TracedLines, std::vector<std::uint32_t> of,
+                             const hierarchy::Elements& before, const hierarchy::LeafTable& leavesBefore);
 
 }  // namespace deltalux::change

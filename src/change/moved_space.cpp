@@ -10,10 +10,6 @@ namespace {
 constexpr std::size_t kMost = 8;  // boxes of what was, and of what is: more tell more, and take longer
 constexpr double kMargin = 1e-5;  // that boxes are wider by, in shares of the scene's extent: roundings of origins
 
-float distanceTo(const BoxF& box, const Vec3f& p) {
-  return glm::length(glm::max(glm::max(box.lower - p, p - box.upper), Vec3f(0.0f)));
-}
-
 /// Of the parameters in [begin, end] at which a line is within the slab; none where begin > end then.
 void clip(float lower, float upper, float origin, float direction, float& begin, float& end) {
   if (direction == 0) {
@@ -23,6 +19,17 @@ void clip(float lower, float upper, float origin, float direction, float& begin,
   float near = (lower - origin) / direction, far = (upper - origin) / direction;
   if (near > far) std::swap(near, far);
   begin = std::max(begin, near), end = std::min(end, far);
+}
+
+/// Of the parameters in [begin, end] those at which what goes from `atZero` to `atOne` is not above zero.
+void keepBelow(float atZero, float atOne, float& begin, float& end) {
+  if (atZero > 0 && atOne > 0) end = -1;
+  if (atZero <= 0 && atOne <= 0) return;
+  const float zero = atZero / (atZero - atOne);
+  if (atZero > 0)
+    begin = std::max(begin, zero);
+  else
+    end = std::min(end, zero);
 }
 
 float surface(const BoxF& box) {
@@ -90,33 +97,32 @@ void MovedSpace::add(PrimitiveId primitive, const BoxF& box) {
   hold({box.lower - margin_, box.upper + margin_});
 }
 
-bool MovedSpace::touches(const Vec3f& point, float radius) const {
-  if (distanceTo(all_, point) > radius) return false;
-  return std::ranges::any_of(boxes_, [&](const BoxF& box) { return distanceTo(box, point) <= radius; });
+bool MovedSpace::touches(const BoxF& box) const {
+  return std::ranges::any_of(boxes_, [&](const BoxF& moved) { return moved.overlaps(box); });
 }
 
-bool MovedSpace::crosses(const Vec3f& point, float radius, const Vec3f& direction, float length, float stray) const {
+bool MovedSpace::crosses(const BoxF& from, const Vec3f& direction, float length, float stray) const {
   const float unit = glm::length(direction);
+  const Vec3f point = 0.5f * (from.lower + from.upper), half = 0.5f * (from.upper - from.lower);
   const auto crosses = [&](const BoxF& box) {
     // As wide as the line may have strayed where it is farthest in the box.
     const float far = std::min(length, glm::length(glm::max(glm::abs(box.lower - point), glm::abs(box.upper - point))));
-    const float wide = radius + stray * far;
-    float begin = 0, end = (length + wide) / unit;
+    const Vec3f wide = half + stray * far;
+    float begin = 0, end = (length + glm::length(wide)) / unit;
     for (int axis = 0; axis < 3; ++axis)
-      clip(box.lower[axis] - wide, box.upper[axis] + wide, point[axis], direction[axis], begin, end);
+      clip(box.lower[axis] - wide[axis], box.upper[axis] + wide[axis], point[axis], direction[axis], begin, end);
     return begin <= end;
   };
   return !boxes_.empty() && crosses(all_) && std::ranges::any_of(boxes_, crosses);
 }
 
-bool MovedSpace::between(const Vec3f& point, float radius, const BoxF& target) const {
-  const Vec3f center = 0.5f * (target.lower + target.upper), half = 0.5f * (target.upper - target.lower);
-  const Vec3f way = center - point;
+bool MovedSpace::between(const BoxF& a, const BoxF& b) const {
+  // On the way the box that holds all segments' points grows from one to the other.
   return std::ranges::any_of(boxes_, [&](const BoxF& box) {
     float begin = 0, end = 1;
     for (int axis = 0; axis < 3; ++axis) {
-      const float wide = std::max(radius, half[axis]);
-      clip(box.lower[axis] - wide, box.upper[axis] + wide, point[axis], way[axis], begin, end);
+      keepBelow(a.lower[axis] - box.upper[axis], b.lower[axis] - box.upper[axis], begin, end);
+      keepBelow(box.lower[axis] - a.upper[axis], box.lower[axis] - b.upper[axis], begin, end);
     }
     return begin <= end;
   });

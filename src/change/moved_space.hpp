@@ -21,13 +21,15 @@ class MovedSpace {
 
   bool empty() const { return boxes_.empty(); }
   bool moved(PrimitiveId p) const { return p.index() < moved_.size() && moved_[p.index()]; }
-  /// Whether one of the boxes comes so near to the point.
-  bool touches(const Vec3f& point, float radius) const;
-  /// Whether a line may pass one that starts so near to the point and runs along `direction`, of any length, for so
-  /// long (infinite as well); it may go astray by `stray` of the way.
-  bool crosses(const Vec3f& point, float radius, const Vec3f& direction, float length, float stray = 0) const;
-  /// Whether a segment between a point so near to `point` and one of the box may pass one.
-  bool between(const Vec3f& point, float radius, const BoxF& box) const;
+  /// One that holds all of them.
+  const BoxF& all() const { return all_; }
+  /// Whether one of the boxes and this one have a point in common.
+  bool touches(const BoxF&) const;
+  /// Whether a line may pass one that starts anywhere in `from` and runs along `direction`, of any length, for so long
+  /// (infinite as well); it may go astray by `stray` of the way.
+  bool crosses(const BoxF& from, const Vec3f& direction, float length, float stray = 0) const;
+  /// Whether a segment between points of two boxes may pass one.
+  bool between(const BoxF& a, const BoxF& b) const;
 
  private:
   void hold(const BoxF&);

@@ -1,10 +1,12 @@
 #include "direct/sky_light.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/unit_circle.hpp"
 #include "hierarchy/leaf_sequence.hpp"
+#include "scene/stops_light.hpp"
 
 namespace deltalux::direct {
 
@@ -15,6 +17,10 @@ constexpr std::uint64_t kSkyKey = 0x736b795f5f5full;
 
 /// Power of two nearest to a share.
 float octave(float share) { return std::exp2(std::round(std::log2(std::clamp(share, tuning::kLeastOpen, 1.0f)))); }
+
+void add(std::uint64_t& key, const Rgb& x) {
+  for (int c = 0; c < 3; ++c) key = combineKeys(key, std::bit_cast<std::uint32_t>(x[c]));
+}
 
 /// The middles and the corners of all cells, one coordinate after the other, as passes over arrays want it.
 struct CellLooks {
@@ -62,6 +68,8 @@ Skies::Skies(const Scene& scene) {
     if (const auto* dome = std::get_if<DomeLight>(&light.emitter); dome && !isBlack(light.scale))
       domes_.push_back({*dome, light.scale});
   if (domes_.empty()) return;
+  for (int cell = 0; cell < SkyCells::kCount; ++cell)
+    for (const double corner : {0.25, 0.75}) add(key_, radiance(SkyCells::direction(cell, corner, corner)));
   constexpr int kGrid = 8;
   for (int cell = 0; cell < SkyCells::kCount; ++cell)
     for (int i = 0; i < kGrid * kGrid; ++i)
@@ -103,11 +111,26 @@ void Openness::setShares(std::size_t guide, const Counts& counts) {
   for (std::size_t c = 0; c < SkyCells::kCount; ++c)
     share_[guide * SkyCells::kCount + c] =
         octave((counts.open[c] + tuning::kOpenPrior) / (counts.all[c] + tuning::kLinesPrior));
+  std::uint64_t key = 0;
+  for (std::size_t c = 0; c < SkyCells::kCount; ++c)
+    key = combineKeys(key, std::bit_cast<std::uint32_t>(share_[guide * SkyCells::kCount + c]));
+  keys_[guide] = key;
+}
+
+std::uint64_t skyKey(const Skies& skies, const Openness& openness, const SkyLeaf& s) {
+  std::uint64_t key = combineKeys(combineKeys(skies.key(), openness.key(s.leaf)), s.lines);
+  for (const EscapedView& e : s.escaped) {
+    add(key, Rgb(e.direction)), add(key, e.weight);
+    key = combineKeys(key, std::bit_cast<std::uint32_t>(e.chance));
+  }
+  for (const std::uint32_t point : s.points) key = combineKeys(key, point);
+  return key;
 }
 
 SkyAtLeaf skyLight(const Skies& skies, const Openness& openness, const hierarchy::Elements& elements,
-                   const Scene& scene, const tracing::RayTracer& tracer, const SkyLeaf& s) {
+                   const Scene& scene, const tracing::RayTracer& tracer, const SkyLeaf& s, std::span<SkyRay> ran) {
   SkyAtLeaf result;
+  std::ranges::fill(ran, SkyRay{});
   const hierarchy::ElementGeometry& g = elements.shape(s.element);
   const bool flat = g.normalCone > 0.999f;
   std::array<float, SkyCells::kCount> cumulative;
@@ -153,7 +176,11 @@ SkyAtLeaf skyLight(const Skies& skies, const Openness& openness, const hierarchy
       tracing::Ray ray;
       ray.origin = tracing::offsetOrigin(x.position, x.normal, w), ray.direction = w;
       ++result.rays;
-      const Rgb V = tracer.transmittance(ray);
+      const tracing::Hit hit = tracer.closestHit(ray);
+      const bool stopped = hit && scene::stopsLight(scene.materialOf(hit.primitive));
+      ran[k] = {w, stopped ? hit.t : ray.tFar};
+      if (stopped) continue;
+      const Rgb V = hit ? tracer.transmittance(ray) : Rgb(1.0f);
       if (!isBlack(V)) add(L * V * static_cast<float>(cosine / (guided(cell) + byLines(cosine, V))));
     }
   }

@@ -29,6 +29,8 @@ class Skies {
   Rgb radiance(const Vec3f& direction) const;
   /// Greatest gray radiance of a few directions of a cell.
   float strength(int cell) const { return strength_[static_cast<std::size_t>(cell)]; }
+  /// The same for skies that look the same.
+  std::uint64_t key() const { return key_; }
 
  private:
   struct Dome {
@@ -37,6 +39,7 @@ class Skies {
   };
   std::vector<Dome> domes_;
   std::array<float, SkyCells::kCount> strength_{};
+  std::uint64_t key_ = 0;
 };
 
 /// Openness by guide: shares of lines into each cell that escape, in octaves.
@@ -48,7 +51,7 @@ class Openness {
   Openness(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
            std::span<const std::uint32_t> linesOf, const ForEachLineOf& forEachLineOf) {
     const GuidedLeaves guided = placeGuides(elements, leaves, linesOf);
-    share_.resize(guides_ * SkyCells::kCount);
+    share_.resize(guides_ * SkyCells::kCount), keys_.resize(guides_);
     parallelFor(guides_, 1, [&](std::size_t guide) {
       Counts counts;
       for (std::uint32_t k = guided.first[guide]; k < guided.first[guide + 1]; ++k)
@@ -60,6 +63,8 @@ class Openness {
     });
   }
 
+  /// The same for leaves of equal shares.
+  std::uint64_t key(std::uint32_t leaf) const { return keys_[guideOf_[leaf]]; }
   /// Chance that a line from the leaf into a cell escapes, about; never 0.
   float at(std::uint32_t leaf, int cell) const {
     return share_[std::size_t(guideOf_[leaf]) * SkyCells::kCount + static_cast<std::size_t>(cell)];
@@ -80,6 +85,7 @@ class Openness {
   std::size_t guides_ = 0;
   std::vector<std::uint32_t> guideOf_;  // by leaf
   std::vector<float> share_;            // by guide and cell
+  std::vector<std::uint64_t> keys_;     // by guide: of its shares
 };
 
 /// Own lines of a leaf that escape.
@@ -105,8 +111,16 @@ struct SkyLeaf {
   std::span<const std::uint32_t> points;  // numbers of open points of its sequence: a shadow ray each
 };
 
-/// The skies' irradiance over what is not covered of a leaf.
+/// Where a shadow ray ran: as far as what stops light there.
+struct SkyRay {
+  Vec3f direction{0.0f};
+  float length = 0;  // 0: there was none
+};
+
+/// The skies' irradiance over what is not covered of a leaf. `rays`: becomes those of its points, in order.
 SkyAtLeaf skyLight(const Skies&, const Openness&, const hierarchy::Elements&, const Scene&, const tracing::RayTracer&,
-                   const SkyLeaf&);
+                   const SkyLeaf&, std::span<SkyRay> rays);
+/// The same for leaves whose sky light is the same where nothing is in the way that was not: of what it follows from.
+std::uint64_t skyKey(const Skies&, const Openness&, const SkyLeaf&);
 
 }  // namespace deltalux::direct

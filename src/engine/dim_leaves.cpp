@@ -47,11 +47,12 @@ std::vector<char> inRooms(const LineSolve& x, const hierarchy::LeafTable& leaves
   return in;
 }
 
-/// From as many points as they have lines.
-void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Lines& lines) {
+/// Direct light of leaves that got more lines: from as many points.
+void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Lines& lines,
+                       const std::vector<char>& more) {
   std::vector<std::uint32_t> all;
   for (std::uint32_t i = 0; i < leaves.size(); ++i)
-    if (lines.countOf(i) > 0) all.push_back(i);
+    if (more[i]) all.push_back(i);
   std::vector<std::pair<hierarchy::ElementId, direct::DimDirect>> found(all.size());
   parallelFor(all.size(), kDimLeaves, [&](std::size_t n) {
     const std::uint32_t i = all[n];
@@ -61,7 +62,7 @@ void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, const l
     found[n] = {leaves[i], direct::dimDirect(x.s.elements, x.s.scene, *x.s.tracer, x.lamps, leaves[i], points)};
   });
   for (const auto& [leaf, light] : found) x.s.report.counts.raysVisibility += light.rays;
-  x.dim.insert(x.dim.end(), found.begin(), found.end());  // of a leaf the last counts
+  x.dim = std::move(found);
 }
 
 }  // namespace
@@ -69,18 +70,20 @@ void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, const l
 lines::TracedLines lookIntoTheDark(LineSolve& x, const lines::LineScene& over, lines::TracedLines traced) {
   if (!(x.floor > 0)) return traced;
   const hierarchy::LeafTable& leaves = over.leaves;
-  const std::vector<char> rooms = inRooms(x, leaves);
+  const std::vector<lines::Place> places =
+      lines::placesOf(roughIndirect(x, leaves, traced), x.floor, inRooms(x, leaves));
+  if (std::ranges::find(places, lines::kDim) == places.end()) return traced;
   std::vector<float> area(leaves.size());
   for (std::size_t i = 0; i < leaves.size(); ++i) area[i] = x.s.elements.shape(leaves[i]).area;
+  std::vector<char> more(leaves.size(), 0);
   for (int round = 0; round < lines::tuning::kDimRounds; ++round) {
-    const lines::DimCounts counts =
-        lines::dimCounts(traced, area, roughIndirect(x, leaves, traced), x.floor, rooms, !x.skies.empty());
+    const lines::DimCounts counts = lines::dimCounts(traced, area, places, !x.skies.empty());
+    for (std::size_t i = 0; i < more.size(); ++i) more[i] |= counts.lines[i] > 0;
     if (std::ranges::all_of(counts.lines, [](std::uint32_t count) { return count == 0; })) break;
-    const lines::TracedLines more = lines::traceLines(over, counts.lines);
-    lightByManyPoints(x, leaves, more.lines);
-    traced = lines::replaced(traced, more);
+    traced = lines::replaced(traced, lines::traceLines(over, counts.lines));
     if (counts.told) break;
   }
+  lightByManyPoints(x, leaves, traced.lines, more);
   return traced;
 }
 

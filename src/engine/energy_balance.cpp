@@ -191,6 +191,11 @@ Specular specularLight(const Solution& s, const particles::ParticleTransfer& tra
 
 }  // namespace
 
+double emittedPower(const Solution& s, const particles::ParticleTransfer& transfer) {
+  return s.scene.metresPerUnit * s.scene.metresPerUnit *
+         gray(surfacesOf(s).direct + specularLight(s, transfer).ofLights);
+}
+
 EnergyLedger energyBalance(const Solution& s, const particles::ParticleTransfer& transfer, const RgbSum& unsettled) {
   const Surfaces surfaces = surfacesOf(s);
   const Outcome diffuse = s.settings.method == SolveMethod::Lines ? lineLight(s) : diffuseLight(s);

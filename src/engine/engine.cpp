@@ -65,6 +65,8 @@ StepReport Engine::frame(double milliseconds, Progress* progress) {
 
 void Engine::select(const std::string& object) { state_->select(object); }
 
+EnergyLedger Engine::balance() const { return state_->balance(); }
+
 SolutionView Engine::solution() const {
   if (!state_->counted) state_->count();
   return SolutionView(state_->solution);

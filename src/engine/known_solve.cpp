@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/parallel.hpp"
+
 namespace deltalux::engine {
 
 namespace {
+
+constexpr std::size_t kLeavesOfTask = 1024;
 
 bool sameSight(const direct::LampSight& a, const direct::LampSight& b) {
   return a.asked == b.asked && a.seen == b.seen && a.drawnAsked == b.drawnAsked && a.drawnSeen == b.drawnSeen;
@@ -41,9 +45,18 @@ std::uint32_t KnownSolve::find(const hierarchy::Elements& elements, hierarchy::E
   return at->second;
 }
 
-void KnownSolve::holdTo(const hierarchy::Elements& elements, const std::vector<char>& enclosed) {
+void KnownSolve::holdTo(const hierarchy::Elements& elements) {
   const Box &now = elements.sceneBox, &before = elements_.sceneBox;
-  holds_ = now.lower == before.lower && now.upper == before.upper;  // scales of the scene are measured by it
+  holds_ = now.lower == before.lower && now.upper == before.upper;
+}
+
+lines::LightWalks* KnownSolve::walks(const hierarchy::Elements& elements, hierarchy::ElementId side) {
+  const std::uint32_t old = find(elements, side);
+  if (old == kNone || !change::holdWalks(space_, lightsHold_, memory_.walks[old])) return nullptr;
+  return &memory_.walks[old];
+}
+
+void KnownSolve::moveOpened(const hierarchy::Elements& elements, const std::vector<char>& enclosed) {
   std::vector<hierarchy::ElementId> other;
   for (const hierarchy::ElementId e : elements.inputs) {
     if (!elements.receives(e) || space_.moved(elements.domain[e.index()].primitive)) continue;
@@ -100,13 +113,31 @@ Rgb KnownSolve::indirect(const hierarchy::Elements& elements, hierarchy::Element
   return old == kNone ? Rgb(0.0f) : elements_.radiometry[old].indirect;
 }
 
+std::vector<std::uint32_t> KnownSolve::leavesBefore(const hierarchy::Elements& elements,
+                                                    const hierarchy::LeafTable& leaves) const {
+  std::vector<std::uint32_t> of(leaves.size(), kNone);
+  parallelFor(leaves.size(), kLeavesOfTask, [&](std::size_t i) {
+    if (const std::uint32_t old = find(elements, leaves[i]); old != kNone) of[i] = leaves_.indexOf[old];
+  });
+  return of;
+}
+
 std::optional<lines::KnownLines> KnownSolve::takeLines(const hierarchy::Elements& elements,
                                                        const hierarchy::LeafTable& leaves) {
   if (!holds_) return {};
-  std::vector<std::uint32_t> of(leaves.size(), kNone);
-  for (std::size_t i = 0; i < leaves.size(); ++i)
-    if (const std::uint32_t old = find(elements, leaves[i]); old != kNone) of[i] = leaves_.indexOf[old];
-  return change::knownLines(space_, std::exchange(lines_, {}), memory_.escaped, std::move(of), elements_, leaves_);
+  lines::TracedLines all{std::exchange(lines_, {}), std::move(memory_.escaped), std::move(memory_.bends), {}, 0};
+  return change::knownLines(space_, std::move(all), leavesBefore(elements, leaves), elements_, leaves_);
+}
+
+std::span<const lines::LineCode> KnownSolve::skyRays(std::uint32_t before) const {
+  constexpr std::size_t kEach = direct::tuning::kSkyRays;
+  return {memory_.sky.rays.data() + before * kEach, kEach};
+}
+
+const direct::SkyAtLeaf* KnownSolve::sky(const hierarchy::Elements& elements, hierarchy::ElementId leaf,
+                                         std::uint32_t before, std::uint64_t key) const {
+  if (before >= memory_.sky.key.size() || memory_.sky.key[before] != key) return nullptr;
+  return change::holdSkyRays(space_, elements, leaf, skyRays(before)) ? &memory_.sky.at[before] : nullptr;
 }
 
 }  // namespace deltalux::engine

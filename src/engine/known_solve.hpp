@@ -11,8 +11,12 @@ class KnownSolve {
   /// Of the solution that there was, out of which elements and lines are taken. `lightsHold`: they shine as they did.
   KnownSolve(SolveMemory, Solution&, change::MovedSpace, bool lightsHold);
 
+  /// Nothing is known where the extent of the scene is another, by which its scales are measured.
+  void holdTo(const hierarchy::Elements&);
+  /// Walks for light from a side that are what they would be now, or nothing.
+  lines::LightWalks* walks(const hierarchy::Elements&, hierarchy::ElementId side);
   /// Takes sides of hollows that have opened or closed for moved: lines into them count otherwise.
-  void holdTo(const hierarchy::Elements&, const std::vector<char>& enclosed);
+  void moveOpened(const hierarchy::Elements&, const std::vector<char>& enclosed);
 
   /// Takes what is known of a patch's surroundings; false where that may have changed.
   bool takeScale(const hierarchy::Elements&, const Scene&, hierarchy::ElementId, PatchSamples& to);
@@ -28,8 +32,15 @@ class KnownSolve {
                       const direct::LampSight& above) const;
   /// Light of a leaf by way of others as it was; where it was none, black [W/m2].
   Rgb indirect(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
+  /// By leaf: the number that it had where it stands, or LeafTable::kNone.
+  std::vector<std::uint32_t> leavesBefore(const hierarchy::Elements&, const hierarchy::LeafTable&) const;
   /// The lines, as they are now; once.
   std::optional<lines::KnownLines> takeLines(const hierarchy::Elements&, const hierarchy::LeafTable&);
+  /// Sky light of a leaf, that had that number, if it follows from what has that key; nullptr.
+  const direct::SkyAtLeaf* sky(const hierarchy::Elements&, hierarchy::ElementId leaf, std::uint32_t before,
+                               std::uint64_t key) const;
+  std::span<const lines::LineCode> skyRays(std::uint32_t before) const;
+  const lines::Exchange* exchange() const { return memory_.exchange.get(); }
 
  private:
   /// The element there was for a patch that is where it was, by index; kNone.

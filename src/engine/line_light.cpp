@@ -1,5 +1,6 @@
 // The light of leaves over lines: sky light by what lines see of it, exchange, iteration to convergence.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -19,6 +20,7 @@ namespace {
 constexpr std::size_t kLeaves = 1024, kSkyLeaves = 16;  // of a task
 constexpr double kWidest = 8;                           // standard errors, beyond which no error lies
 constexpr int kSteps = 24;                              // of a bisection
+constexpr int kErrorSteps = 64 * 20;                    // of errors of leaves, in 64ths of an octave
 
 /// What each leaf sends of the light of its sources but for skies [W, gray].
 std::vector<float> powerOf(const LineSolve& x, const hierarchy::LeafTable& leaves) {
@@ -31,30 +33,59 @@ std::vector<float> powerOf(const LineSolve& x, const hierarchy::LeafTable& leave
   return power;
 }
 
-std::vector<direct::SkyAtLeaf> skyOf(LineSolve& x, const hierarchy::LeafTable& leaves,
-                                     const lines::TracedLines& traced) {
-  std::vector<direct::SkyAtLeaf> sky(leaves.size());
+/// Sky light of every leaf; that of leaves which nothing has changed for is taken from before.
+KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::TracedLines& traced) {
+  constexpr std::size_t kEach = direct::tuning::kSkyRays;
+  KnownSky sky;
+  sky.at.resize(leaves.size());
   if (x.skies.empty()) return sky;
+  const KnownSolve* known = x.floor > 0 ? x.known : nullptr;  // not of the coarse light, whose leaves were others
+  sky.key.resize(leaves.size()), sky.rays.resize(leaves.size() * kEach);
   const direct::Openness open = skyOpenness(x.s.elements, leaves, traced.lines);
-  const std::vector<std::uint32_t> first = lines::firstEscaped(traced.escaped, leaves.size());
-  parallelFor(leaves.size(), kSkyLeaves, [&](std::size_t i) {
+  const std::vector<std::uint32_t> first = lines::firstOf(traced.escaped, leaves.size());
+  std::vector<std::uint32_t> before;
+  if (known) before = known->leavesBefore(x.s.elements, leaves);
+  x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(leaves.size(), kSkyLeaves, [&](std::size_t i) {
+    lines::LineCode* codes = sky.rays.data() + i * kEach;
+    std::fill_n(codes, kEach, lines::LineCode{});
     const std::uint32_t count = traced.lines.countOf(i);
-    if (count == traced.covered[i]) return;
+    if (count == traced.covered[i]) return std::uint64_t(0);
     std::vector<direct::EscapedView> escaped;
     for (std::uint32_t k = first[i]; k < first[i + 1]; ++k) {
       const lines::EscapedLine& e = traced.escaped[k];
       escaped.push_back({e.direction, e.cosine, e.weight, e.chance});
     }
     // Where lines are so many that they would be their own guides, what they have found by chance would count less.
-    const std::size_t rays = count < direct::tuning::kGuideLines ? direct::tuning::kSkyRays : 0;
+    const std::size_t rays = count < direct::tuning::kGuideLines ? kEach : 0;
     std::vector<std::uint32_t> points;
     for (std::uint32_t k = 0; k < count && points.size() < rays; ++k)
       if (traced.lines.end[traced.lines.first[i] + k] != lines::kCovered) points.push_back(k);
-    sky[i] = direct::skyLight(x.skies, open, x.s.elements, x.s.scene, *x.s.tracer,
-                              {static_cast<std::uint32_t>(i), leaves[i], count - traced.covered[i], escaped, points});
+    const direct::SkyLeaf leaf{static_cast<std::uint32_t>(i), leaves[i], count - traced.covered[i], escaped, points};
+    sky.key[i] = direct::skyKey(x.skies, open, leaf);
+    const direct::SkyAtLeaf* same = known && before[i] != hierarchy::LeafTable::kNone
+                                        ? known->sky(x.s.elements, leaves[i], before[i], sky.key[i])
+                                        : nullptr;
+    if (same) {
+      sky.at[i] = *same;
+      std::ranges::copy(known->skyRays(before[i]), codes);
+      return std::uint64_t(0);
+    }
+    std::array<direct::SkyRay, kEach> ran;
+    const std::span<direct::SkyRay> own = std::span(ran).first(points.size());
+    sky.at[i] = direct::skyLight(x.skies, open, x.s.elements, x.s.scene, *x.s.tracer, leaf, own);
+    for (std::size_t k = 0; k < own.size(); ++k)
+      if (own[k].length > 0) codes[k] = lines::lineCode(own[k].direction, own[k].length);
+    return std::uint64_t(sky.at[i].rays);
   });
-  for (const direct::SkyAtLeaf& a : sky) x.s.report.counts.raysVisibility += a.rays;
   return sky;
+}
+
+std::unique_ptr<lines::Exchange> exchangeOf(const LineSolve& x, const hierarchy::LeafTable& leaves,
+                                            const lines::TracedLines& traced) {
+  const lines::Exchange* before = x.knownLines ? x.known->exchange() : nullptr;
+  if (!before) return std::make_unique<lines::Exchange>(traced.lines, x.s.elements, leaves, x.tracer, traced.covered);
+  return std::make_unique<lines::Exchange>(*before, *x.knownLines, traced.lines, x.s.elements, leaves, x.tracer,
+                                           traced.covered);
 }
 
 }  // namespace
@@ -75,10 +106,9 @@ lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base) {
   x.dim.clear();
   const std::vector<std::uint32_t> counts = lines::lineCounts(elements, leaves, powerOf(x, leaves), x.enclosed, base);
   const hierarchy::LeafLocator locator(elements, x.s.scene, leaves);
-  const std::optional<lines::KnownLines> known =
-      x.known && x.floor > 0 ? x.known->takeLines(elements, leaves) : std::nullopt;
+  if (x.known && x.floor > 0) x.knownLines = x.known->takeLines(elements, leaves);
   const lines::LineScene over{elements, leaves,     locator,         x.tracer,
-                              x.cover,  x.enclosed, x.samples.first, known ? &*known : nullptr};
+                              x.cover,  x.enclosed, x.samples.first, x.knownLines ? &*x.knownLines : nullptr};
   lines::TracedLines traced = lookIntoTheDark(x, over, lines::traceLines(over, counts));
   DELTALUX_VALIDATED(validate(traced.lines));
   x.s.report.counts.raysVisibility += traced.rays;
@@ -90,15 +120,16 @@ void lightLeaves(LineSolve& x, lines::TracedLines traced, double converged) {
   hierarchy::Elements& elements = s.elements;
   const hierarchy::LeafTable leaves(elements);
   const std::size_t n = leaves.size();
-  lines::Exchange exchange(traced.lines, elements, leaves, x.tracer, traced.covered);
-  const std::vector<direct::SkyAtLeaf> sky = skyOf(x, leaves, traced);
+  x.exchange = exchangeOf(x, leaves, traced);
+  lines::Exchange& exchange = *x.exchange;
+  KnownSky sky = skyOf(x, leaves, traced);
   const std::vector<direct::DimDirect> lamps = directOf(x, leaves);
 
   lines::LeafLight light = lines::leafLight(elements, leaves);
   parallelFor(n, kLeaves, [&](std::size_t i) {
     const std::size_t e = leaves[i].index();
     hierarchy::ElementLight& l = elements.radiometry[e];
-    l.direct = exchange.area(i) > 0 ? lamps[i].E + sky[i].E : Rgb(0.0f);
+    l.direct = exchange.area(i) > 0 ? lamps[i].E + sky.at[i].E : Rgb(0.0f);
     light.source[i] = l.direct + l.particle;
     // Not of the coarse light, by which the mesh is refined: what iteration leaves would decide.
     if (x.known && x.floor > 0) light.indirect[i] = x.known->indirect(elements, leaves[i]);
@@ -110,10 +141,11 @@ void lightLeaves(LineSolve& x, lines::TracedLines traced, double converged) {
   parallelFor(n, kLeaves, [&](std::size_t i) {
     const std::size_t e = leaves[i].index();
     elements.radiometry[e].indirect = light.indirect[i], elements.radiometry[e].B = light.B[i];
-    const double own = s.deviation[i], lamp = lamps[i].deviation, dome = sky[i].deviation;
+    const double own = s.deviation[i], lamp = lamps[i].deviation, dome = sky.at[i].deviation;
     s.deviation[i] = static_cast<float>(std::sqrt(own * own + lamp * lamp + dome * dome));
   });
-  s.lines = std::move(traced.lines), x.escaped = std::move(traced.escaped);
+  s.lines = std::move(traced.lines), x.escaped = std::move(traced.escaped), x.bends = std::move(traced.bends);
+  x.sky = std::move(sky);
   s.report.counts.lines = s.lines.size();
   s.report.memory.lines = s.lines.memoryBytes() + exchange.memoryBytes();
 }
@@ -132,14 +164,23 @@ ErrorEstimate estimateError(const Solution& s, double floor) {
     all.push_back({s.deviation[i] / std::max(E, floor), A});
     area += A, widest = std::max(widest, all.back().error);
   }
-  // The errors of leaves are as good as normal: within how much a share of all area lies.
+  // The errors of leaves are as good as normal: within how much a share of all area lies. Errors that are the same
+  // within a 64th of an octave count together.
+  std::vector<Leaf> steps(kErrorSteps);
+  for (const Leaf& leaf : all) {
+    const double below = leaf.error > 0 ? 64 * std::log2(widest / leaf.error) : kErrorSteps - 1.0;
+    Leaf& step = steps[static_cast<std::size_t>(std::min(below, kErrorSteps - 1.0))];
+    step.error += leaf.area * leaf.error, step.area += leaf.area;
+  }
+  std::erase_if(steps, [](const Leaf& step) { return !(step.area > 0); });
+  for (Leaf& step : steps) step.error /= step.area;
   const auto quantile = [&](double share) -> std::optional<double> {
     if (all.empty()) return {};
     double low = 0, high = kWidest * widest;
     for (int step = 0; step < kSteps; ++step) {
       const double middle = 0.5 * (low + high);
       double within = 0;
-      for (const Leaf& leaf : all)
+      for (const Leaf& leaf : steps)
         within += leaf.area * (leaf.error > 0 ? std::erf(middle / (std::numbers::sqrt2 * leaf.error)) : 1.0);
       (within < share * area ? low : high) = middle;
     }

@@ -13,7 +13,6 @@
 #include "lines/tuning.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/particle_tracing.hpp"
-#include "particles/transfer.hpp"
 #include "radiosity/push_pull.hpp"
 
 namespace deltalux::engine {
@@ -70,10 +69,6 @@ void openToParticles(LineSolve& x) {
     }
 }
 
-void placeParticles(Solution& s) {
-  particles::ParticleTransfer(s.particles, s.elements, s.scene).apply(s.elements, s.scene);
-}
-
 bool traceParticles(Solution& s, const TimeBudget& budget) {
   if (s.settings.diffuseOnly) return true;
   const particles::ParticleSettings settings = lineParticles(s);
@@ -122,6 +117,16 @@ bool LineSolve::takesPart(hierarchy::ElementId patch) const {
   return !enclosed[hierarchy::surfaceOf(s.elements, patch).index()];
 }
 
+std::shared_ptr<SolveMemory> memoryOf(LineSolve&& x) {
+  auto memory = std::make_shared<SolveMemory>();
+  memory->samples = std::move(x.samples);
+  memory->walks = std::move(x.walks), memory->enclosed = std::move(x.enclosed);
+  memory->escaped = std::move(x.escaped), memory->bends = std::move(x.bends);
+  memory->sky = std::move(x.sky), memory->exchange = std::move(x.exchange);
+  memory->plain = x.responses.plain();
+  return memory;
+}
+
 std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const TimeBudget& budget, Progress* progress) {
   Clock watch;
   auto solve = std::make_unique<LineSolve>(s, known);
@@ -135,16 +140,19 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const T
   s.elements = hierarchy::buildElements(s.scene, sides, std::move(orders));
   if (!s.elements.sceneRoot.valid()) return solve;
   divideSkies(s.elements, s.scene);
-  solve->enclosed = lines::enclosedSides(s.elements, solve->tracer, s.report.counts.raysVisibility);
+  if (known) known->holdTo(s.elements);
+  const auto knownWalks = [&](hierarchy::ElementId side) { return known ? known->walks(s.elements, side) : nullptr; };
+  solve->walks = lines::walkForLight(s.elements, solve->tracer, knownWalks, s.report.counts.raysVisibility);
+  for (const lines::LightWalks& w : solve->walks) solve->enclosed.push_back(w.enclosed);
   openToParticles(*solve);
-  if (known) known->holdTo(s.elements, solve->enclosed);
+  if (known) known->moveOpened(s.elements, solve->enclosed);
   s.report.times.hierarchy += watch.lap();
   checkInterrupted(progress);
 
   const std::vector<hierarchy::ElementId> inputs = receivingInputs(s.elements);
   samplePatches(*solve, inputs);
   lines::setMeanFreePaths(s.elements, solve->samples.scale);
-  placeParticles(s);
+  particles::ParticleTransfer(s.particles, s.elements, s.scene).apply(s.elements, s.scene);
   lightLeaves(*solve, traceLeaves(*solve, lines::tuning::kFirstLines), lines::tuning::kCoarseConverged);
   for (const hierarchy::ElementId e : inputs) {
     hierarchy::ElementLight& l = s.elements.radiometry[e.index()];
@@ -152,7 +160,6 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const T
   }
   solve->floor = direct::tuning::kFloor * meanIrradiance(s.elements);
   radiosity::pull(s.elements);
-  DELTALUX_VALIDATED(validate(s.elements));
   s.report.times.visibility += watch.lap();
   if (progress) progress->report("coarse light", 1.0);
   return solve;
@@ -167,7 +174,8 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
     return budget.limited() && budget.left() < (1 - kMeshTime) * budget.seconds();
   });
   if (!budget.up()) refineForParticles(x);
-  placeParticles(s);
+  x.transfer.emplace(s.particles, s.elements, s.scene);
+  x.transfer->apply(s.elements, s.scene);
   const double meshSeconds = watch.lap();
   s.report.times.refine += meshSeconds;
   if (progress) progress->report("mesh", 1.0);

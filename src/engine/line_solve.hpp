@@ -9,6 +9,7 @@
 #include <deltalux/progress.hpp>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "direct/dim_direct.hpp"
 #include "direct/sky_light.hpp"
@@ -16,6 +17,7 @@
 #include "engine/time_budget.hpp"
 #include "lines/leaf_scale.hpp"
 #include "particles/particle_tracing.hpp"
+#include "particles/transfer.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::engine {
@@ -32,11 +34,17 @@ struct LineSolve {
   lines::Cover cover;
   direct::Lamps lamps;
   direct::Skies skies;
-  std::vector<char> enclosed;  // by element of the input level
+  std::vector<lines::LightWalks> walks;  // by element of the input level
+  std::vector<char> enclosed;            // the same: whether neither they nor particles find light
   PatchSamples samples;
   std::vector<std::pair<hierarchy::ElementId, direct::DimDirect>> dim;  // direct light where light hardly comes
   std::vector<lines::EscapedLine> escaped;                              // of the lines, in the end
+  std::vector<lines::Bend> bends;                                       // of the same
+  KnownSky sky;                                                         // in the end
+  std::optional<lines::KnownLines> knownLines;                          // what is known of the lines before
+  std::unique_ptr<lines::Exchange> exchange;                            // over the lines, in the end
   double floor = 0;                                                     // light that still matters [W/m2, gray]
+  std::optional<particles::ParticleTransfer> transfer;                  // on the mesh, in the end
   bool allParticles = true;                                             // as many as the error asks for: there was time
 
   bool takesPart(hierarchy::ElementId patch) const;
@@ -65,6 +73,9 @@ void lightLeaves(LineSolve&, lines::TracedLines, double converged);
 ErrorEstimate estimateError(const Solution&, double floor);
 
 // The rounds.
+
+/// What the next solve may ask of one that is done.
+std::shared_ptr<SolveMemory> memoryOf(LineSolve&&);
 
 /// Of particles that start at lights alone.
 particles::ParticleSettings lineParticles(const Solution&);

@@ -2,6 +2,7 @@
 // asks; then every leaf gets its row of transfers, and light settles over rows.
 #include <algorithm>
 #include <deltalux/error.hpp>
+#include <utility>
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
@@ -64,11 +65,11 @@ void Engine::State::lineRound(Progress* progress) {
   }
   finished = true;
   s.report.converged = engine::solveFinely(*lineSolve, budget, progress);
-  if (!budget.limited())
-    s.memory = std::make_shared<SolveMemory>(SolveMemory{std::move(lineSolve->samples), std::move(lineSolve->enclosed),
-                                                         std::move(lineSolve->escaped), lineSolve->responses.plain()});
+  transfer = std::move(lineSolve->transfer);
+  if (!budget.limited()) s.memory = engine::memoryOf(std::move(*lineSolve));
   lineSolve.reset(), known.reset();
-  makeTextures(), count();
+  followTextures();
+  count();
   budget = engine::TimeBudget(0);  // updates take what time they need
 }
 
@@ -193,6 +194,16 @@ void Engine::State::makeTextures() {
   countTextures();
 }
 
+void Engine::State::followTextures() {
+  Solution& s = *solution;
+  if (!upkeep || !newPaths) return makeTextures();
+  const engine::Clock time;
+  upkeep->follow(*std::exchange(newPaths, {}), *transfer, s.caustics);
+  DELTALUX_VALIDATED(validate(s.caustics));
+  s.report.times.textures += time.seconds();
+  countTextures();
+}
+
 void Engine::State::countTextures() {
   Solution& s = *solution;
   s.report.counts.causticTextures = s.caustics.count();
@@ -222,10 +233,11 @@ bool Engine::State::settle(Progress* progress) {
 void Engine::State::solveAfresh(Progress* progress) {
   Solution& s = *solution;
   if (!known) s.tracer = tracing::makeEmbreeTracer(s.scene), s.memory.reset();
-  transfer.reset(), upkeep.reset(), settling.reset(), backlog = {};
-  if (!known) tracing.reset(), groups = {}, s.particles = {};
-  s.elements = {}, s.links = {}, s.transfers = {}, s.lines = {}, s.deviation.clear(), lineSolve.reset(),
-  s.caustics = {}, s.report = {};
+  transfer.reset(), settling.reset(), backlog = {};
+  if (!known) tracing.reset(), newPaths.reset(), groups = {}, s.particles = {};
+  if (!newPaths) upkeep.reset(), s.caustics = {};
+  s.elements = {}, s.links = {}, s.transfers = {}, s.lines = {}, s.deviation.clear(), lineSolve.reset();
+  s.report = {};
   finished = false;
   clock = {};
   while (!finished) step(progress);
@@ -280,11 +292,18 @@ RgbSum Engine::State::directPower() const {
   });
 }
 
+EnergyLedger Engine::State::balance() {
+  Solution& s = *solution;
+  if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
+  return engine::energyBalance(s, *transfer, unsettled);
+}
+
 void Engine::State::count() {
   Solution& s = *solution;
-  if (finished) {
+  if (finished && !updated) s.report.energy = balance();
+  if (finished && updated) {
     if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
-    s.report.energy = engine::energyBalance(s, *transfer, unsettled);
+    s.report.energy = {engine::emittedPower(s, *transfer), {}, {}, {}};
   }
   WorkCounts& c = s.report.counts;
   c.elements = s.elements.size();

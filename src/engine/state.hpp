@@ -49,6 +49,7 @@ struct Engine::State {
   std::optional<particles::ParticleTracing> tracing;    // knows the scene that the particles are of
   RgbSum unsettled{0.0};                                // power that the last iteration of rows changed
   bool counted = true;                                  // the report is of the solution as it is
+  bool updated = false;                                 // since it was solved: its balance waits until it is asked for
   std::optional<engine::LightSettling> settling;        // from update to update
   std::optional<particles::ParticleTransfer> transfer;  // of the particles, on the mesh of the rows
   std::optional<caustics::TextureUpkeep> upkeep;        // of the textures, once there are edits
@@ -56,6 +57,7 @@ struct Engine::State {
   engine::MovingGroups groups;                          // of the tracer
   std::unique_ptr<engine::LineSolve> lineSolve;         // between rounds of a solve over lines
   engine::SceneUpdate lineEdits;                        // since the last solve over lines
+  std::optional<particles::ParticleUpdate> newPaths;    // paths that the last edits have led elsewhere
   std::optional<engine::KnownSolve> known;              // of the solution before, while the next is found
 
   /// Whether light is exchanged by lines: an update is then a solve of the edited scene.
@@ -74,6 +76,8 @@ struct Engine::State {
   caustics::SurfaceSides chooseTextures();
   /// Of the light in the end, as updates judge it.
   void makeTextures();
+  /// Those there were, where edits have left nearly all of their particles.
+  void followTextures();
   void countTextures();
   /// Gathers until the light no longer changes.
   bool settle(Progress* progress);
@@ -87,6 +91,7 @@ struct Engine::State {
   RgbSum directPower() const;
   /// Sums that take a walk over everything, for who looks at the report.
   void count();
+  EnergyLedger balance();
   radiosity::LeafTransferSettings leafSettings() const {
     radiosity::LeafTransferSettings settings;
     settings.error = solution->settings.error;
@@ -115,10 +120,10 @@ struct Engine::State {
   /// Where light of particles is new. It is sent on from where it lies, so the mesh must know.
   bool subdivideWhereParticlesLanded(StepReport& step);
   /// On the mesh as it is now.
-  void placeParticles(const particles::ParticleUpdate& followed, engine::LightChanges&, StepReport& step);
+  void placeParticles(const particles::ParticleUpdate& newPaths, engine::LightChanges&, StepReport& step);
   void spreadParticlesAnew(engine::LightChanges&);
   /// Elements for what the edits brought into the light.
-  engine::Growth grow(const engine::SceneUpdate& edits, const particles::ParticleUpdate& followed, StepReport& step);
+  engine::Growth grow(const engine::SceneUpdate& edits, const particles::ParticleUpdate& newPaths, StepReport& step);
   /// Paths that were traced anew leave gaps.
   bool gapsAreMany(double most = engine::kMostGaps) const;
   void closeGaps();
@@ -157,7 +162,7 @@ struct Engine::State {
   void followWithRows(const SecondsLeft& left, StepReport& step);
   /// Traces those that deposit the most anew, as many as there is time for, and carries their light along.
   void followInPart(const SecondsLeft& left, StepReport& step);
-  void carryTextures(engine::TextureFlux& textures, const particles::ParticleUpdate& followed);
+  void carryTextures(engine::TextureFlux& textures, const particles::ParticleUpdate& newPaths);
   /// Brings the particles' light to the elements, and hands on light as often as there is time for.
   void iterate(const SecondsLeft& left, StepReport& step);
   /// Gives an object a place of its own in the tracer, and makes ready what updates need to know.

@@ -25,6 +25,7 @@ StepReport Engine::State::update(Progress* progress) {
   StepReport step;
   const std::uint64_t traced = tracer().traced();
   takeIn(step);
+  updated = true;
   if (backlog.afresh) {
     recall(std::exchange(lineEdits, {}));
     const std::uint64_t before = known ? traced : 0;  // or by a tracer of its own
@@ -96,10 +97,10 @@ void Engine::State::takeIn(StepReport& step, bool inMotion) {
 
 void Engine::State::recall(const engine::SceneUpdate& edits) {
   Solution& s = *solution;
-  known.reset();
+  known.reset(), newPaths.reset();
   const std::shared_ptr<SolveMemory> before = std::exchange(s.memory, {});
   if (before.use_count() != 1 || !finished) return;  // what others hold too is theirs
-  if (!tracing && !s.settings.diffuseOnly) return;   // nobody has followed the particles from the start
+  if (!tracing && !s.settings.diffuseOnly) return;   // nobody has newPaths the particles from the start
   const std::vector<char> plain = lines::SurfaceResponses(s.scene, !s.settings.diffuseOnly).plain();
   for (const MaterialId m : edits.materials)  // lines go on as others say
     if (m.index() >= before->plain.size() || !before->plain[m.index()] || !plain[m.index()]) return;
@@ -111,9 +112,11 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
   }
   groups.rebuild(tracer(), s.scene, moved);
   if (tracing) {
-    tracing->follow(s.particles, edits.whole);
+    newPaths = tracing->follow(s.particles, edits.whole);
     DELTALUX_VALIDATED(validate(s.particles, s.scene));
-    if (gapsAreMany()) closeGaps();
+    const bool added = std::ranges::any_of(edits.moved, [](const SceneChange::Moved& m) { return m.before.empty(); });
+    if (newPaths->all || added) newPaths.reset();
+    if (gapsAreMany()) closeGaps(), newPaths.reset();
   }
   const bool lightsHold = edits.movedLights.empty() && edits.dimmed.empty() && !lampMoves;
   known.emplace(std::move(*before), s, change::MovedSpace(s.scene, edits.moved), lightsHold);
@@ -145,7 +148,11 @@ void Engine::State::prepareToFollow() {
   Solution& s = *solution;
   if (!finished) return;
   if (byLines()) {
-    if (s.memory && !tracing && !s.settings.diffuseOnly) tracing.emplace(s.scene, *s.tracer, engine::lineParticles(s));
+    if (!s.memory || s.settings.diffuseOnly) return;
+    if (!tracing) tracing.emplace(s.scene, *s.tracer, engine::lineParticles(s));
+    if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
+    if (!upkeep && s.settings.causticTextures)
+      upkeep.emplace(caustics::TextureUpkeep::Parts{s.scene, s.elements, s.particles}, *transfer, s.settings.error);
     return;
   }
   if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);

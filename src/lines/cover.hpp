@@ -34,8 +34,4 @@ class Cover {
   BoxTree tree_;             // over them
 };
 
-/// By element of the input level: whether walks from it find no light, in a hollow too small to be a room. What lies
-/// there takes no part, and covers what it stands on. [lines.md]
-std::vector<char> enclosedSides(const hierarchy::Elements&, const class LineTracer&, std::uint64_t& rays);
-
 }  // namespace deltalux::lines

@@ -15,9 +15,6 @@ namespace {
 
 constexpr std::size_t kRoomLeaves = 1024;  // of a task
 
-/// Where a leaf lies. What is narrow neither parts rooms nor lights them.
-enum Place : std::uint8_t { kLit, kDim, kNarrow };
-
 /// Lines that lead out of the dark, by the leaf in the dark.
 std::vector<std::uint32_t> waysOut(const TracedLines& traced, std::span<const Place> place, bool skies) {
   const Lines& lines = traced.lines;
@@ -60,13 +57,14 @@ struct Room {
 
 }  // namespace
 
-DimCounts dimCounts(const TracedLines& traced, std::span<const float> area, std::span<const float> indirect,
-                    double floor, const std::vector<char>& inRoom, bool skies) {
-  const std::size_t n = indirect.size();
-  std::vector<Place> place(n);
-  parallelFor(n, kRoomLeaves, [&](std::size_t i) {
-    place[i] = !(indirect[i] < floor) ? kLit : inRoom[i] ? kDim : kNarrow;
-  });
+std::vector<Place> placesOf(std::span<const float> indirect, double floor, const std::vector<char>& inRoom) {
+  std::vector<Place> place(indirect.size());
+  for (std::size_t i = 0; i < place.size(); ++i) place[i] = !(indirect[i] < floor) ? kLit : inRoom[i] ? kDim : kNarrow;
+  return place;
+}
+
+DimCounts dimCounts(const TracedLines& traced, std::span<const float> area, std::span<const Place> place, bool skies) {
+  const std::size_t n = place.size();
   const std::vector<std::uint32_t> out = waysOut(traced, place, skies);
   DisjointSets rooms = roomsOf(traced.lines, place);
   std::vector<Room> all(n);

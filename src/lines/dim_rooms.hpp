@@ -5,6 +5,12 @@
 
 namespace deltalux::lines {
 
+/// Where a leaf lies. What is narrow neither parts rooms nor lights them.
+enum Place : std::uint8_t { kLit, kDim, kNarrow };
+/// `indirect`: light of leaves by way of others [W/m2, gray], without what may shine in on a few; `floor`: light that
+/// matters; `inRoom`: whether a leaf sees far enough to lie in a room.
+std::vector<Place> placesOf(std::span<const float> indirect, double floor, const std::vector<char>& inRoom);
+
 struct DimCounts {
   std::vector<std::uint32_t> lines;  // by leaf
   bool told = true;                  // no room gets more without any that lead out: those it gets may find some
@@ -12,10 +18,7 @@ struct DimCounts {
 
 /// By leaf: how many lines it wants in place of those it has, so that enough of its room's lead out, as many an area
 /// all over the room; 0 where it has enough, or is in no such room, or so many of its room's lines lead nowhere that it
-/// is closed. `area`: of leaves; `indirect`: light of leaves by way of others [W/m2, gray], without what may shine in
-/// on a few; `floor`: light that matters; `inRoom`: whether a leaf sees far enough to lie in a room; `skies`: whether
-/// what leaves the scene meets light.
-DimCounts dimCounts(const TracedLines&, std::span<const float> area, std::span<const float> indirect, double floor,
-                    const std::vector<char>& inRoom, bool skies);
+/// is closed. `area`: of leaves; `skies`: whether what leaves the scene meets light.
+DimCounts dimCounts(const TracedLines&, std::span<const float> area, std::span<const Place>, bool skies);
 
 }  // namespace deltalux::lines

@@ -1,13 +1,13 @@
-// Which sides of surfaces face hollows that no light reaches: the insides of logs, legs and cushions.
+#include "lines/enclosed_sides.hpp"
+
 #include <cmath>
 
 #include "base/cosine_direction.hpp"
 #include "base/parallel.hpp"
 #include "hierarchy/leaf_sequence.hpp"
-#include "lines/cover.hpp"
-#include "lines/follow_line.hpp"
 #include "lines/tuning.hpp"
 #include "scene/light_sampling.hpp"
+#include "scene/stops_light.hpp"
 #include "tracing/shadow_ray.hpp"
 
 namespace deltalux::lines {
@@ -15,6 +15,18 @@ namespace deltalux::lines {
 namespace {
 
 constexpr std::uint64_t kWalkKey = 0x77616c6b73ull;
+constexpr std::size_t kMostWalkSteps = 8;  // that are kept one by one
+
+/// Many short steps are as well told by the box that they run in.
+void putIntoBox(LightWalks& walks) {
+  if (walks.steps.size() <= kMostWalkSteps) return;
+  for (const LineSegment& s : walks.steps) {
+    if (!std::isfinite(s.length)) return;
+    const Vec3f end = s.from + s.length * s.direction;
+    walks.box.extend({glm::min(s.from, end), glm::max(s.from, end)});
+  }
+  walks.steps.clear();
+}
 
 /// Looks for light along diffuse walks.
 class LightSearch {
@@ -29,8 +41,16 @@ class LightSearch {
     }
   }
 
-  /// Whether nothing of it is found from the side, and the mean distance of the walks' steps is below `hollow`.
-  bool encloses(hierarchy::ElementId side, double hollow, std::uint64_t& rays) const {
+  /// Enclosed: nothing of it is found from the side, and the mean distance of the walks' steps is below `hollow`.
+  LightWalks from(hierarchy::ElementId side, double hollow, std::uint64_t& rays) const {
+    LightWalks walks;
+    walks.enclosed = encloses(side, hollow, walks, rays);
+    putIntoBox(walks);
+    return walks;
+  }
+
+ private:
+  bool encloses(hierarchy::ElementId side, double hollow, LightWalks& walks, std::uint64_t& rays) const {
     const hierarchy::LeafSequence points(elements_, scene_, side);
     double length = 0;
     int steps = 0;
@@ -38,10 +58,10 @@ class LightSearch {
       Rng random(combineKeys(points.key(), kWalkKey), static_cast<std::uint64_t>(walk));
       hierarchy::PatchPoint x = points.point(static_cast<std::uint32_t>(walk));
       for (int bounce = 0; bounce < tuning::kBounces; ++bounce) {
-        if (sees(x, random, rays)) return false;
+        if (sees(x, random, walks, rays)) return false;
         const double u = random.uniform(), v = random.uniform();
         const Vec3f w(cosineDirection(Frame(Vec3(x.normal)), u, v));
-        const LineEnd end = tracer_.follow(x.position, x.normal, w, Rng(random.bits()));
+        const LineEnd end = tracer_.follow(x.position, x.normal, w, Rng(random.bits()), &walks.steps);
         ++rays;
         if (end.fate == LineFate::Escaped && outside_) return false;
         if (end.fate != LineFate::Ended) break;
@@ -57,17 +77,20 @@ class LightSearch {
     return steps > 0 && length < hollow * steps && width * steps < tuning::kWidestHollow * length;
   }
 
- private:
   /// A shadow ray to one of the lights that are not all around.
-  bool sees(const hierarchy::PatchPoint& x, Rng& random, std::uint64_t& rays) const {
+  bool sees(const hierarchy::PatchPoint& x, Rng& random, LightWalks& walks, std::uint64_t& rays) const {
     if (asked_.empty()) return false;
     const auto k = static_cast<std::size_t>(random.uniform() * static_cast<double>(asked_.size()));
     const double u = random.uniform(), v = random.uniform();
     const auto s = lights_.sample(asked_[k], Vec3(x.position), {u, v});
     if (!s || !(glm::dot(s->direction, Vec3(x.normal)) > 0) || isBlack(s->radiance)) return false;
     ++rays;
-    return !isBlack(tracer_.tracer().transmittance(
-        tracing::shadowRay(Vec3(x.position), Vec3(x.normal), s->direction, s->distance, s->normal)));
+    const tracing::Ray ray = tracing::shadowRay(Vec3(x.position), Vec3(x.normal), s->direction, s->distance, s->normal);
+    // What is beyond the first surface that stops light does not matter.
+    const tracing::Hit hit = tracer_.tracer().closestHit(ray);
+    const bool stopped = hit && scene::stopsLight(scene_.materialOf(hit.primitive));
+    walks.steps.push_back({ray.origin, ray.direction, stopped ? hit.t : static_cast<float>(s->distance)});
+    return !stopped && (!hit || !isBlack(tracer_.tracer().transmittance(ray)));
   }
 
   const hierarchy::Elements& elements_;
@@ -80,20 +103,23 @@ class LightSearch {
 
 }  // namespace
 
-std::vector<char> enclosedSides(const hierarchy::Elements& elements, const LineTracer& tracer, std::uint64_t& rays) {
+std::vector<LightWalks> walkForLight(const hierarchy::Elements& elements, const LineTracer& tracer,
+                                     const KnownWalks& known, std::uint64_t& rays) {
   constexpr std::size_t kBlock = 16;
   const Scene& scene = tracer.scene();
   const double hollow =
       std::min(tuning::kHollow / scene.metresPerUnit, tuning::kHollowOfScene * elements.sceneBox.diagonal());
   const LightSearch search(elements, tracer);
-  std::vector<char> enclosed(elements.size(), 0);
+  std::vector<LightWalks> walks(elements.size());
   rays += parallelSum<std::uint64_t>(elements.inputs.size(), kBlock, [&](std::size_t i) {
     std::uint64_t own = 0;
     const hierarchy::ElementId side = elements.inputs[i];
-    if (elements.receives(side)) enclosed[side.index()] = search.encloses(side, hollow, own);
+    if (!elements.receives(side)) return own;
+    LightWalks* before = known(side);
+    walks[side.index()] = before ? std::move(*before) : search.from(side, hollow, own);
     return own;
   });
-  return enclosed;
+  return walks;
 }
 
 }  // namespace deltalux::lines

@@ -15,10 +15,39 @@ constexpr std::size_t kLeaves = 512;  // of a task
 constexpr float kLeastEnd = 1e-6f;    // in place of a chance of 0
 constexpr std::uint32_t kMostCount = 0xffff;
 
+struct RowEntry {
+  std::uint32_t id;
+  std::int32_t lines;
+};
+
+/// So many lines more, or less, between the leaf of a row and another.
+struct RowChange {
+  std::uint32_t row, other;
+  std::int32_t lines;
+};
+
+/// change(leaf, lines) of the straight lines of leaf i by the leaves that they end on, of those that there were too.
+template <class Change>
+void forEachChange(const KnownLines& known, const Lines& lines, std::uint32_t i, const Change& change) {
+  constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone;
+  const std::uint32_t old = known.of[i], count = lines.countOf(i),
+                      countBefore = old == kNone ? 0 : known.lines.countOf(old);
+  const std::uint32_t* now = lines.end.data() + lines.first[i];
+  const std::uint32_t* before = old == kNone ? nullptr : known.lines.end.data() + known.lines.first[old];
+  for (std::uint32_t k = 0; k < std::max(count, countBefore); ++k) {
+    const std::uint32_t a = k < countBefore ? KnownLines::leafOf(before[k]) : kNone,
+                        b = k < count && now[k] < kFirstMark ? now[k] : kNone;
+    if (a == b) continue;
+    if (a != kNone) change(a, -1);
+    if (b != kNone) change(b, 1);
+  }
+}
+
 }  // namespace
 
-Exchange::Exchange(const Lines& lines, const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
-                   const LineTracer& tracer, std::span<const std::uint32_t> covered) {
+/// Without rows.
+Exchange::Exchange(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves, const LineTracer& tracer,
+                   const Lines& lines, std::span<const std::uint32_t> covered) {
   const std::size_t n = leaves.size();
   area_.resize(n), m_.resize(n), e_.resize(n), closed_.resize(n), target_.resize(n), records_.resize(n);
   scale_.assign(n, 1.0f);
@@ -30,7 +59,22 @@ Exchange::Exchange(const Lines& lines, const hierarchy::Elements& elements, cons
     area_[i] = count > 0 ? g.litArea() : 0.0f;
     m_[i] = area_[i] > 0 ? count / (area_[i] * e_[i]) : 0.0f;
   });
+}
+
+Exchange::Exchange(const Lines& lines, const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
+                   const LineTracer& tracer, std::span<const std::uint32_t> covered)
+    : Exchange(elements, leaves, tracer, lines, covered) {
   build(lines);
+  addSpecials(lines);
+  setTargets(lines, covered);
+  scale();
+}
+
+Exchange::Exchange(const Exchange& before, const KnownLines& known, const Lines& lines,
+                   const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves, const LineTracer& tracer,
+                   std::span<const std::uint32_t> covered)
+    : Exchange(elements, leaves, tracer, lines, covered) {
+  build(before, known, lines);
   addSpecials(lines);
   setTargets(lines, covered);
   scale();
@@ -79,6 +123,70 @@ void Exchange::build(const Lines& lines) {
   parallelFor(n, kLeaves, [&](std::size_t i) {
     std::uint64_t at = begin_[i];
     forEachEntry(i, [&](std::uint32_t j, std::uint16_t count) { id_[at] = j, count_[at++] = count; });
+  });
+}
+
+void Exchange::build(const Exchange& before, const KnownLines& known, const Lines& lines) {
+  const std::size_t n = lines.leaves(), blocks = (n + kLeaves - 1) / kLeaves;
+  // Ends of straight lines that are others.
+  std::vector<std::vector<RowChange>> found(blocks);
+  parallelBlocks(n, kLeaves, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      forEachChange(known, lines, static_cast<std::uint32_t>(i), [&](std::uint32_t j, std::int32_t more) {
+        found[begin / kLeaves].push_back({static_cast<std::uint32_t>(i), j, more});
+        if (!onlyReceives(i)) found[begin / kLeaves].push_back({j, static_cast<std::uint32_t>(i), more});
+      });
+  });
+  std::vector<std::uint64_t> first(n + 1, 0);
+  for (const auto& block : found)
+    for (const RowChange& c : block) ++first[c.row + 1];
+  for (std::size_t i = 0; i < n; ++i) first[i + 1] += first[i];
+  std::vector<RowChange> changes(first[n]);
+  std::vector<std::uint64_t> next(first.begin(), first.end() - 1);
+  for (const auto& block : found)
+    for (const RowChange& c : block) changes[next[c.row]++] = c;
+
+  struct Rows {
+    std::vector<std::uint32_t> id, size;
+    std::vector<std::uint16_t> count;
+  };
+  std::vector<Rows> rows(blocks);
+  parallelBlocks(n, kLeaves, [&](std::size_t begin, std::size_t end) {
+    Rows& to = rows[begin / kLeaves];
+    std::vector<RowEntry> row;
+    for (std::size_t i = begin; i < end; ++i) {
+      row.clear();
+      bool ordered = first[i] == first[i + 1];
+      if (const std::uint32_t old = known.of[i]; old != hierarchy::LeafTable::kNone) {
+        for (std::uint64_t k = before.begin_[old]; k < before.begin_[old + 1]; ++k) {
+          const std::uint32_t j = known.now[before.id_[k]];
+          if (j == hierarchy::LeafTable::kNone) continue;
+          ordered = ordered && (row.empty() || row.back().id <= j);
+          row.push_back({j, before.count_[k]});
+        }
+      }
+      for (std::uint64_t k = first[i]; k < first[i + 1]; ++k) row.push_back({changes[k].other, changes[k].lines});
+      if (!ordered) std::ranges::stable_sort(row, {}, &RowEntry::id);
+      const std::size_t entries = to.id.size();
+      for (std::size_t k = 0; k < row.size();) {
+        std::int64_t left = 0;
+        const std::uint32_t j = row[k].id;
+        for (; k < row.size() && row[k].id == j; ++k) left += row[k].lines;
+        for (; left > 0; left -= kMostCount) {
+          to.id.push_back(j);
+          to.count.push_back(static_cast<std::uint16_t>(std::min<std::int64_t>(left, kMostCount)));
+        }
+      }
+      to.size.push_back(static_cast<std::uint32_t>(to.id.size() - entries));
+    }
+  });
+  begin_.resize(n + 1);
+  begin_[0] = 0;
+  for (std::size_t i = 0; i < n; ++i) begin_[i + 1] = begin_[i] + rows[i / kLeaves].size[i % kLeaves];
+  id_.resize(begin_[n]), count_.resize(begin_[n]);
+  parallelFor(blocks, 1, [&](std::size_t b) {
+    std::ranges::copy(rows[b].id, id_.data() + begin_[b * kLeaves]);
+    std::ranges::copy(rows[b].count, count_.data() + begin_[b * kLeaves]);
   });
 }
 

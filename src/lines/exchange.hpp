@@ -29,6 +29,10 @@ class Exchange {
  public:
   Exchange(const Lines&, const hierarchy::Elements&, const hierarchy::LeafTable&, const LineTracer&,
            std::span<const std::uint32_t> covered);
+  /// The same, to the last bit, from that over the lines from before: for the lines that are others. `known`: what was
+  /// known of them.
+  Exchange(const Exchange& before, const KnownLines& known, const Lines&, const hierarchy::Elements&,
+           const hierarchy::LeafTable&, const LineTracer&, std::span<const std::uint32_t> covered);
 
   std::size_t leaves() const { return area_.size(); }
   /// Lit area [unit^2]; share of a leaf's own lines that end on leaves.
@@ -52,7 +56,10 @@ class Exchange {
   };
   /// Whether no line ends there, since it sends nothing diffusely: its lines count at their start alone.
   bool onlyReceives(std::size_t leaf) const { return e_[leaf] < 1e-3f; }
+  Exchange(const hierarchy::Elements&, const hierarchy::LeafTable&, const LineTracer&, const Lines&,
+           std::span<const std::uint32_t> covered);
   void build(const Lines&);
+  void build(const Exchange& before, const KnownLines&, const Lines&);
   void addSpecials(const Lines&);
   void setTargets(const Lines&, std::span<const std::uint32_t> covered);
   void scale();

@@ -13,13 +13,14 @@ void passStraight(tracing::Ray& ray, const tracing::Hit& hit) {
 
 }  // namespace
 
-LineEnd LineTracer::follow(tracing::Ray ray, tracing::Hit hit, Rng random) const {
+LineEnd LineTracer::follow(tracing::Ray ray, tracing::Hit hit, Rng random, std::vector<LineSegment>* way) const {
   LineEnd end;
   const Dielectric* medium = nullptr;
   float passed = 0;  // length of straight passages before the first other surface
   int events = 0;
   for (int segment = 0; segment < tuning::kMostSegments; ++segment) {
     if (segment > 0) hit = tracer_.closestHit(ray);
+    if (way) way->push_back({ray.origin, ray.direction, hit ? hit.t : std::numeric_limits<float>::infinity()});
     if (!hit) {
       end.fate = LineFate::Escaped;
       return end;

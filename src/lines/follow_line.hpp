@@ -1,6 +1,8 @@
 #pragma once
 // One line: from a point of a surface into a direction, through panes and over mirrors, gloss and glass, to the diffuse
 // surface where it ends.
+#include <vector>
+
 #include "base/random.hpp"
 #include "hierarchy/side_table.hpp"
 #include "lines/surface_responses.hpp"
@@ -32,6 +34,12 @@ struct LineEnd {
   Rgb absorbed{0.0f};
 };
 
+/// One ray of a line.
+struct LineSegment {
+  Vec3f from{0.0f}, direction{0.0f};  // unit
+  float length = 0;                   // infinite where it left the scene
+};
+
 class LineTracer {
  public:
   /// All must outlive this.
@@ -39,13 +47,15 @@ class LineTracer {
       : scene_(scene), tracer_(tracer), responses_(responses) {}
 
   /// From surface point `p` with the unit normal of its side, into unit `direction`. `random` decides at branches.
-  LineEnd follow(const Vec3f& p, const Vec3f& normal, const Vec3f& direction, Rng random) const {
+  /// `way`, if any: its rays are added there.
+  LineEnd follow(const Vec3f& p, const Vec3f& normal, const Vec3f& direction, Rng random,
+                 std::vector<LineSegment>* way = nullptr) const {
     tracing::Ray ray;
     ray.origin = tracing::offsetOrigin(p, normal, direction), ray.direction = direction;
-    return follow(ray, tracer_.closestHit(ray), random);
+    return follow(ray, tracer_.closestHit(ray), random, way);
   }
   /// The same with the first hit known.
-  LineEnd follow(tracing::Ray ray, tracing::Hit hit, Rng random) const;
+  LineEnd follow(tracing::Ray ray, tracing::Hit hit, Rng random, std::vector<LineSegment>* way = nullptr) const;
 
   const Scene& scene() const { return scene_; }
   const tracing::RayTracer& tracer() const { return tracer_; }

@@ -28,13 +28,6 @@ std::uint64_t Lines::hash(std::span<const std::uint64_t> keys) const {
   return all;
 }
 
-std::vector<std::uint32_t> firstEscaped(std::span<const EscapedLine> escaped, std::size_t leaves) {
-  std::vector<std::uint32_t> first(leaves + 1, 0);
-  for (const EscapedLine& e : escaped) ++first[e.leaf + 1];
-  for (std::size_t i = 0; i < leaves; ++i) first[i + 1] += first[i];
-  return first;
-}
-
 void validate(const Lines& lines) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::logic_error(std::string("lines: ") + what);

@@ -65,24 +65,51 @@ struct EscapedLine {
   float chance = 1;  // of its passages
 };
 
+/// A segment of a line behind the first surface that it went on over.
+struct Bend {
+  std::uint32_t leaf = 0, number = 0;  // of the line: where it starts, and which of that leaf's
+  Vec3f from{0.0f};
+  LineCode code;
+};
+
 /// By leaf: the first of those that start there, of lines ascending by leaf; one more for the end.
-std::vector<std::uint32_t> firstEscaped(std::span<const EscapedLine>, std::size_t leaves);
+template <class OfLeaf>
+std::vector<std::uint32_t> firstOf(const std::vector<OfLeaf>& ascending, std::size_t leaves) {
+  std::vector<std::uint32_t> first(leaves + 1, 0);
+  for (const OfLeaf& x : ascending) ++first[x.leaf + 1];
+  for (std::size_t i = 0; i < leaves; ++i) first[i + 1] += first[i];
+  return first;
+}
 
 struct TracedLines {
   Lines lines;
   std::vector<EscapedLine> escaped;    // ascending by leaf
+  std::vector<Bend> bends;             // ascending by leaf, number and way
   std::vector<std::uint32_t> covered;  // by leaf: lines that are not there
   std::uint64_t rays = 0;
 };
 
 struct FirstLines;
 
-/// Lines that were traced before and are what they would be now, but for those that are marked kAgain.
+/// Lines that were traced before and are what they would be now, but for those that are marked to be traced again.
 struct KnownLines {
-  static constexpr std::uint32_t kAgain = kFirstMark - 1;
+  static constexpr std::uint32_t kAgain = kFirstMark - 1, kEscapedAgain = kFirstMark - 2,
+                                 kExceptionAgain = kFirstMark - 3;
+  static constexpr std::uint32_t kLeafAgain = 1u << 31;  // set in the leaf where such a line ended
 
-  std::vector<std::uint32_t> of;  // by leaf: the leaf of `lines` that it was; LeafTable::kNone: none
-  Lines lines;                    // they end on leaves that there are now
+  static bool isAgain(std::uint32_t end) { return end < kFirstMark && (end & kLeafAgain) != 0; }
+  /// The leaf, of those that there are now, where a straight line ended, whether it holds or not; kNone for others.
+  static std::uint32_t leafOf(std::uint32_t end) {
+    return end < kExceptionAgain ? end & ~kLeafAgain : hierarchy::LeafTable::kNone;
+  }
+
+  std::vector<std::uint32_t> of;   // by leaf: the leaf of `lines` that it was; LeafTable::kNone: none
+  std::vector<std::uint32_t> now;  // by leaf of `lines`: which that is now
+  Lines lines;                     // they end on leaves that there are now
+  std::vector<EscapedLine> escaped;
+  std::vector<Bend> bends;
+  std::vector<std::uint32_t> firstEscaped, firstException, firstBend;  // by leaf of `lines`
+  std::vector<char> whole;                                             // the same: all of its lines hold
 };
 
 /// What lines are traced over. All must outlive whoever uses it.

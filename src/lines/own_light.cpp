@@ -57,7 +57,7 @@ TracedLines replaced(const TracedLines& traced, const TracedLines& more) {
     out.covered[i] = of(i).covered[i];
   });
   // Both ascend by leaf: merged.
-  const auto merge = [&](const auto& a, const auto& b, auto& sink) {
+  const auto merge = [&](const auto& a, const auto& b, const auto& sink) {
     std::size_t k = 0;
     for (const auto& x : a) {
       for (; k < b.size() && b[k].leaf < x.leaf; ++k) sink(b[k], more);
@@ -72,6 +72,7 @@ TracedLines replaced(const TracedLines& traced, const TracedLines& more) {
   const auto addEscaped = [&](const EscapedLine& e, const TracedLines&) { out.escaped.push_back(e); };
   merge(traced.lines.exceptions, more.lines.exceptions, addException);
   merge(traced.escaped, more.escaped, addEscaped);
+  merge(traced.bends, more.bends, [&](const Bend& b, const TracedLines&) { out.bends.push_back(b); });
   return out;
 }
 

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "base/parallel.hpp"
 #include "lines/first_lines.hpp"
@@ -15,24 +17,63 @@ constexpr std::size_t kBatch = hierarchy::LeafSequence::kBatch;
 struct Found {
   std::vector<ExceptionalLine> exceptions;
   std::vector<EscapedLine> escaped;
+  std::vector<Bend> bends;
   std::uint64_t rays = 0;
 };
 
-/// The lines of a leaf that are known from before.
+/// The lines of a leaf that are known from before, asked in order.
 class KnownOfLeaf {
  public:
   KnownOfLeaf(const KnownLines* known, std::uint32_t leaf) {
     if (!known || known->of[leaf] == hierarchy::LeafTable::kNone) return;
-    lines_ = &known->lines, first_ = lines_->first[known->of[leaf]], count_ = lines_->countOf(known->of[leaf]);
+    const std::uint32_t old = known->of[leaf];
+    known_ = known, old_ = old, first_ = known->lines.first[old], count_ = known->lines.countOf(old);
+    escaped_ = known->firstEscaped[old], exception_ = known->firstException[old];
+    bend_ = known->firstBend[old], lastBend_ = known->firstBend[old + 1];
   }
-  /// Leaf or mark; kAgain where it is not known.
-  std::uint32_t end(std::uint32_t i) const { return i < count_ ? lines_->end[first_ + i] : KnownLines::kAgain; }
-  LineCode code(std::uint32_t i) const { return lines_->code[first_ + i]; }
+  /// Whether they are all of a leaf that has so many lines now.
+  bool areAll(std::uint32_t count) const { return known_ && count == count_ && known_->whole[old_]; }
+  /// Takes all of them, for lines from `line` on. Returns how many are covered.
+  std::uint32_t takeAll(std::uint32_t leaf, std::uint64_t line, Lines& to, Found& found) const {
+    const auto copy = [&](const auto& from, std::uint32_t begin, std::uint32_t end, auto& all) {
+      for (std::uint32_t i = begin; i < end; ++i) all.push_back(from[i]), all.back().leaf = leaf;
+    };
+    copy(known_->escaped, known_->firstEscaped[old_], known_->firstEscaped[old_ + 1], found.escaped);
+    copy(known_->bends, bend_, lastBend_, found.bends);
+    const std::size_t exceptions = found.exceptions.size();
+    copy(known_->lines.exceptions, exception_, known_->firstException[old_ + 1], found.exceptions);
+    for (std::size_t i = exceptions; i < found.exceptions.size(); ++i) found.exceptions[i].line += line - first_;
+    std::copy_n(known_->lines.code.data() + first_, count_, to.code.data() + line);
+    std::copy_n(known_->lines.end.data() + first_, count_, to.end.data() + line);
+    return static_cast<std::uint32_t>(std::count(to.end.data() + line, to.end.data() + line + count_, kCovered));
+  }
+  bool holds(std::uint32_t i) const { return i < count_ && !KnownLines::isAgain(known_->lines.end[first_ + i]); }
+  LineCode code(std::uint32_t i) const { return known_->lines.code[first_ + i]; }
+  /// Takes line i, of those that hold, for line `line` of all there are, of a leaf; returns its end or mark.
+  std::uint32_t take(std::uint32_t i, std::uint32_t leaf, std::uint64_t line, Found& found) {
+    const std::uint32_t end = known_->lines.end[first_ + i];
+    if (end < kFirstMark) return end;
+    if (end == kEscaped) found.escaped.push_back(known_->escaped[escaped_++]), found.escaped.back().leaf = leaf;
+    if (end == kException) {
+      found.exceptions.push_back(known_->lines.exceptions[exception_++]);
+      found.exceptions.back().line = line, found.exceptions.back().leaf = leaf;
+    }
+    while (bend_ < lastBend_ && known_->bends[bend_].number < i) ++bend_;
+    for (; bend_ < lastBend_ && known_->bends[bend_].number == i; ++bend_)
+      found.bends.push_back(known_->bends[bend_]), found.bends.back().leaf = leaf;
+    return end;
+  }
+  /// Leaves out line i, which does not hold.
+  void skip(std::uint32_t i) {
+    if (i >= count_) return;
+    const std::uint32_t end = known_->lines.end[first_ + i];
+    escaped_ += end == KnownLines::kEscapedAgain, exception_ += end == KnownLines::kExceptionAgain;
+  }
 
  private:
-  const Lines* lines_ = nullptr;
+  const KnownLines* known_ = nullptr;
   std::uint64_t first_ = 0;
-  std::uint32_t count_ = 0;
+  std::uint32_t old_ = 0, count_ = 0, escaped_ = 0, exception_ = 0, bend_ = 0, lastBend_ = 0;
 };
 
 class LeafTracing {
@@ -43,28 +84,33 @@ class LeafTracing {
     const std::uint32_t count = out.lines.countOf(leaf);
     out.covered[leaf] = 0;
     if (count == 0) return;
+    const std::uint64_t first = out.lines.first[leaf];
+    KnownOfLeaf before(s_.known, leaf);
+    if (before.areAll(count)) {
+      out.covered[leaf] = before.takeAll(leaf, first, out.lines, found);
+      return;
+    }
     const hierarchy::ElementId e = s_.leaves[leaf];
     const hierarchy::LeafSequence points(s_.elements, s_.tracer.scene(), e);
     LineDirections directions(points.key());
     const PrimitiveId own = s_.elements.domain[e.index()].primitive;
-    const Cover::About about = s_.cover.about(s_.elements, e);
+    std::optional<Cover::About> about;  // where a line is to be traced
+    std::vector<LineSegment> way;
     std::array<tracing::Ray, kBatch> rays;
     std::array<tracing::Hit, kBatch> hits;
     std::array<float, kBatch> cosines;
     std::array<std::uint32_t, kBatch> which;
-    const std::uint64_t first = out.lines.first[leaf];
     const FirstLines* known = e.index() < s_.first.size() ? s_.first[e.index()].get() : nullptr;
-    const KnownOfLeaf before(s_.known, leaf);
     std::uint32_t covered = 0;
     for (std::uint32_t begin = 0; begin < count; begin += kBatch, known = nullptr) {
       const std::uint32_t last = std::min<std::uint32_t>(count, begin + kBatch);
       std::size_t live = 0;
       for (std::uint32_t i = begin; i < last; ++i) {
-        if (known && known->line[i].primitive != FirstLine::kAgain) continue;
-        if (!known && before.end(i) != KnownLines::kAgain) continue;
+        if (before.holds(i) || (known && known->line[i].primitive != FirstLine::kAgain)) continue;
+        if (!about) about = s_.cover.about(s_.elements, e);
         const hierarchy::PatchPoint x = points.point(i);
         const Vec3f w = directions(i, x.normal);
-        if (s_.cover.covers(x.position, x.normal, own, about, found.rays)) {
+        if (s_.cover.covers(x.position, x.normal, own, *about, found.rays)) {
           out.lines.end[first + i] = kCovered, out.lines.code[first + i] = lineCode(w, 0), ++covered;
           continue;
         }
@@ -76,19 +122,24 @@ class LeafTracing {
       std::size_t k = 0;
       for (std::uint32_t i = begin; i < last; ++i) {
         std::uint32_t mark;
+        if (before.holds(i)) {
+          mark = before.take(i, leaf, first + i, found);
+          out.lines.code[first + i] = before.code(i), out.lines.end[first + i] = mark;
+          covered += mark == kCovered;
+          continue;
+        }
+        before.skip(i);
         if (known && known->line[i].primitive != FirstLine::kAgain) {
           mark = take(
               known->line[i], leaf, [&] { return points.point(i).normal; }, found);
           out.lines.code[first + i] = known->line[i].code;
-        } else if (!known && before.end(i) != KnownLines::kAgain) {
-          mark = before.end(i);
-          out.lines.code[first + i] = before.code(i);
-          if (mark == kEscaped) {
-            const Vec3f normal = points.point(i).normal, w = directions(i, normal);
-            found.escaped.push_back({leaf, w, glm::dot(w, normal), Rgb(1.0f), 1});
-          }
         } else if (k < live && which[k] == i) {
-          const LineEnd end = s_.tracer.follow(rays[k], hits[k], LineDirections::random(points.key(), i));
+          way.clear();
+          const LineEnd end = s_.tracer.follow(rays[k], hits[k], LineDirections::random(points.key(), i), &way);
+          if (end.turned)
+            for (const LineSegment& segment : way)
+              if (segment.direction != rays[k].direction)
+                found.bends.push_back({leaf, i, segment.from, lineCode(segment.direction, segment.length)});
           mark = take(end, leaf, first + i, rays[k].direction, cosines[k], found);
           out.lines.code[first + i] = lineCode(rays[k].direction, end.distance), ++k;
         } else {
@@ -152,6 +203,7 @@ TracedLines traceLines(const LineScene& s, std::span<const std::uint32_t> counts
   for (const Found& f : found) {
     out.lines.exceptions.insert(out.lines.exceptions.end(), f.exceptions.begin(), f.exceptions.end());
     out.escaped.insert(out.escaped.end(), f.escaped.begin(), f.escaped.end());
+    out.bends.insert(out.bends.end(), f.bends.begin(), f.bends.end());
     out.rays += f.rays;
   }
   return out;

@@ -4,6 +4,9 @@
 #include <memory>
 
 #include "direct/leaf_direct.hpp"
+#include "direct/sky_light.hpp"
+#include "lines/enclosed_sides.hpp"
+#include "lines/exchange.hpp"
 #include "lines/first_lines.hpp"
 #include "lines/leaf_scale.hpp"
 
@@ -30,12 +33,23 @@ struct PatchSamples {
   }
 };
 
+/// Sky light of the receiving leaves in order, and its shadow rays.
+struct KnownSky {
+  std::vector<direct::SkyAtLeaf> at;
+  std::vector<std::uint64_t> key;    // direct::skyKey()
+  LargeArray<lines::LineCode> rays;  // kSkyRays of each leaf; of those that there were not, without reach
+};
+
 /// What stays of a solve.
 struct SolveMemory {
   PatchSamples samples;
-  std::vector<char> enclosed;               // by element of the input level
+  std::vector<lines::LightWalks> walks;     // by element of the input level
+  std::vector<char> enclosed;               // the same: whether no light comes there, of walks or particles
   std::vector<lines::EscapedLine> escaped;  // of the solution's lines
-  std::vector<char> plain;                  // by material: SurfaceResponses::plain()
+  std::vector<lines::Bend> bends;           // of the same
+  KnownSky sky;
+  std::unique_ptr<lines::Exchange> exchange;  // over those lines
+  std::vector<char> plain;  // by material: SurfaceResponses::plain()
 };
 
 }  // namespace deltalux

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "change/line_sieve.hpp"
 #include "lines/line_code.hpp"
 #include "support/rooms.hpp"
 
@@ -45,7 +46,7 @@ TEST(MovedSpace, KnowsEverySegmentThatMeetsWhereThingsWereOrAre) {
   const Moved m;
   const change::MovedSpace space(m.scene, m.parts);
   Rng random(5);
-  int met = 0, free = 0;
+  int met = 0, free = 0, passed = 0, apart = 0;
   for (int i = 0; i < 4000; ++i) {
     const auto point = [&] {
       const double x = random.uniform(), y = random.uniform(), z = random.uniform();
@@ -54,19 +55,26 @@ TEST(MovedSpace, KnowsEverySegmentThatMeetsWhereThingsWereOrAre) {
     const Vec3 from = point(), to = point();
     const auto length = static_cast<float>(glm::length(to - from));
     const Vec3f way(glm::normalize(to - from));
-    const bool meeting = meets(from, to), said = space.crosses(Vec3f(from), 0, way, length);
+    const bool meeting = meets(from, to), said = space.crosses({Vec3f(from), Vec3f(from)}, way, length);
     EXPECT_TRUE(said || !meeting);
     met += meeting, free += !said;
     // From anywhere about a point that holds `from`, by the code of the line.
     const lines::LineCode code = lines::lineCode(way, length);
-    const Vec3f near = Vec3f(from) + Vec3f(0.05f, -0.05f, 0.05f);
-    EXPECT_TRUE(space.crosses(near, 0.1f, lines::direction(code), lines::lengthOf(code), lines::kDirectionError) ||
+    const Vec3f near = Vec3f(from) + Vec3f(0.05f, -0.05f, 0.05f), half(0.1f);
+    const BoxF about{near - half, near + half};
+    EXPECT_TRUE(space.crosses(about, lines::direction(code), lines::lengthOf(code), lines::kDirectionError) ||
                 !meeting);
-    const Vec3f half(0.1f);
-    EXPECT_TRUE(space.between(near, 0.1f, {Vec3f(to) - half, Vec3f(to) + half}) || !meeting);
+    char marked = 0;
+    change::LineSieve(space, about, lines::kDirectionError).mark({&code, 1}, {&marked, 1});
+    EXPECT_TRUE(marked || !meeting);
+    passed += !marked;
+    EXPECT_TRUE(space.between(about, {Vec3f(to) - half, Vec3f(to) + half}) || !meeting);
+    apart += !space.between({Vec3f(from), Vec3f(from)}, {Vec3f(to), Vec3f(to)});
   }
   EXPECT_GT(met, 200);
   EXPECT_GT(free, 2000);  // and it does not say so of all
+  EXPECT_GT(passed, 1000);
+  EXPECT_GT(apart, 2000);
 }
 
 TEST(MovedSpace, KnowsWhatMovedAndWhatIsBeside) {
@@ -74,11 +82,11 @@ TEST(MovedSpace, KnowsWhatMovedAndWhatIsBeside) {
   change::MovedSpace space(m.scene, m.parts);
   EXPECT_FALSE(space.moved(PrimitiveId(0)));
   EXPECT_TRUE(space.moved(m.parts.front().primitive));
-  EXPECT_TRUE(space.touches({1.2f, 1.2f, 0.9f}, 0.11f));
-  EXPECT_FALSE(space.touches({1.2f, 1.2f, 0.9f}, 0.09f));
-  EXPECT_FALSE(space.touches({3.5f, 3.5f, 2}, 0.5f));
+  EXPECT_TRUE(space.touches({Vec3f{1.2f, 1.2f, 0.79f}, Vec3f{1.2f, 1.2f, 1}}));
+  EXPECT_FALSE(space.touches({Vec3f{1.2f, 1.2f, 0.81f}, Vec3f{1.2f, 1.2f, 1}}));
+  EXPECT_FALSE(space.touches({Vec3f{3, 3, 1.5f}, Vec3f{4, 4, 2.5f}}));
   space.add(PrimitiveId(0), {{3, 3, 1.5f}, {4, 4, 1.6f}});
-  EXPECT_TRUE(space.moved(PrimitiveId(0)) && space.touches({3.5f, 3.5f, 2}, 0.5f));
+  EXPECT_TRUE(space.moved(PrimitiveId(0)) && space.touches({Vec3f{3, 3, 1.5f}, Vec3f{4, 4, 2.5f}}));
   EXPECT_TRUE(change::MovedSpace(m.scene, {}).empty());
 }
 

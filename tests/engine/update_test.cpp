@@ -80,7 +80,7 @@ TEST(Update, ManySmallMovesCarryTheirLightOn) {
     engine.apply(moveBox({0.0005, 0, 0}));
     engine.update();
   }
-  const EnergyLedger ledger = engine.solution().get().report.energy;
+  const EnergyLedger ledger = engine.balance();
   EXPECT_LE(*ledger.unsettledW, 1e-4 * *ledger.emittedW);
   EXPECT_LT(test::unsettled(engine.solution().get()).relative.p95, 0.005);
 }

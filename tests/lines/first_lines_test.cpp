@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lines/enclosed_sides.hpp"
 #include "lines/leaf_scale.hpp"
 #include "solution/solution.hpp"
 #include "support/solution_scenes.hpp"
@@ -30,7 +31,9 @@ void expectTheSameWithFirstLines(const SolutionView& view) {
   const lines::LineTracer tracer(s.scene, *s.tracer, responses);
   const lines::Cover cover(s.scene, *s.tracer);
   std::uint64_t unused = 0;
-  std::vector<char> enclosed = lines::enclosedSides(s.elements, tracer, unused);
+  std::vector<char> enclosed;
+  for (const lines::LightWalks& w : lines::walkForLight(s.elements, tracer, lines::nothingKnown, unused))
+    enclosed.push_back(w.enclosed);
   const std::vector<std::uint32_t> counts(leaves.size(), 24);
   const lines::ScaleMeter meter(s.elements, tracer, cover, enclosed);
   std::vector<std::unique_ptr<lines::FirstLines>> first(s.elements.size());

@@ -1,0 +1,22 @@
+#pragma once
+// Which of a leaf's lines come anywhere near where something has moved: for millions of them, a nanosecond each, so
+// that few are looked at one by one.
+#include "change/moved_space.hpp"
+#include "lines/line_code.hpp"
+
+namespace deltalux::change {
+
+class LineSieve {
+ public:
+  /// Of lines that start anywhere in `from` and may go astray by `stray` of the way.
+  LineSieve(const MovedSpace&, const BoxF& from, float stray);
+
+  /// Marks lines by their codes; never too few. Sizes must agree.
+  void mark(std::span<const lines::LineCode>, std::span<char> near) const;
+
+ private:
+  Vec3f center_, half_;  // of the box that a line from the origin would have to pass
+  float far_;            // how far that is
+};
+
+}  // namespace deltalux::change
