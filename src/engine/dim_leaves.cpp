@@ -53,16 +53,23 @@ void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, const l
   std::vector<std::uint32_t> all;
   for (std::uint32_t i = 0; i < leaves.size(); ++i)
     if (more[i]) all.push_back(i);
-  std::vector<std::pair<hierarchy::ElementId, direct::DimDirect>> found(all.size());
-  parallelFor(all.size(), kDimLeaves, [&](std::size_t n) {
+  x.dim.assign(all.size(), {});
+  x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(all.size(), kDimLeaves, [&](std::size_t n) {
     const std::uint32_t i = all[n];
+    DimLeaf& dim = x.dim[n];
+    dim.leaf = leaves[i];
     std::vector<std::uint32_t> points;
-    for (std::uint32_t k = 0; k < lines.countOf(i); ++k)
-      if (lines.end[lines.first[i] + k] != lines::kCovered) points.push_back(k);
-    found[n] = {leaves[i], direct::dimDirect(x.s.elements, x.s.scene, *x.s.tracer, x.lamps, leaves[i], points)};
+    for (std::uint32_t k = 0; k < lines.countOf(i); ++k) {
+      if (lines.end[lines.first[i] + k] == lines::kCovered) continue;
+      points.push_back(k), dim.points = combineKeys(dim.points, k);
+    }
+    if (const direct::DimDirect* same = x.known ? x.known->dim(x.s.elements, x.lamps, dim.leaf, dim.points) : nullptr) {
+      dim.light = *same;
+      return std::uint64_t(0);
+    }
+    dim.light = direct::dimDirect(x.s.elements, x.s.scene, *x.s.tracer, x.lamps, dim.leaf, points);
+    return dim.light.rays;
   });
-  for (const auto& [leaf, light] : found) x.s.report.counts.raysVisibility += light.rays;
-  x.dim = std::move(found);
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ KnownSolve::KnownSolve(SolveMemory memory, Solution& s, change::MovedSpace space
 
 std::uint32_t KnownSolve::find(const hierarchy::Elements& elements, hierarchy::ElementId e) const {
   if (!holds_ || space_.moved(elements.domain[e.index()].primitive)) return kNone;
+  if (e.index() < parts_.of.size() && parts_.of[e.index()] != kNone) return parts_.of[e.index()];
   const std::uint64_t key = elements.key[e.index()];
   const auto at = std::lower_bound(byKey_.begin(), byKey_.end(), std::pair(key, std::uint32_t(0)));
   if (at == byKey_.end() || at->first != key || !samePlace(elements_, at->second, elements, e.index())) return kNone;
@@ -94,9 +95,9 @@ const direct::LeafDirect* KnownSolve::whole(const hierarchy::Elements& elements,
                                             hierarchy::ElementId e, const lines::LeafScale& scale,
                                             const direct::LampSight& above) const {
   const std::uint32_t old = findLit(elements, lamps, e, scale);
-  if (old == kNone || !memory_.samples.whole[old]) return nullptr;
-  // Of the input level, and of what could not be split: nothing, or the same, is known from above.
-  return elements.at(e).depth == 0 && above.none() ? memory_.samples.whole[old].get() : nullptr;
+  if (old == kNone) return nullptr;
+  const WholeLight* whole = memory_.samples.whole[old].get();
+  return whole && sameSight(whole->above, above) ? &whole->light : nullptr;
 }
 
 KnownSolve::Evaluated KnownSolve::evaluated(const hierarchy::Elements& elements, const direct::Lamps& lamps,
@@ -106,6 +107,23 @@ KnownSolve::Evaluated KnownSolve::evaluated(const hierarchy::Elements& elements,
   if (old == kNone || !memory_.samples.evaluated[old] || !sameSight(memory_.samples.evaluated[old]->above, above))
     return {};
   return {memory_.samples.evaluated[old].get(), &memory_.samples.direct[old]};
+}
+
+const direct::DimDirect* KnownSolve::dim(const hierarchy::Elements& elements, const direct::Lamps& lamps,
+                                         hierarchy::ElementId leaf, std::uint64_t points) const {
+  const std::uint32_t old = lightsHold_ ? find(elements, leaf) : kNone;
+  if (old == kNone) return nullptr;
+  const auto at = std::ranges::lower_bound(memory_.dim, hierarchy::ElementId(old), {}, &DimLeaf::leaf);
+  if (at == memory_.dim.end() || at->leaf != hierarchy::ElementId(old) || at->points != points) return nullptr;
+  return change::holdShadowRays(space_, lamps, elements, leaf) ? &at->light : nullptr;
+}
+
+hierarchy::KnownParts* KnownSolve::parts(const hierarchy::Elements& elements,
+                                         std::span<const hierarchy::ElementId> patches) {
+  parts_.before = &elements_;
+  parts_.of.resize(elements.size(), kNone);
+  for (const hierarchy::ElementId e : patches) parts_.of[e.index()] = find(elements, e);
+  return &parts_;
 }
 
 Rgb KnownSolve::indirect(const hierarchy::Elements& elements, hierarchy::ElementId leaf) const {

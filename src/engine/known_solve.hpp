@@ -18,6 +18,8 @@ class KnownSolve {
   /// Takes sides of hollows that have opened or closed for moved: lines into them count otherwise.
   void moveOpened(const hierarchy::Elements&, const std::vector<char>& enclosed);
 
+  /// The parts of patches that were split before, which are what they were where they do not move.
+  hierarchy::KnownParts* parts(const hierarchy::Elements&, std::span<const hierarchy::ElementId> patches);
   /// Takes what is known of a patch's surroundings; false where that may have changed.
   bool takeScale(const hierarchy::Elements&, const Scene&, hierarchy::ElementId, PatchSamples& to);
   /// Direct light without a choice, likewise; nullptr.
@@ -30,6 +32,9 @@ class KnownSolve {
   /// With one.
   Evaluated evaluated(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId, const lines::LeafScale&,
                       const direct::LampSight& above) const;
+  /// Direct light from those points of a leaf, likewise; nullptr.
+  const direct::DimDirect* dim(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId leaf,
+                               std::uint64_t points) const;
   /// Light of a leaf by way of others as it was; where it was none, black [W/m2].
   Rgb indirect(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
   /// By leaf: the number that it had where it stands, or LeafTable::kNone.
@@ -43,7 +48,8 @@ class KnownSolve {
   const lines::Exchange* exchange() const { return memory_.exchange.get(); }
 
  private:
-  /// The element there was for a patch that is where it was, by index; kNone.
+  /// The element there was for a patch that is where it was, by index; kNone. Found by its key where nobody has
+  /// followed it from the patch above.
   std::uint32_t find(const hierarchy::Elements&, hierarchy::ElementId) const;
   std::uint32_t findLit(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId,
                         const lines::LeafScale&) const;
@@ -56,6 +62,7 @@ class KnownSolve {
   change::MovedSpace space_;
   bool lightsHold_ = false, holds_ = true;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> byKey_;  // ascending
+  hierarchy::KnownParts parts_;                                 // followed from patch to patch
 };
 
 }  // namespace deltalux::engine

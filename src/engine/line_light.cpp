@@ -96,7 +96,7 @@ std::vector<direct::DimDirect> directOf(const LineSolve& x, const hierarchy::Lea
     const direct::LeafDirect& l = x.samples.direct[leaves[i].index()];
     all[i] = {l.E, l.deviation, 0};
   });
-  for (const auto& [leaf, light] : x.dim) all[leaves.indexOf[leaf.index()]] = light;
+  for (const DimLeaf& dim : x.dim) all[leaves.indexOf[dim.leaf.index()]] = dim.light;
   return all;
 }
 

@@ -51,7 +51,7 @@ struct Samplers {
     x.samples.evaluated[e].reset();
     const direct::LeafDirect* before = x.known ? x.known->whole(x.s.elements, x.lamps, patch, scale, above) : nullptr;
     x.samples.direct[e] = before ? *before : direct.at(patch, {scale.covered, scale.known}, above);
-    x.samples.whole[e] = std::make_unique<direct::LeafDirect>(x.samples.direct[e]);
+    x.samples.whole[e] = std::make_unique<WholeLight>(WholeLight{x.samples.direct[e], above});
     return before ? 0 : x.samples.direct[e].rays;
   }
   /// Direct light, or what of it tells that the patch is to be split: by `choose`.
@@ -137,8 +137,9 @@ bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const s
     std::vector<hierarchy::ElementId> chosen, parts, whole;
     for (std::size_t i = 0; i < patches.size(); ++i)
       if (split[i]) chosen.push_back(patches[i]);
-    const std::vector<char> done =
-        stopped ? std::vector<char>(chosen.size(), false) : hierarchy::subdivide(elements, x.s.scene, chosen);
+    const std::vector<char> done = stopped ? std::vector<char>(chosen.size(), false)
+                                           : hierarchy::subdivide(elements, x.s.scene, chosen,
+                                                                  x.known ? x.known->parts(elements, chosen) : nullptr);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       if (!done[i]) {
         whole.push_back(chosen[i]);

@@ -122,7 +122,7 @@ std::shared_ptr<SolveMemory> memoryOf(LineSolve&& x) {
   memory->samples = std::move(x.samples);
   memory->walks = std::move(x.walks), memory->enclosed = std::move(x.enclosed);
   memory->escaped = std::move(x.escaped), memory->bends = std::move(x.bends);
-  memory->sky = std::move(x.sky), memory->exchange = std::move(x.exchange);
+  memory->sky = std::move(x.sky), memory->dim = std::move(x.dim), memory->exchange = std::move(x.exchange);
   memory->plain = x.responses.plain();
   return memory;
 }

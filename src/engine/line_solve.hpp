@@ -37,15 +37,15 @@ struct LineSolve {
   std::vector<lines::LightWalks> walks;  // by element of the input level
   std::vector<char> enclosed;            // the same: whether neither they nor particles find light
   PatchSamples samples;
-  std::vector<std::pair<hierarchy::ElementId, direct::DimDirect>> dim;  // direct light where light hardly comes
-  std::vector<lines::EscapedLine> escaped;                              // of the lines, in the end
-  std::vector<lines::Bend> bends;                                       // of the same
-  KnownSky sky;                                                         // in the end
-  std::optional<lines::KnownLines> knownLines;                          // what is known of the lines before
-  std::unique_ptr<lines::Exchange> exchange;                            // over the lines, in the end
-  double floor = 0;                                                     // light that still matters [W/m2, gray]
-  std::optional<particles::ParticleTransfer> transfer;                  // on the mesh, in the end
-  bool allParticles = true;                                             // as many as the error asks for: there was time
+  std::vector<DimLeaf> dim;                             // direct light where light hardly comes
+  std::vector<lines::EscapedLine> escaped;              // of the lines, in the end
+  std::vector<lines::Bend> bends;                       // of the same
+  KnownSky sky;                                         // in the end
+  std::optional<lines::KnownLines> knownLines;          // what is known of the lines before
+  std::unique_ptr<lines::Exchange> exchange;            // over the lines, in the end
+  double floor = 0;                                     // light that still matters [W/m2, gray]
+  std::optional<particles::ParticleTransfer> transfer;  // on the mesh, in the end
+  bool allParticles = true;                             // as many as the error asks for: there was time
 
   bool takesPart(hierarchy::ElementId patch) const;
 };

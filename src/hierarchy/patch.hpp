@@ -41,8 +41,14 @@ Walls wallsAcross(const Elements&, const Scene&, ElementId patch);
 /// Children inherit light and reflectances; quadrants that miss the outline are left out. False when it cannot be
 /// split.
 bool subdivide(Elements&, const Scene&, ElementId element);
+/// What patches were in elements from before, so that their parts need not be shaped again.
+struct KnownParts {
+  const Elements* before = nullptr;
+  std::vector<std::uint32_t> of;  // by element: which it was there; Id<void>::kNone
+};
 /// The same with each of several elements, none twice, in their order, by all threads. By element, whether it is split.
-std::vector<char> subdivide(Elements&, const Scene&, std::span<const ElementId>);
+/// `known`: is followed to the parts, where they are the same.
+std::vector<char> subdivide(Elements&, const Scene&, std::span<const ElementId>, KnownParts* known = nullptr);
 
 /// Fills a Distant element whose light and domain are set (a cell of its dome's directions, equal in solid angle).
 void shapeDistant(Elements&, const Scene&, ElementId element);

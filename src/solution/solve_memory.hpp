@@ -3,6 +3,7 @@
 // cheaper to find again than to read, so files do not have it.
 #include <memory>
 
+#include "direct/dim_direct.hpp"
 #include "direct/leaf_direct.hpp"
 #include "direct/sky_light.hpp"
 #include "lines/enclosed_sides.hpp"
@@ -19,13 +20,19 @@ struct EvaluatedLight {
   direct::DirectSampler::Choice choice = direct::DirectSampler::Choice::Whole;
 };
 
+/// The same where no choice was made.
+struct WholeLight {
+  direct::LeafDirect light;
+  direct::LampSight above;
+};
+
 /// What is known of patches before their lines: by element.
 struct PatchSamples {
   std::vector<lines::LeafScale> scale;
   std::vector<direct::LeafDirect> direct;
   std::vector<std::unique_ptr<lines::FirstLines>> first;
   std::vector<std::unique_ptr<EvaluatedLight>> evaluated;  // where a choice was made
-  std::vector<std::unique_ptr<direct::LeafDirect>> whole;  // where light was asked for without a choice
+  std::vector<std::unique_ptr<WholeLight>> whole;          // where light was asked for without a choice
 
   void resize(std::size_t elements) {
     scale.resize(elements), direct.resize(elements), first.resize(elements), evaluated.resize(elements),
@@ -40,6 +47,13 @@ struct KnownSky {
   LargeArray<lines::LineCode> rays;  // kSkyRays of each leaf; of those that there were not, without reach
 };
 
+/// Direct light of a leaf in the dark, from many points.
+struct DimLeaf {
+  hierarchy::ElementId leaf;
+  std::uint64_t points = 0;  // which those were: of equal points the same
+  direct::DimDirect light;
+};
+
 /// What stays of a solve.
 struct SolveMemory {
   PatchSamples samples;
@@ -48,8 +62,9 @@ struct SolveMemory {
   std::vector<lines::EscapedLine> escaped;  // of the solution's lines
   std::vector<lines::Bend> bends;           // of the same
   KnownSky sky;
+  std::vector<DimLeaf> dim;                   // ascending
   std::unique_ptr<lines::Exchange> exchange;  // over those lines
-  std::vector<char> plain;  // by material: SurfaceResponses::plain()
+  std::vector<char> plain;                    // by material: SurfaceResponses::plain()
 };
 
 }  // namespace deltalux
