@@ -15,6 +15,8 @@ namespace deltalux::cli {
 
 namespace {
 
+const char* sameness(bool identical) { return identical ? "identical" : "differ"; }
+
 /// Edits in order, undo and redo among them.
 class Session {
  public:
@@ -160,9 +162,11 @@ void runReplay(const UpdateOptions& options, const CLI::App& command) {
   }
   for (const StepReport& step : run.report.steps) describe(step, run);
   if (const auto& check = run.report.check)
-    run.say(fmt::format("against a solve from scratch ({:.1f} s): median {:.2f} %, 95 % within {:.2f} %, particles {}",
-                        check->solveS, 100 * check->medianRelDiff, 100 * check->p95RelDiff,
-                        check->particlesIdentical ? "identical" : "differ"));
+    run.say(
+        fmt::format("against a solve from scratch ({:.1f} s): median {:.3f} %, 95 % within {:.3f} %; mesh {}, lines "
+                    "{}, particles {}",
+                    check->solveS, 100 * check->medianRelDiff, 100 * check->p95RelDiff, sameness(check->meshIdentical),
+                    sameness(check->linesIdentical), sameness(check->particlesIdentical)));
   run.finish();
 }
 

@@ -60,7 +60,8 @@ struct StepReport {
 struct CheckReport {
   double solveS = 0;
   double medianRelDiff = 0, p95RelDiff = 0, maxRelDiff = 0;  // of irradiance
-  bool particlesIdentical = false;
+  // By a hash of each: patches of the mesh; where lines go from it; where particles do.
+  bool meshIdentical = false, linesIdentical = false, particlesIdentical = false;
 };
 
 /// What the unbiased integrator did; only `deltalux reference` has it.

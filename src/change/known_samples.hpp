@@ -11,10 +11,12 @@ namespace deltalux::change {
 /// Whether a patch's first lines, and what they tell of its surroundings, are as they were. `patch`: as it is now.
 bool holdFirstLines(const MovedSpace&, const hierarchy::Elements&, const Scene&, hierarchy::ElementId patch,
                     const lines::FirstLines&);
-/// Whether walks that looked for light are. `lightsHold`: lamps shine as they did.
-bool holdWalks(const MovedSpace&, bool lightsHold, const lines::LightWalks&);
-/// Whether shadow rays of a patch to suns and lamps are.
-bool holdShadowRays(const MovedSpace&, const direct::Lamps&, const hierarchy::Elements&, hierarchy::ElementId patch);
+/// Whether walks that looked for light are.
+bool holdWalks(const MovedSpace&, const lines::LightWalks&);
+/// Whether shadow rays of a patch to suns and lamps are, and what they bring. `others`: by light, whether it shines as
+/// it did not.
+bool holdShadowRays(const MovedSpace&, const direct::Lamps&, std::span<const char> others, const hierarchy::Elements&,
+                    hierarchy::ElementId patch);
 
 /// Whether shadow rays of a patch to the sky are, by their codes in the order of its sequence.
 bool holdSkyRays(const MovedSpace&, const hierarchy::Elements&, hierarchy::ElementId patch,

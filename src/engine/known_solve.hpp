@@ -8,8 +8,13 @@ namespace deltalux::engine {
 
 class KnownSolve {
  public:
-  /// Of the solution that there was, out of which elements and lines are taken. `lightsHold`: they shine as they did.
-  KnownSolve(SolveMemory, Solution&, change::MovedSpace, bool lightsHold);
+  /// Which lights edits have made shine otherwise.
+  struct OtherLights {
+    std::vector<char> others;  // by light
+    bool stay = true;          // all of them are where they were, and none has been switched on or off
+  };
+  /// Of the solution that there was, out of which elements and lines are taken.
+  KnownSolve(SolveMemory, Solution&, change::MovedSpace, OtherLights);
 
   /// Nothing is known where the extent of the scene is another, by which its scales are measured.
   void holdTo(const hierarchy::Elements&);
@@ -60,7 +65,8 @@ class KnownSolve {
   hierarchy::LeafTable leaves_;
   lines::Lines lines_;
   change::MovedSpace space_;
-  bool lightsHold_ = false, holds_ = true;
+  OtherLights lights_;
+  bool holds_ = true;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> byKey_;  // ascending
   hierarchy::KnownParts parts_;                                 // followed from patch to patch
 };

@@ -124,6 +124,7 @@ std::shared_ptr<SolveMemory> memoryOf(LineSolve&& x) {
   memory->escaped = std::move(x.escaped), memory->bends = std::move(x.bends);
   memory->sky = std::move(x.sky), memory->dim = std::move(x.dim), memory->exchange = std::move(x.exchange);
   memory->plain = x.responses.plain();
+  for (const Light& light : x.s.scene.lights) memory->shining.push_back(!isBlack(light.scale));
   return memory;
 }
 

@@ -118,8 +118,12 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
     if (newPaths->all || added) newPaths.reset();
     if (gapsAreMany()) closeGaps(), newPaths.reset();
   }
-  const bool lightsHold = edits.movedLights.empty() && edits.dimmed.empty() && !lampMoves;
-  known.emplace(std::move(*before), s, change::MovedSpace(s.scene, edits.moved), lightsHold);
+  engine::KnownSolve::OtherLights lights{std::vector<char>(s.scene.lights.size(), 0),
+                                         edits.movedLights.empty() && !lampMoves};
+  for (const LightId light : edits.dimmed) lights.others[light.index()] = 1;
+  for (std::size_t i = 0; i < s.scene.lights.size(); ++i)
+    lights.stay = lights.stay && i < before->shining.size() && before->shining[i] == !isBlack(s.scene.lights[i].scale);
+  known.emplace(std::move(*before), s, change::MovedSpace(s.scene, edits.moved), std::move(lights));
 }
 
 bool Engine::State::outshines(const engine::SceneUpdate& edits) const {

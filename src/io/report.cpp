@@ -76,6 +76,8 @@ Json json(const StepReport& s) {
 Json json(const CheckReport& c) {
   return {{"solve_s", c.solveS},
           {"irradiance_rel_diff", {{"median", c.medianRelDiff}, {"p95", c.p95RelDiff}, {"max", c.maxRelDiff}}},
+          {"mesh_identical", c.meshIdentical},
+          {"lines_identical", c.linesIdentical},
           {"particles_identical", c.particlesIdentical}};
 }
 

@@ -55,8 +55,10 @@ CheckReport compareSolutions(const SolutionView& updated, const SolutionView& fr
     check.p95RelDiff = differences[differences.size() * 95 / 100];
     check.maxRelDiff = differences.back();
   }
-  const particles::Particles &p = updated.get().particles, &q = fresh.get().particles;
-  check.particlesIdentical = p.hash() == q.hash();
+  const SolutionHashes mine = hashesOf(updated.get()), theirs = hashesOf(fresh.get());
+  check.meshIdentical = mine.mesh == theirs.mesh;
+  check.linesIdentical = mine.lines == theirs.lines;
+  check.particlesIdentical = mine.particles == theirs.particles;
   return check;
 }
 

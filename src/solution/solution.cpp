@@ -1,5 +1,10 @@
 #include "solution/solution.hpp"
 
+#include <bit>
+
+#include "base/random.hpp"
+#include "hierarchy/leaf_table.hpp"
+
 namespace deltalux {
 
 const Scene& SolutionView::scene() const { return solution_->scene; }
@@ -21,6 +26,19 @@ std::vector<CausticReport> SolutionView::caustics() const {
     report.fluxW = unit * gray(s.flux());
   }
   return reports;
+}
+
+SolutionHashes hashesOf(const Solution& s) {
+  SolutionHashes hashes;
+  const hierarchy::LeafTable leaves(s.elements);
+  std::vector<std::uint64_t> keys;
+  for (const hierarchy::ElementId leaf : leaves.leaves) {
+    keys.push_back(s.elements.key[leaf.index()]);
+    hashes.mesh += combineKeys(keys.back(), std::bit_cast<std::uint32_t>(s.elements.shape(leaf).exposed));
+  }
+  if (s.lines.leaves() == leaves.size()) hashes.lines = s.lines.hash(keys);
+  hashes.particles = s.particles.hash();
+  return hashes;
 }
 
 }  // namespace deltalux

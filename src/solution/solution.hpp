@@ -29,4 +29,10 @@ struct Solution {
   SolveReport report;
 };
 
+/// The same for solutions that are the same, whatever the order in which their patches came about.
+struct SolutionHashes {
+  std::uint64_t mesh = 0, lines = 0, particles = 0;
+};
+SolutionHashes hashesOf(const Solution&);
+
 }  // namespace deltalux

@@ -65,6 +65,7 @@ struct SolveMemory {
   std::vector<DimLeaf> dim;                   // ascending
   std::unique_ptr<lines::Exchange> exchange;  // over those lines
   std::vector<char> plain;                    // by material: SurfaceResponses::plain()
+  std::vector<char> shining;                  // by light: whether it was on
 };
 
 }  // namespace deltalux

@@ -38,7 +38,8 @@ TEST(Report, HasTheKeysOfTheContract) {
             (Keys{"op", "object", "time_s", "links_visited", "links_changed", "leaves_examined", "leaves_changed",
                   "particles_retraced", "particles_total", "textures_rebuilt", "rays", "deferred"}));
   EXPECT_EQ(keysOf(step["time_s"]), times);
-  EXPECT_EQ(keysOf(json["check"]), (Keys{"solve_s", "irradiance_rel_diff", "particles_identical"}));
+  EXPECT_EQ(keysOf(json["check"]),
+            (Keys{"solve_s", "irradiance_rel_diff", "mesh_identical", "lines_identical", "particles_identical"}));
   EXPECT_EQ(keysOf(json["check"]["irradiance_rel_diff"]), (Keys{"median", "p95", "max"}));
 }
 
