@@ -8,6 +8,7 @@ namespace deltalux {
 enum class SolveMethod : std::uint8_t {
   Links,  // hierarchical links, resolved to rows of transfers
   Lines,  // stored lines that count at both ends
+  Paper,  // hierarchical links alone, refined to the error
 };
 
 struct SolveSettings {

@@ -47,6 +47,7 @@ Engine::Engine(SolutionView view) : state_(std::make_unique<State>()) {
     state_->solution->tracer = tracing::makeEmbreeTracer(state_->solution->scene);
   }
   state_->finished = !state_->solution->transfers.empty() || state_->solution->lines.leaves() > 0 ||
+                     (state_->byPaper() && state_->solution->links.size() > 0) ||
                      state_->solution->elements.size() == 0;
   state_->prepareToFollow();
 }

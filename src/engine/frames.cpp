@@ -15,9 +15,9 @@ StepReport Engine::State::frame(double seconds) {
   Solution& s = *solution;
   StepReport step;
   const std::uint64_t traced = tracer().traced();
-  if (byLines()) {  // the next update does it all
-    takeIn(step, true);
-    step.deferred = s.lines.leaves();
+  if (byLines() || byPaper()) {  // the next update does it all
+    takeIn(step);
+    step.deferred = byLines() ? s.lines.leaves() : backlog.links.moved.size() + backlog.links.movedLights.size();
     step.times.total = time.seconds();
     return step;
   }

@@ -40,7 +40,7 @@ SolveReport Engine::State::step(Progress* progress) {
   }
   if (!s.elements.sceneRoot.valid() && s.elements.size() == 0) prepare(progress);
   if (s.elements.sceneRoot.valid())
-    round(progress);
+    byPaper() ? paperRound(progress) : round(progress);
   else
     s.report.converged = finished = true;
   s.report.times.total += time.seconds();
@@ -86,7 +86,10 @@ void Engine::State::prepare(Progress* progress) {
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.counts.raysVisibility += coarse.rays;
   s.report.times.hierarchy += time.seconds() - s.report.times.particles;
-  nextError = s.settings.error * kFirstError * (previewed ? kPreview : budget.limited() ? kHasty : 1.0);
+  nextError = (byPaper() ? linksJudged().error : s.settings.error) * kFirstError *
+              (previewed          ? kPreview
+               : budget.limited() ? kHasty
+                                  : 1.0);
   if (progress) progress->report("hierarchy", 1.0);
 }
 

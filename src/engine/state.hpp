@@ -17,6 +17,7 @@
 #include "engine/moving_groups.hpp"
 #include "engine/scene_update.hpp"
 #include "engine/time_budget.hpp"
+#include "paper/update.hpp"
 #include "particles/particle_tracing.hpp"
 #include "particles/transfer.hpp"
 #include "radiosity/line_space.hpp"
@@ -62,6 +63,8 @@ struct Engine::State {
 
   /// Whether light is exchanged by lines: an update is then a solve of the edited scene.
   bool byLines() const { return solution->settings.method == SolveMethod::Lines; }
+  /// Whether by links alone, which have no rows.
+  bool byPaper() const { return solution->settings.method == SolveMethod::Paper; }
 
   // Solving.
   SolveReport step(Progress* progress);
@@ -89,6 +92,16 @@ struct Engine::State {
   bool settleRows(Progress* progress);
   void settleCorners();
   RgbSum directPower() const;
+  // Over links alone: paper_method.cpp.
+  void paperRound(Progress* progress);
+  /// Returns whether light has settled; `well`: it is to be the last time.
+  bool settleOverLinks(bool well, Progress* progress);
+  void paperUpdate(StepReport& step, Progress* progress);
+  /// How links are judged when they are as fine as the error asks for.
+  radiosity::OracleSettings linksJudged() const;
+  /// Returns the topmost links that are others now.
+  std::vector<hierarchy::LinkId> judgeAnew(paper::Motion& motion, const engine::Growth& growth, StepReport& step);
+  bool refineByNewLight(Progress* progress);
   /// Sums that take a walk over everything, for who looks at the report.
   void count();
   EnergyLedger balance();
@@ -99,10 +112,7 @@ struct Engine::State {
   }
 
   // Updating.
-  struct Motion {
-    radiosity::SpaceChange all;                // bounds before and after
-    std::vector<hierarchy::ElementId> inputs;  // of what moves
-    radiosity::LinkMarks marks;
+  struct Motion : paper::Motion {
     engine::LightChanges light;
   };
   /// What a fresh solve would make of the edited scene, from the solution there is. [GD01 5]

@@ -35,6 +35,12 @@ StepReport Engine::State::update(Progress* progress) {
     step.times.total = time.seconds();
     return step;
   }
+  if (byPaper()) {
+    paperUpdate(step, progress);
+    step.rays = tracer().traced() - traced;
+    step.times.total = time.seconds();
+    return step;
+  }
   const std::vector<hierarchy::ElementId> waited = renewWaitingRows(step);
   const engine::SceneUpdate edits = std::exchange(backlog.links, {});
   Motion motion = leave(edits, step);
@@ -160,7 +166,8 @@ void Engine::State::prepareToFollow() {
     return;
   }
   if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
-  if (!settling) settling.emplace(engine::LightSettling::Parts{s.scene, s.transfers, *transfer}, s.elements);
+  if (!settling && !byPaper())
+    settling.emplace(engine::LightSettling::Parts{s.scene, s.transfers, *transfer}, s.elements);
   if (s.settings.diffuseOnly) return;
   if (!tracing)
     tracing.emplace(s.scene, *s.tracer,
@@ -199,58 +206,20 @@ std::vector<hierarchy::ElementId> Engine::State::relight(const engine::SceneUpda
 Engine::State::Motion Engine::State::leave(const engine::SceneUpdate& edits, StepReport& step) {
   Solution& s = *solution;
   const engine::Clock time;
-  Motion motion;
-  std::vector<PrimitiveId> primitives;
-  radiosity::SpaceChange before, after;
-  for (const SceneChange::Moved& m : edits.moved) {
-    primitives.push_back(m.primitive);
-    before.add(m.before), motion.all.add(m.before);
-    motion.all.addMoved(m.primitive, s.scene);
-  }
-  for (const PrimitiveId id : primitives)
-    if (const Box box = bounds(s.scene[id].shape); !box.empty()) after.add(box), motion.all.add(box);
-  motion.inputs = hierarchy::elementsOf(s.elements, primitives);
-  const std::vector<hierarchy::ElementId> lights = hierarchy::elementsOf(s.elements, edits.movedLights);
-  motion.inputs.insert(motion.inputs.end(), lights.begin(), lights.end());
-  motion.all.addMoved(motion.inputs, s.elements, s.scene);
-  if (primitives.empty() && motion.inputs.empty()) return motion;
-  motion.all.findHidden(s.elements, s.scene);
-  motion.marks = radiosity::LineSpace(s.links, s.elements, s.scene, motion.all, before, after).visit();
-  hierarchy::reshape(s.elements, s.scene, motion.inputs);
-  if (!lights.empty()) radiosity::creditLights(s.elements);
+  Motion motion{paper::leave({s.scene, *s.tracer, s.elements, s.links}, edits.moved, edits.movedLights, linksJudged()),
+                {}};
+  if (!edits.movedLights.empty()) radiosity::creditLights(s.elements);
   step.times.visibility = time.seconds();
   return motion;
 }
 
 engine::RowWork Engine::State::arrive(Motion& motion, const engine::Growth& growth, StepReport& step) {
   Solution& s = *solution;
-  const engine::Clock time;
-  radiosity::LinkMarks& marks = motion.marks;
-  if (marks.changes.empty() || !growth.woken.empty()) {
-    radiosity::SpaceChange woken;
-    woken.addMoved(growth.woken, s.elements, s.scene);
-    radiosity::add(radiosity::LineSpace(s.links, s.elements, s.scene, woken, {}, {}).visit(), marks);
-    motion.inputs.insert(motion.inputs.end(), growth.woken.begin(), growth.woken.end());
-    motion.all.addMoved(motion.inputs, s.elements, s.scene);
-  }
-  if (!growth.empty()) motion.all.findHidden(s.elements, s.scene, growth.root);
-  if (growth.root.valid()) radiosity::addRootLinks(s.links, s.elements, growth.root);
-  step.linksVisited = marks.visited;
-  step.times.visibility += time.seconds();
-
-  const engine::Clock refining;
-  radiosity::OracleSettings oracle;
-  oracle.error = s.settings.error * engine::kLastError;
   engine::RowWork work;
-  const radiosity::RefineReport refined =
-      radiosity::rejudge(s.links, s.elements, s.scene, *s.tracer, oracle, marks, work.changed);
-  DELTALUX_VALIDATED(validate(s.links, s.elements));
-  s.report.counts.raysVisibility += refined.rays;
-  step.linksChanged = work.changed.size();
-  step.times.refine = refining.seconds();
+  work.changed = judgeAnew(motion, growth, step);
   const engine::Clock gathering;
   work.leaves = s.transfers.concerned(s.elements, s.links, work.changed, motion.all);
-  work.marks = std::move(marks), work.space = std::move(motion.all);
+  work.marks = std::move(motion.marks), work.space = std::move(motion.all);
   step.leavesExamined = std::max(work.leaves.byLights.size(), work.leaves.byLeaves.size());
   step.times.gather += gathering.seconds();
   return work;

@@ -23,13 +23,14 @@ struct LineSpace::Finding {
 };
 
 LineSpace::LineSpace(const hierarchy::Links& links, const hierarchy::Elements& elements, const Scene& scene,
-                     const SpaceChange& change, const SpaceChange& before, const SpaceChange& after)
+                     const SpaceChange& change, const SpaceChange& before, const SpaceChange& after, int trusted)
     : links_(links),
       elements_(elements),
       scene_(scene),
       change_(change),
       before_(before),
       after_(after),
+      trusted_(trusted),
       above_(elements.size(), 0) {
   for (const hierarchy::ElementId e : change.inputs()) {
     if (elements.isPatch(e) && !elements.at(e).emitter) blockers_.push_back(e);
@@ -61,9 +62,8 @@ LineSpace::Finding LineSpace::examine(hierarchy::LinkId id) const {
   f.met = f.moved || left || arrives;
   if (!f.met) return f;
   // What samples tell stands as long as no ray of theirs meets what moved. Where few were taken, little comes over the
-  // link or it was split for its kernel: what they tell only shares out the rays of rows.
-  if (!f.moved && l.visibility == hierarchy::Visibility::Sampled && l.samples > kFewSamples &&
-      (left || l.sampleMask != 0))
+  // link or it was split for its kernel: that may do for who only shares out rays by it.
+  if (!f.moved && l.visibility == hierarchy::Visibility::Sampled && l.samples > trusted_ && (left || l.sampleMask != 0))
     f.rays = LinkSamples(elements_, scene_, l.receiver, l.sender).meeting(l.samples, l.sampleMask, change_, before_);
   switch (l.state) {
     case hierarchy::LinkState::Free:

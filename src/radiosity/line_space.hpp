@@ -34,9 +34,10 @@ void add(const LinkMarks&, LinkMarks& marks);
 
 class LineSpace {
  public:
-  /// `change` says which elements move, `before` and `after` the bounds of those where they are and will be.
+  /// `change` says which elements move, `before` and `after` the bounds of those where they are and will be. `trusted`:
+  /// sample rays; what so few have told of a link stands.
   LineSpace(const hierarchy::Links&, const hierarchy::Elements&, const Scene&, const SpaceChange& change,
-            const SpaceChange& before, const SpaceChange& after);
+            const SpaceChange& before, const SpaceChange& after, int trusted);
 
   LinkMarks visit() const;
 
@@ -53,6 +54,7 @@ class LineSpace {
   const hierarchy::Elements& elements_;
   const Scene& scene_;
   const SpaceChange &change_, &before_, &after_;
+  int trusted_;
   PagedArray<char> above_;                      // by element: a cluster with some of what moves
   std::vector<hierarchy::ElementId> blockers_;  // input-level patches of what moved
 };

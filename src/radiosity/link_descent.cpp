@@ -136,7 +136,7 @@ std::uint32_t LinkDescent::raysOf(hierarchy::LinkId id) const {
 bool LinkDescent::settle(const Task& task, const Verdict& v, Block& block) {
   const hierarchy::Link& link = links_[task.link];
   const bool anew = task.mark > LinkMark::Path, interior = link.state == hierarchy::LinkState::Interior;
-  const bool same = anew && sameTransfer(link, v.link);
+  const bool same = anew && sameTransfer(link, v.link, settings_.sameKernel);
   // A link collapses for what a move has changed, not for light that has settled since it was refined. One that shows
   // nothing any more stays refined for when what hides it moves on: until then that costs no more than its place.
   if (interior && (!anew || same || v.split != Split::None || !v.refined || v.link.unseen())) {

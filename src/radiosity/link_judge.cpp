@@ -115,7 +115,7 @@ Verdict LinkJudge::judgeMoved(const hierarchy::Link& before, const Candidates& c
 
 /// Whether what few rays told of a link before may stand: as little comes over it.
 bool LinkJudge::sawEnough(const hierarchy::Link& before, hierarchy::Link& after) const {
-  if (before.visibility != hierarchy::Visibility::Sampled || before.samples > kFewSamples || before.childCount > 0)
+  if (before.visibility != hierarchy::Visibility::Sampled || before.samples > trusted_ || before.childCount > 0)
     return false;
   hierarchy::Link same = after;
   same.visibility = before.visibility, same.samples = before.samples, same.sampleMask = before.sampleMask;

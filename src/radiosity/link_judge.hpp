@@ -40,7 +40,7 @@ class LinkJudge {
   /// All must outlive this.
   LinkJudge(const hierarchy::Elements& elements, const Scene& scene, const tracing::RayTracer& tracer,
             const OracleSettings& settings)
-      : elements_(elements), scene_(scene), tracer_(tracer), oracle_(elements, settings) {}
+      : elements_(elements), scene_(scene), tracer_(tracer), oracle_(elements, settings), trusted_(settings.trusted) {}
 
   /// A link as the tree has it. `parentSaw`: some ray between the parent's ends passed.
   Verdict judge(const hierarchy::Link&, bool parentSaw, const Candidates&) const;
@@ -84,6 +84,7 @@ class LinkJudge {
   const Scene& scene_;
   const tracing::RayTracer& tracer_;
   Oracle oracle_;
+  int trusted_;
 };
 
 }  // namespace deltalux::radiosity

@@ -8,14 +8,13 @@ namespace deltalux::radiosity {
 
 namespace {
 
-constexpr float kSameTransfer = 0.05f;  // relative difference of kernels that is no news: rows know their own
-constexpr float kSameKernel = 2.0f;     // factors within which rays are still well shared out
-constexpr float kMoreOpen = 6.0f;       // the same of openness, upwards
+constexpr float kSameKernel = 2.0f;  // factors within which rays are still well shared out
+constexpr float kMoreOpen = 6.0f;    // the same of openness, upwards
 
 }  // namespace
 
-bool sameTransfer(const hierarchy::Link& before, const hierarchy::Link& after) {
-  return std::abs(before.K - after.K) <= kSameTransfer * before.K && before.V == after.V &&
+bool sameTransfer(const hierarchy::Link& before, const hierarchy::Link& after, float sameKernel) {
+  return std::abs(before.K - after.K) <= sameKernel * before.K && before.V == after.V &&
          before.visibility == after.visibility &&
          (before.state == hierarchy::LinkState::Averted) == (after.state == hierarchy::LinkState::Averted);
 }

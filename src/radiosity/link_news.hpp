@@ -9,9 +9,9 @@ inline constexpr double kNews = 0.1;
 /// The same where rows do not sample it at all.
 inline constexpr double kNewsToRows = 2e-4;
 
-/// Whether a second look has found what the first did. Light changes all the while; a move is no reason to refine for
-/// it.
-bool sameTransfer(const hierarchy::Link& before, const hierarchy::Link& after);
+/// Whether a second look has found what the first did, kernels that differ by no more than `sameKernel`, relatively.
+/// Light changes all the while; a move is no reason to refine for it.
+bool sameTransfer(const hierarchy::Link& before, const hierarchy::Link& after, float sameKernel);
 
 /// Whether a link that was proven blocked, and that rows have no rays over, still shows nothing. Where something moves
 /// the proof fails long before light passes: of 125,000 rays over such links, in a cabin and a house, none did.

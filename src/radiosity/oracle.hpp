@@ -23,6 +23,9 @@ struct OracleSettings {
   double finest = 0.6;  // least area of a patch that is still split: finest * error * A_0
   double direct = 20;   // budget of direct light against indirect: it is sampled anew where it is shown, so that only
                         // what it sends on matters, spread over all that its receiver sees
+  // After a move; where links carry the light themselves, nothing of this kind may stand.
+  int trusted = 4;           // sample rays: what so few have told of a link is not asked again
+  float sameKernel = 0.05f;  // relative difference of kernels that is none
 };
 
 /// What the oracle finds about one link, all in watts (gray).

@@ -8,7 +8,7 @@ namespace deltalux::io {
 
 template <>
 struct EnumRange<SolveMethod> {
-  static constexpr SolveMethod first = SolveMethod::Links, last = SolveMethod::Lines;
+  static constexpr SolveMethod first = SolveMethod::Links, last = SolveMethod::Paper;
 };
 
 void members(auto& archive, Is<SolveSettings> auto& s) {

@@ -1,0 +1,58 @@
+#include "paper/solve.hpp"
+
+#include <algorithm>
+
+#include "base/parallel.hpp"
+#include "radiosity/gather.hpp"
+#include "radiosity/push_pull.hpp"
+
+namespace deltalux::paper {
+
+namespace {
+
+// What links may err by, for an error of irradiance (docs/paper.md): errors of links add up to less, as they differ in
+// sign. Smaller ones cost memory first: half the error, two thirds more links.
+constexpr double kLinkError = 4;
+constexpr double kDirect = 4;   // what direct light may, against indirect: one link brings most of it
+constexpr double kScale = 0.3;  // of the mean free path, gives the side of the area that matters (oracle.hpp)
+
+constexpr double kFactor = 0.35;      // from round to round
+constexpr int kMaxIterations = 1024;  // halls of white plaster settle in some fifty
+
+RgbSum directPower(const hierarchy::Elements& e) {
+  return parallelSum<RgbSum>(e.inputs.size(), 4096, [&](std::size_t i) {
+    const hierarchy::ElementId input = e.inputs[i];
+    return e.receives(input) ? double(e.shape(input).litArea()) * RgbSum(e.radiometry[input.index()].direct)
+                             : RgbSum(0.0);
+  });
+}
+
+}  // namespace
+
+radiosity::OracleSettings judgedFor(double error) {
+  radiosity::OracleSettings settings;
+  settings.error = kLinkError * error, settings.scale = kScale, settings.direct = kDirect;
+  settings.trusted = 0, settings.sameKernel = 0;
+  return settings;
+}
+
+double nextError(double error, double least) { return std::max(least, kFactor * error); }
+
+Settled settle(const Parts& parts, const particles::ParticleTransfer& onMesh, double unsettled,
+               const std::function<bool(const Settled&)>& goOn) {
+  const radiosity::GatherPlan plan(parts.links, parts.elements);
+  plan.gatherDirect(parts.elements);
+  Settled s;
+  while (s.iterations < kMaxIterations) {
+    plan.gatherIndirect(parts.elements);
+    onMesh.apply(parts.elements, parts.scene);
+    s.unsettled = radiosity::pushPull(parts.elements);
+    ++s.iterations;
+    s.emitted = directPower(parts.elements);
+    s.whole = gray(s.unsettled) <= unsettled * gray(s.emitted);
+    if (s.whole || !goOn(s)) break;
+  }
+  return s;
+}
+
+}  // namespace deltalux::paper

@@ -1,0 +1,45 @@
+#pragma once
+// Hierarchical radiosity with clustering, of which links carry the light [GD01 2.1]: they are refined in rounds, each
+// to a smaller error than the one before, and light settles over them after each, so that the next judges them by the
+// light there is. The last round refines to what the error of irradiance that is asked for comes to for links.
+//
+// How errors map: docs/paper.md. Cost: refinement, one kernel, one shaft and at most 16 rays a link; settling, some ten
+// nanoseconds a link and iteration. Nothing here depends on the number of threads.
+#include <functional>
+
+#include "hierarchy/link.hpp"
+#include "particles/transfer.hpp"
+#include "radiosity/oracle.hpp"
+#include "radiosity/refine.hpp"
+
+namespace deltalux::paper {
+
+/// What a solve works on.
+struct Parts {
+  const Scene& scene;
+  const tracing::RayTracer& tracer;
+  hierarchy::Elements& elements;
+  hierarchy::Links& links;
+};
+
+/// How links are judged in the last round, for a relative error of irradiance.
+radiosity::OracleSettings judgedFor(double error);
+/// The error of links in the round after one of `error`, of a solve that ends at `least`.
+double nextError(double error, double least);
+
+struct Settled {
+  RgbSum emitted{0.0};    // what arrives of lights [W, with the scene's unit squared as area]
+  RgbSum unsettled{0.0};  // that the last iteration changed, in the same unit
+  std::uint64_t iterations = 0;
+  bool whole = false;  // as little is unsettled as shall be
+};
+
+constexpr double kSettled = 1e-3;      // unsettled power between rounds, relative to what arrives of lights
+constexpr double kSettledWell = 1e-5;  // the same in the end: dark corners too shall be right
+
+/// Gathers over all links, and from particles, until light no longer changes, from the light there is. `goOn` is asked
+/// after every iteration.
+Settled settle(const Parts&, const particles::ParticleTransfer&, double unsettled,
+               const std::function<bool(const Settled&)>& goOn);
+
+}  // namespace deltalux::paper

@@ -1,0 +1,38 @@
+#pragma once
+// What a move does to links [GD01 5]: those that it touches are found by the line-space traversal, where things stand
+// before they leave; they are judged anew where things have arrived, refined or made coarse again. All light is then
+// gathered over links again, from the light there is (solve.hpp). (Departure: the paper takes light out of touched
+// links and puts it in again; gathering leaves nothing to add up or forget.) Cost: some 0.1 microseconds a link
+// visited, and what judging costs those that are touched.
+#include <deltalux/edit.hpp>
+
+#include "paper/solve.hpp"
+#include "radiosity/line_space.hpp"
+
+namespace deltalux::paper {
+
+struct Motion {
+  radiosity::SpaceChange all;                // bounds before and after
+  std::vector<hierarchy::ElementId> inputs;  // of what moves
+  radiosity::LinkMarks marks;                // what it touches
+};
+
+/// What moves leaves its place: the links that it touches there and where it goes, and the shapes of its elements. The
+/// scene has it in its new place, elements in the old one.
+Motion leave(const Parts&, std::span<const SceneChange::Moved>, std::span<const LightId>,
+             const radiosity::OracleSettings&);
+
+/// What has come into the light since: elements of their own (a root, or none), and others that slept or were black.
+struct Newcomers {
+  hierarchy::ElementId root;
+  std::span<const hierarchy::ElementId> woken;
+};
+
+/// It comes to its new place, and newcomers with it: adds the links of these to the marks.
+void arrive(const Parts&, Motion&, const Newcomers&, const radiosity::OracleSettings&);
+
+/// Judges the marked links anew. `changed`: the topmost of those that are others now.
+radiosity::RefineReport follow(const Parts&, Motion&, const radiosity::OracleSettings&,
+                               std::vector<hierarchy::LinkId>& changed);
+
+}  // namespace deltalux::paper
