@@ -4,7 +4,7 @@
 
 #include "base/sort_unique.hpp"
 #include "engine/state.hpp"
-#include "radiosity/push_pull.hpp"
+#include "hierarchy/pull.hpp"
 
 namespace deltalux {
 
@@ -122,14 +122,14 @@ void Engine::State::iterate(const SecondsLeft& left, StepReport& step) {
   Solution& s = *solution;
   const engine::Clock time;
   transfer->apply(s.elements, s.scene);
-  radiosity::pull(s.elements);
+  hierarchy::pull(s.elements);
   backlog.deposit.learn(time.seconds());
   const double emitted = backlog.pass.seconds() < left() ? gray(directPower()) : 0.0;
   while (backlog.pass.seconds() < left()) {
     const engine::Clock passing;
     s.transfers.gatherIndirect(s.elements);
     transfer->apply(s.elements, s.scene);
-    unsettled = radiosity::pull(s.elements);
+    unsettled = hierarchy::pull(s.elements);
     backlog.pass.learn(passing.seconds());
     ++s.report.counts.iterations;
     if (gray(unsettled) <= engine::kSettledRows * emitted) break;

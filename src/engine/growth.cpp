@@ -5,9 +5,9 @@
 #include "hierarchy/below.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
+#include "hierarchy/pull.hpp"
 #include "particles/reached_sides.hpp"
 #include "radiosity/covered_sides.hpp"
-#include "radiosity/push_pull.hpp"
 
 namespace deltalux::engine {
 
@@ -70,7 +70,7 @@ Growth growInLight(Solution& s, const SceneUpdate& edits, const particles::Parti
   if (!growth.asleep.empty()) hierarchy::setAsleep(s.elements, s.scene, growth.asleep, true);
   if (!growth.woken.empty()) hierarchy::setAsleep(s.elements, s.scene, growth.woken, false);
   if (!fresh.empty()) growth.root = hierarchy::growElements(s.elements, s.scene, fresh);
-  if (!growth.empty()) radiosity::pull(s.elements, leavesBelow(s.elements, growth));
+  if (!growth.empty()) hierarchy::pull(s.elements, leavesBelow(s.elements, growth));
   return growth;
 }
 

@@ -11,7 +11,7 @@
 #include "base/sort_unique.hpp"
 #include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
-#include "radiosity/push_pull.hpp"
+#include "hierarchy/pull.hpp"
 
 namespace deltalux::engine {
 
@@ -187,7 +187,7 @@ void LightSettling::gather(const Parts& parts, hierarchy::Elements& elements, Wo
     addMarked(marks, work.leaves);
   }
   sortUnique(work.leaves);
-  radiosity::addOtherSides(elements, work.leaves);
+  hierarchy::addOtherSides(elements, work.leaves);
 }
 
 double LightSettling::settle(const Parts& parts, hierarchy::Elements& elements, const LightChanges& changes,
@@ -196,7 +196,7 @@ double LightSettling::settle(const Parts& parts, hierarchy::Elements& elements, 
   Work work = firstWork(parts, elements, changes);
   for (int pass = 0; pass < most; ++pass) {
     gather(parts, elements, work, pass == 0);
-    radiosity::pull(elements, work.leaves);
+    hierarchy::pull(elements, work.leaves);
     listen(elements, work.leaves);
     ++passes;
     const News news = publish(elements, tolerated);

@@ -9,11 +9,11 @@
 #include "engine/particle_count.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/patch.hpp"
+#include "hierarchy/pull.hpp"
 #include "lines/line_counts.hpp"
 #include "lines/tuning.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/particle_tracing.hpp"
-#include "radiosity/push_pull.hpp"
 
 namespace deltalux::engine {
 
@@ -83,7 +83,7 @@ bool traceParticles(Solution& s, const TimeBudget& budget) {
 void refineForParticles(LineSolve& x) {
   Solution& s = x.s;
   if (s.particles.impacts() == 0) return;
-  radiosity::pull(s.elements);
+  hierarchy::pull(s.elements);
   caustics::SurfaceSides shown(2 * s.scene.primitives.size(), false);
   if (s.settings.causticTextures)
     shown = caustics::sidesWithTextures(s.scene, s.elements, particles::impacts(s.particles, s.elements, s.scene),
@@ -160,7 +160,8 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const T
     l.typical = gray(l.direct + l.indirect);
   }
   solve->floor = direct::tuning::kFloor * meanIrradiance(s.elements);
-  radiosity::pull(s.elements);
+  hierarchy::pull(s.elements);
+  DELTALUX_VALIDATED(validate(s.elements));
   s.report.times.visibility += watch.lap();
   if (progress) progress->report("coarse light", 1.0);
   return solve;
@@ -195,7 +196,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
   }
   lines::TracedLines traced = traceLeaves(x, base);
   lightLeaves(x, std::move(traced), lines::tuning::kConverged);
-  radiosity::pull(s.elements);
+  hierarchy::pull(s.elements);
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.error = estimateError(s, x.floor);
   s.report.times.gather += watch.lap();

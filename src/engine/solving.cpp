@@ -10,6 +10,7 @@
 #include "engine/particle_count.hpp"
 #include "engine/state.hpp"
 #include "hierarchy/build.hpp"
+#include "hierarchy/pull.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/reached_sides.hpp"
 #include "radiosity/coarse_solution.hpp"
@@ -82,7 +83,7 @@ void Engine::State::prepare(Progress* progress) {
   trace();
   particles::addReachedSides(sides, s.particles, s.scene, *s.tracer);
   s.elements = hierarchy::buildElements(s.scene, sides);
-  radiosity::pull(s.elements);
+  hierarchy::pull(s.elements);
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.counts.raysVisibility += coarse.rays;
   s.report.times.hierarchy += time.seconds() - s.report.times.particles;
@@ -272,13 +273,13 @@ void Engine::State::settleCorners() {
 bool Engine::State::settleRows(Progress* progress) {
   Solution& s = *solution;
   s.transfers.gatherDirect(s.elements);
-  radiosity::pull(s.elements);
+  hierarchy::pull(s.elements);
   const RgbSum emitted = directPower();
   if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
   for (int i = 0; i < engine::kMaxRowIterations; ++i) {
     s.transfers.gatherIndirect(s.elements);
     transfer->apply(s.elements, s.scene);
-    unsettled = radiosity::pull(s.elements);
+    unsettled = hierarchy::pull(s.elements);
     ++s.report.counts.iterations;
     if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));
     if (gray(unsettled) <= (budget.up() ? kSettled : engine::kSettledWell) * gray(emitted)) break;

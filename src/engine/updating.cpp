@@ -9,7 +9,6 @@
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
 #include "radiosity/direct_senders.hpp"
-#include "radiosity/push_pull.hpp"
 
 namespace deltalux {
 

@@ -7,9 +7,9 @@
 
 #include "base/parallel.hpp"
 #include "hierarchy/below.hpp"
+#include "hierarchy/pull.hpp"
 #include "radiosity/direct_rows.hpp"
 #include "radiosity/indirect_sampler.hpp"
-#include "radiosity/push_pull.hpp"
 
 namespace deltalux::radiosity {
 
@@ -64,7 +64,7 @@ LeafTransferReport LeafTransfers::build(hierarchy::Elements& elements, const hie
   report.rays = direct.rays, report.split = direct.split;
   std::sort(rows_.begin(), rows_.end(), [](const LeafRow& a, const LeafRow& b) { return a.leaf < b.leaf; });
   gatherDirect(elements);
-  pull(elements);
+  hierarchy::pull(elements);
 
   const IndirectSampler sampler(scene, elements, links, tracer);
   std::vector<std::uint64_t> rays((rows_.size() + kBlock - 1) / kBlock, 0);

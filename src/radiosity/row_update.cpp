@@ -8,11 +8,11 @@
 #include "base/sort_unique.hpp"
 #include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
+#include "hierarchy/pull.hpp"
 #include "radiosity/arriving_links.hpp"
 #include "radiosity/direct_rows.hpp"
 #include "radiosity/indirect_sampler.hpp"
 #include "radiosity/leaf_transfers.hpp"
-#include "radiosity/push_pull.hpp"
 
 namespace deltalux::radiosity {
 
@@ -181,7 +181,7 @@ LeafUpdateReport LeafTransfers::update(hierarchy::Elements& elements, const hier
   for (const hierarchy::ElementId leaf : leaves.byLights) wasInPart.push_back(inPart(leaf));
   updateDirect(elements, change, leaves.byLights, report);
   for (const hierarchy::ElementId leaf : report.leaves) gatherDirect(rows_[rowOf_[leaf.index()]], elements);
-  pull(elements, report.leaves);
+  hierarchy::pull(elements, report.leaves);
 
   std::vector<hierarchy::ElementId> indirect = leaves.byLeaves, reaching = report.leaves;
   for (const hierarchy::ElementId leaf : report.leaves)

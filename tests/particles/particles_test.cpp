@@ -11,7 +11,6 @@
 #include "particles/trace.hpp"
 #include "particles/transfer.hpp"
 #include "radiosity/coarse_solution.hpp"
-#include "radiosity/push_pull.hpp"
 #include "support/rooms.hpp"
 
 namespace deltalux {

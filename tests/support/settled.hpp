@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hierarchy/pull.hpp"
 #include "particles/transfer.hpp"
-#include "radiosity/push_pull.hpp"
 #include "support/solved.hpp"
 
 namespace deltalux::test {
@@ -14,12 +14,12 @@ inline hierarchy::Elements settledOverAll(const Solution& s) {
   hierarchy::Elements elements = s.elements;
   const particles::ParticleTransfer particles(s.particles, elements, s.scene);
   s.transfers.gatherDirect(elements);
-  radiosity::pull(elements);
+  hierarchy::pull(elements);
   double first = 0;
   for (int i = 0; i < 200; ++i) {
     s.transfers.gatherIndirect(elements);
     particles.apply(elements, s.scene);
-    const double change = gray(radiosity::pull(elements));
+    const double change = gray(hierarchy::pull(elements));
     first = std::max(first, change);
     if (change <= 1e-6 * first) break;
   }
