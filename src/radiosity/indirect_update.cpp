@@ -6,6 +6,7 @@
 
 #include "radiosity/indirect_sampler.hpp"
 #include "radiosity/links_below.hpp"
+#include "radiosity/moved_rays.hpp"
 #include "radiosity/row_terms.hpp"
 #include "radiosity/visibility.hpp"
 
@@ -25,7 +26,7 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(hierarchy::ElementI
   const hierarchy::ElementGeometry& r = elements_.shape(leaf);
   if (elements_.at(leaf).flat && space.behind(r.center, r.normal)) return out;
   std::vector<std::uint32_t> candidates;
-  space.meetsRays(r, row.rays, candidates);
+  meetsRays(space, r, row.rays, candidates);
   // Senders that moved, behind what blocks their rays or without one.
   const auto met = static_cast<std::ptrdiff_t>(candidates.size());
   if (space.meets(row.reach.objects))
@@ -114,7 +115,7 @@ bool IndirectSampler::turn(hierarchy::ElementId leaf, const LinkChanges& links,
   // Rays to what moved, and those that it was found to block, end where it is hidden now: when that goes, they are
   // drawn again.
   std::vector<std::uint32_t> met;
-  space.meetsRays(g, row.rays, met);
+  meetsRays(space, g, row.rays, met);
   std::erase_if(met, [&](std::uint32_t i) { return !blocked(row.rays[i]) || !(end(row.rays[i]) > 0); });
   for (std::uint32_t i = 0; i < row.terms.size(); ++i)
     if (space.moved(row.terms[i].sender)) met.push_back(i);

@@ -13,6 +13,7 @@
 #include "radiosity/direct_rows.hpp"
 #include "radiosity/indirect_sampler.hpp"
 #include "radiosity/leaf_transfers.hpp"
+#include "radiosity/moved_rays.hpp"
 
 namespace deltalux::radiosity {
 
@@ -34,7 +35,7 @@ int concernedBy(const hierarchy::Elements& elements, const LeafRow& row, const S
                 bool hidden) {
   if (hidden) return space.meets(row.indirect.reach.objects) ? kByLeaves : 0;
   const hierarchy::ElementGeometry& g = elements.shape(row.leaf);
-  bool byLights = !inScene || space.meets(g, row.direct.reach), byLeaves = space.meets(g, row.indirect.reach);
+  bool byLights = !inScene || meets(space, g, row.direct.reach), byLeaves = meets(space, g, row.indirect.reach);
   if ((byLights || byLeaves) && space.hiddenFrom(row.leaf))
     byLights = false, byLeaves = space.meets(row.indirect.reach.objects);
   byLights |= uncovers(elements, row.leaf, space);

@@ -10,9 +10,8 @@
 #include "base/paged_array.hpp"
 #include "hierarchy/link.hpp"
 #include "radiosity/box_groups.hpp"
+#include "radiosity/object_set.hpp"
 #include "radiosity/out_of_sight.hpp"
-#include "radiosity/ray_code.hpp"
-#include "radiosity/row_reach.hpp"
 #include "radiosity/shaft.hpp"
 #include "tracing/ray.hpp"
 
@@ -37,6 +36,8 @@ class SpaceChange {
   }
 
   bool empty() const { return parts_.empty(); }
+  /// Of all; where there is nothing, inside out.
+  const BoxGroups::Part& bounds() const { return parts_.all(); }
   /// Finds out what sees nothing of all this, nor of what has grown, while the rest stands still; until more is added.
   void findHidden(const hierarchy::Elements&, const Scene&, hierarchy::ElementId grown = {});
   /// Whether an element is known to see nothing of what moved, where it was and where it is (out_of_sight.hpp).
@@ -52,10 +53,6 @@ class SpaceChange {
   bool meets(const tracing::Ray&) const;
   /// Of a box.
   bool meets(const Vec3f& lower, const Vec3f& upper) const;
-  /// Of what the rays of a leaf's row pass through, end at, or would.
-  bool meets(const hierarchy::ElementGeometry& leaf, const RowReach& reach) const {
-    return meets(reach.objects) || (!empty() && reach.meets(leaf, parts_.all().lower, parts_.all().upper));
-  }
   /// Of the convex hull of two balls.
   bool meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const;
   /// A cone of directions that holds all in which it is seen from a ball: its half angle (radians), and `axis`; nothing
@@ -65,9 +62,6 @@ class SpaceChange {
   bool within(const Box&) const;
   /// Whether there is something, all of it behind a plane (unit normal).
   bool behind(const Vec3f& point, const Vec3f& normal) const;
-  /// Of each of many rays of a leaf: appends the indices of those that something moving may touch.
-  void meetsRays(const hierarchy::ElementGeometry& from, std::span<const RayCode>,
-                 std::vector<std::uint32_t>& out) const;
   /// Of what leaves a ball in directions within an angle of `direction` (unit; the angle in radians).
   bool meetsBeam(const Vec3f& center, float radius, const Vec3f& direction, float angle) const;
   /// The same of what leaves an element's box, for the bounds of all that moves together.
