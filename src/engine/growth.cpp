@@ -6,8 +6,8 @@
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/pull.hpp"
+#include "paper/covered_sides.hpp"
 #include "particles/reached_sides.hpp"
-#include "radiosity/covered_sides.hpp"
 
 namespace deltalux::engine {
 
@@ -49,11 +49,11 @@ std::vector<hierarchy::ElementId> leavesBelow(const hierarchy::Elements& element
 }
 
 Growth growInLight(Solution& s, const SceneUpdate& edits, const particles::ParticleUpdate& particles) {
-  radiosity::CoveredSides sides;
+  paper::CoveredSides sides;
   if (!edits.moved.empty() || !edits.movedLights.empty()) {
     std::vector<PrimitiveId> moved;
     for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
-    sides = radiosity::coveredSides(s.scene, *s.tracer, s.elements, moved, newlyLit(edits, s.scene));
+    sides = paper::coveredSides(s.scene, *s.tracer, s.elements, moved, newlyLit(edits, s.scene));
   }
   addLanding(sides.uncovered, s, particles);
   particles::dropReachedSides(sides.covered, s.particles);

@@ -11,11 +11,11 @@ namespace deltalux {
 
 void Engine::State::paperRound(Progress* progress) {
   Solution& s = *solution;
-  radiosity::OracleSettings oracle = linksJudged();
+  paper::OracleSettings oracle = linksJudged();
   const double least = oracle.error;
   oracle.error = std::max(nextError, least);
   const bool last = oracle.error <= least;
-  const radiosity::RefineReport refined = refineLinks(oracle, progress);
+  const paper::RefineReport refined = refineLinks(oracle, progress);
 
   const caustics::SurfaceSides shown = chooseTextures();
   const engine::Clock placing;
@@ -26,7 +26,7 @@ void Engine::State::paperRound(Progress* progress) {
   nextError = paper::nextError(oracle.error, least);
   if (budget.limited()) {
     const double left = budget.left() - engine::kEndingTime * budget.seconds();
-    nextError = budget.reach(radiosity::LinkErrors(s.links, s.elements, oracle), oracle.error, nextError, left);
+    nextError = budget.reach(paper::LinkErrors(s.links, s.elements, oracle), oracle.error, nextError, left);
   }
   finished = last || refined.stopped || !(nextError < oracle.error);
   const bool settled = settleOverLinks(finished, progress);
@@ -90,9 +90,9 @@ void Engine::State::paperUpdate(StepReport& step, Progress* progress) {
   counted = false;
 }
 
-radiosity::OracleSettings Engine::State::linksJudged() const {
+paper::OracleSettings Engine::State::linksJudged() const {
   if (byPaper()) return paper::judgedFor(solution->settings.error);
-  radiosity::OracleSettings oracle;
+  paper::OracleSettings oracle;
   oracle.error = solution->settings.error * engine::kLastError;
   return oracle;
 }
@@ -108,7 +108,7 @@ std::vector<hierarchy::LinkId> Engine::State::judgeAnew(paper::Motion& motion, c
   step.times.visibility += time.seconds();
   const engine::Clock refining;
   std::vector<hierarchy::LinkId> changed;
-  const radiosity::RefineReport refined = paper::follow(parts, motion, linksJudged(), changed);
+  const paper::RefineReport refined = paper::follow(parts, motion, linksJudged(), changed);
   s.report.counts.raysVisibility += refined.rays;
   step.linksChanged = changed.size();
   step.times.refine = refining.seconds();
@@ -119,7 +119,7 @@ std::vector<hierarchy::LinkId> Engine::State::judgeAnew(paper::Motion& motion, c
 bool Engine::State::refineByNewLight(Progress* progress) {
   Solution& s = *solution;
   const std::size_t elements = s.elements.size();
-  const radiosity::RefineReport refined = refineLinks(linksJudged(), progress);
+  const paper::RefineReport refined = refineLinks(linksJudged(), progress);
   if (s.elements.size() != elements) transfer->follow(s.particles, {}, s.elements, s.scene);
   return refined.created > 0;
 }

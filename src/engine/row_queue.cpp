@@ -22,11 +22,11 @@ void RowQueue::addWork(RowWork more, const hierarchy::Links& links) {
     return;
   }
   // Links beyond those that a move knew are new to it.
-  radiosity::LinkChanges &to = work_.marks.changes, &from = more.marks.changes;
+  paper::LinkChanges &to = work_.marks.changes, &from = more.marks.changes;
   const std::size_t known = to.size();
   to.grow(links.size());
-  for (std::size_t i = known; i < links.size(); ++i) to.at(i) = radiosity::LinkChange::Changed;
-  from.forEach([&](std::size_t i, radiosity::LinkChange change) { to.at(i) = std::max(to[i], change); });
+  for (std::size_t i = known; i < links.size(); ++i) to.at(i) = paper::LinkChange::Changed;
+  from.forEach([&](std::size_t i, paper::LinkChange change) { to.at(i) = std::max(to[i], change); });
   work_.space.add(more.space);
   std::vector<char> listed(links.size(), 0);
   work_.changed.insert(work_.changed.end(), more.changed.begin(), more.changed.end());

@@ -12,9 +12,9 @@ namespace deltalux::engine {
 
 /// What a move of geometry asks of rows, once links have followed it.
 struct RowWork {
-  radiosity::LinkMarks marks;
+  paper::LinkMarks marks;
   std::vector<hierarchy::LinkId> changed;  // topmost
-  radiosity::SpaceChange space;
+  paper::SpaceChange space;
   radiosity::ConcernedLeaves leaves;
 };
 

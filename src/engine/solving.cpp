@@ -11,12 +11,12 @@
 #include "engine/state.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/pull.hpp"
+#include "paper/coarse_solution.hpp"
+#include "paper/gather.hpp"
+#include "paper/push_pull.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/reached_sides.hpp"
-#include "radiosity/coarse_solution.hpp"
 #include "radiosity/direct_senders.hpp"
-#include "radiosity/gather.hpp"
-#include "radiosity/push_pull.hpp"
 
 namespace deltalux {
 
@@ -78,8 +78,8 @@ void Engine::State::prepare(Progress* progress) {
   Solution& s = *solution;
   const engine::Clock time;
   budget = engine::TimeBudget(s.settings.seconds, clock.seconds());
-  radiosity::CoarseReport coarse;
-  auto sides = radiosity::coarseSolution(s.scene, *s.tracer, &coarse);
+  paper::CoarseReport coarse;
+  auto sides = paper::coarseSolution(s.scene, *s.tracer, &coarse);
   trace();
   particles::addReachedSides(sides, s.particles, s.scene, *s.tracer);
   s.elements = hierarchy::buildElements(s.scene, sides);
@@ -121,11 +121,11 @@ void Engine::State::countParticles() {
 
 void Engine::State::round(Progress* progress) {
   Solution& s = *solution;
-  radiosity::OracleSettings oracle;
+  paper::OracleSettings oracle;
   const double least = s.settings.error * engine::kLastError;
   oracle.error = std::max(nextError, least);
   const bool last = oracle.error <= least;
-  const radiosity::RefineReport refined = refineLinks(oracle, progress);
+  const paper::RefineReport refined = refineLinks(oracle, progress);
 
   const caustics::SurfaceSides shown = chooseTextures();
   const engine::Clock placing;
@@ -141,8 +141,7 @@ void Engine::State::round(Progress* progress) {
   if (budget.limited()) {
     const double needed = engine::leafRoundSeconds(s.elements, s.links, s.scene, *s.tracer, leaves);
     const double left = budget.left() - engine::kEndingTime * budget.seconds();
-    nextError =
-        budget.reach(radiosity::LinkErrors(s.links, s.elements, oracle), oracle.error, nextError, left - needed);
+    nextError = budget.reach(paper::LinkErrors(s.links, s.elements, oracle), oracle.error, nextError, left - needed);
     whole = needed <= left;
     leaves = engine::shrunk(leaves, needed, left);
   }
@@ -157,12 +156,11 @@ void Engine::State::round(Progress* progress) {
   s.report.converged = settled && whole && last && !refined.stopped && !curtailed;
 }
 
-radiosity::RefineReport Engine::State::refineLinks(const radiosity::OracleSettings& oracle, Progress* progress) {
+paper::RefineReport Engine::State::refineLinks(const paper::OracleSettings& oracle, Progress* progress) {
   Solution& s = *solution;
-  const double predicted =
-      budget.limited() ? radiosity::LinkErrors(s.links, s.elements, oracle).madeBy(oracle.error) : 0;
+  const double predicted = budget.limited() ? paper::LinkErrors(s.links, s.elements, oracle).madeBy(oracle.error) : 0;
   const engine::Clock time;
-  const radiosity::RefineReport refined = radiosity::refine(s.links, s.elements, s.scene, *s.tracer, oracle, [&] {
+  const paper::RefineReport refined = paper::refine(s.links, s.elements, s.scene, *s.tracer, oracle, [&] {
     if (progress && progress->stopRequested()) throw Interrupted();
     return budget.limited() && budget.left() < 0;
   });
@@ -217,14 +215,14 @@ void Engine::State::countTextures() {
 
 bool Engine::State::settle(Progress* progress) {
   Solution& s = *solution;
-  const radiosity::GatherPlan plan(s.links, s.elements);
+  const paper::GatherPlan plan(s.links, s.elements);
   plan.gatherDirect(s.elements);
   const particles::ParticleTransfer onMesh(s.particles, s.elements, s.scene);
   RgbSum emitted(0.0);
   for (int i = 0; i < kMaxIterations; ++i) {
     plan.gatherIndirect(s.elements);
     onMesh.apply(s.elements, s.scene);
-    unsettled = radiosity::pushPull(s.elements);
+    unsettled = paper::pushPull(s.elements);
     ++s.report.counts.iterations;
     emitted = directPower();
     if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));

@@ -17,12 +17,12 @@
 #include "engine/moving_groups.hpp"
 #include "engine/scene_update.hpp"
 #include "engine/time_budget.hpp"
+#include "paper/line_space.hpp"
+#include "paper/oracle.hpp"
+#include "paper/refine.hpp"
 #include "paper/update.hpp"
 #include "particles/particle_tracing.hpp"
 #include "particles/transfer.hpp"
-#include "radiosity/line_space.hpp"
-#include "radiosity/oracle.hpp"
-#include "radiosity/refine.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::engine {
@@ -74,7 +74,7 @@ struct Engine::State {
   void trace();
   void countParticles();
   void round(Progress* progress);
-  radiosity::RefineReport refineLinks(const radiosity::OracleSettings& oracle, Progress* progress);
+  paper::RefineReport refineLinks(const paper::OracleSettings& oracle, Progress* progress);
   /// Sides whose particles textures would show by the light there is: their mesh need not. [GD01 3]
   caustics::SurfaceSides chooseTextures();
   /// Of the light in the end, as updates judge it.
@@ -98,7 +98,7 @@ struct Engine::State {
   bool settleOverLinks(bool well, Progress* progress);
   void paperUpdate(StepReport& step, Progress* progress);
   /// How links are judged when they are as fine as the error asks for.
-  radiosity::OracleSettings linksJudged() const;
+  paper::OracleSettings linksJudged() const;
   /// Returns the topmost links that are others now.
   std::vector<hierarchy::LinkId> judgeAnew(paper::Motion& motion, const engine::Growth& growth, StepReport& step);
   bool refineByNewLight(Progress* progress);

@@ -23,7 +23,7 @@ void TimeBudget::learn(double seconds, double predicted, double made) {
   if (predicted > 0) trust_ = std::clamp(made / predicted, 0.05, 20.0);
 }
 
-double TimeBudget::reach(const radiosity::LinkErrors& errors, double from, double least, double seconds) const {
+double TimeBudget::reach(const paper::LinkErrors& errors, double from, double least, double seconds) const {
   double error = from;
   while (error > least) {
     const double next = std::max(least, error * kStep);

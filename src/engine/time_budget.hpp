@@ -4,8 +4,8 @@
 // between rounds is consistent and can be the last but for that round, whose rays shrink to what time is left.
 #include <chrono>
 
+#include "paper/link_errors.hpp"
 #include "radiosity/leaf_transfers.hpp"
-#include "radiosity/link_errors.hpp"
 
 namespace deltalux::engine {
 
@@ -30,7 +30,7 @@ class TimeBudget {
   /// What a round that is predicted to make so many links takes. [s]
   double cost(double predicted) const { return secondsPerLink_ * trust_ * predicted; }
   /// The least error from `least` up to that a round can aim at in `seconds`; `from` when none below it can.
-  double reach(const radiosity::LinkErrors&, double from, double least, double seconds) const;
+  double reach(const paper::LinkErrors&, double from, double least, double seconds) const;
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

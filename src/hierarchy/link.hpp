@@ -25,7 +25,7 @@ struct Link {
   ElementId receiver, sender;
   LinkId parent, firstChild;
   LinkId nextArriving, previousArriving;  // at the same receiver
-  float K = 0.0f;                         // unoccluded transfer; its unit by kind of sender is in radiosity/kernel.hpp
+  float K = 0.0f;                         // unoccluded transfer; its unit by kind of sender is in paper/kernel.hpp
   Rgb V{0.0f};                            // mean transmittance of the sample rays
   float receiverSpread = 0.0f;            // bound on |K(x) - K| over the receiver
   float senderSpread = 0.0f;              // bound on |K(y) - K| over the sender

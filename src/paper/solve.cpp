@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/parallel.hpp"
-#include "radiosity/gather.hpp"
-#include "radiosity/push_pull.hpp"
+#include "paper/gather.hpp"
+#include "paper/push_pull.hpp"
 
 namespace deltalux::paper {
 
@@ -29,8 +29,8 @@ RgbSum directPower(const hierarchy::Elements& e) {
 
 }  // namespace
 
-radiosity::OracleSettings judgedFor(double error) {
-  radiosity::OracleSettings settings;
+OracleSettings judgedFor(double error) {
+  OracleSettings settings;
   settings.error = kLinkError * error, settings.scale = kScale, settings.direct = kDirect;
   settings.trusted = 0, settings.sameKernel = 0;
   return settings;
@@ -40,13 +40,13 @@ double nextError(double error, double least) { return std::max(least, kFactor * 
 
 Settled settle(const Parts& parts, const particles::ParticleTransfer& onMesh, double unsettled,
                const std::function<bool(const Settled&)>& goOn) {
-  const radiosity::GatherPlan plan(parts.links, parts.elements);
+  const GatherPlan plan(parts.links, parts.elements);
   plan.gatherDirect(parts.elements);
   Settled s;
   while (s.iterations < kMaxIterations) {
     plan.gatherIndirect(parts.elements);
     onMesh.apply(parts.elements, parts.scene);
-    s.unsettled = radiosity::pushPull(parts.elements);
+    s.unsettled = pushPull(parts.elements);
     ++s.iterations;
     s.emitted = directPower(parts.elements);
     s.whole = gray(s.unsettled) <= unsettled * gray(s.emitted);

@@ -8,9 +8,9 @@
 #include <functional>
 
 #include "hierarchy/link.hpp"
+#include "paper/oracle.hpp"
+#include "paper/refine.hpp"
 #include "particles/transfer.hpp"
-#include "radiosity/oracle.hpp"
-#include "radiosity/refine.hpp"
 
 namespace deltalux::paper {
 
@@ -23,7 +23,7 @@ struct Parts {
 };
 
 /// How links are judged in the last round, for a relative error of irradiance.
-radiosity::OracleSettings judgedFor(double error);
+OracleSettings judgedFor(double error);
 /// The error of links in the round after one of `error`, of a solve that ends at `least`.
 double nextError(double error, double least);
 

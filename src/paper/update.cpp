@@ -7,10 +7,10 @@
 namespace deltalux::paper {
 
 Motion leave(const Parts& x, std::span<const SceneChange::Moved> moved, std::span<const LightId> movedLights,
-             const radiosity::OracleSettings& settings) {
+             const OracleSettings& settings) {
   Motion motion;
   std::vector<PrimitiveId> primitives;
-  radiosity::SpaceChange before, after;
+  SpaceChange before, after;
   for (const SceneChange::Moved& m : moved) {
     primitives.push_back(m.primitive);
     before.add(m.before), motion.all.add(m.before);
@@ -24,28 +24,25 @@ Motion leave(const Parts& x, std::span<const SceneChange::Moved> moved, std::spa
   motion.all.addMoved(motion.inputs, x.elements, x.scene);
   if (primitives.empty() && motion.inputs.empty()) return motion;
   motion.all.findHidden(x.elements, x.scene);
-  motion.marks =
-      radiosity::LineSpace(x.links, x.elements, x.scene, motion.all, before, after, settings.trusted).visit();
+  motion.marks = LineSpace(x.links, x.elements, x.scene, motion.all, before, after, settings.trusted).visit();
   hierarchy::reshape(x.elements, x.scene, motion.inputs);
   return motion;
 }
 
-void arrive(const Parts& x, Motion& motion, const Newcomers& newcomers, const radiosity::OracleSettings& settings) {
+void arrive(const Parts& x, Motion& motion, const Newcomers& newcomers, const OracleSettings& settings) {
   if (motion.marks.changes.empty() || !newcomers.woken.empty()) {
-    radiosity::SpaceChange woken;
+    SpaceChange woken;
     woken.addMoved(newcomers.woken, x.elements, x.scene);
-    radiosity::add(radiosity::LineSpace(x.links, x.elements, x.scene, woken, {}, {}, settings.trusted).visit(),
-                   motion.marks);
+    add(LineSpace(x.links, x.elements, x.scene, woken, {}, {}, settings.trusted).visit(), motion.marks);
     motion.inputs.insert(motion.inputs.end(), newcomers.woken.begin(), newcomers.woken.end());
     motion.all.addMoved(motion.inputs, x.elements, x.scene);
   }
-  if (newcomers.root.valid()) radiosity::addRootLinks(x.links, x.elements, newcomers.root);
+  if (newcomers.root.valid()) addRootLinks(x.links, x.elements, newcomers.root);
 }
 
-radiosity::RefineReport follow(const Parts& x, Motion& motion, const radiosity::OracleSettings& settings,
-                               std::vector<hierarchy::LinkId>& changed) {
-  const radiosity::RefineReport refined =
-      radiosity::rejudge(x.links, x.elements, x.scene, x.tracer, settings, motion.marks, changed);
+RefineReport follow(const Parts& x, Motion& motion, const OracleSettings& settings,
+                    std::vector<hierarchy::LinkId>& changed) {
+  const RefineReport refined = rejudge(x.links, x.elements, x.scene, x.tracer, settings, motion.marks, changed);
   DELTALUX_VALIDATED(validate(x.links, x.elements));
   return refined;
 }

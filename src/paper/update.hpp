@@ -6,21 +6,20 @@
 // visited, and what judging costs those that are touched.
 #include <deltalux/edit.hpp>
 
+#include "paper/line_space.hpp"
 #include "paper/solve.hpp"
-#include "radiosity/line_space.hpp"
 
 namespace deltalux::paper {
 
 struct Motion {
-  radiosity::SpaceChange all;                // bounds before and after
+  SpaceChange all;                           // bounds before and after
   std::vector<hierarchy::ElementId> inputs;  // of what moves
-  radiosity::LinkMarks marks;                // what it touches
+  LinkMarks marks;                           // what it touches
 };
 
 /// What moves leaves its place: the links that it touches there and where it goes, and the shapes of its elements. The
 /// scene has it in its new place, elements in the old one.
-Motion leave(const Parts&, std::span<const SceneChange::Moved>, std::span<const LightId>,
-             const radiosity::OracleSettings&);
+Motion leave(const Parts&, std::span<const SceneChange::Moved>, std::span<const LightId>, const OracleSettings&);
 
 /// What has come into the light since: elements of their own (a root, or none), and others that slept or were black.
 struct Newcomers {
@@ -29,10 +28,9 @@ struct Newcomers {
 };
 
 /// It comes to its new place, and newcomers with it: adds the links of these to the marks.
-void arrive(const Parts&, Motion&, const Newcomers&, const radiosity::OracleSettings&);
+void arrive(const Parts&, Motion&, const Newcomers&, const OracleSettings&);
 
 /// Judges the marked links anew. `changed`: the topmost of those that are others now.
-radiosity::RefineReport follow(const Parts&, Motion&, const radiosity::OracleSettings&,
-                               std::vector<hierarchy::LinkId>& changed);
+RefineReport follow(const Parts&, Motion&, const OracleSettings&, std::vector<hierarchy::LinkId>& changed);
 
 }  // namespace deltalux::paper

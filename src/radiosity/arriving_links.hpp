@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hierarchy/below.hpp"
-#include "radiosity/line_space.hpp"
+#include "paper/line_space.hpp"
 
 namespace deltalux::radiosity {
 

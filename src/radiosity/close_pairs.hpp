@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "base/random.hpp"
-#include "radiosity/sender_sampling.hpp"
+#include "paper/sender_sampling.hpp"
 
 namespace deltalux::radiosity {
 
@@ -32,17 +32,18 @@ ClosePair closePair(const hierarchy::Elements&, const Scene&, const hierarchy::P
 /// Its weight is that of all candidates: in the mean the kernel.
 template <class PointAt>
 std::optional<ClosePair> sampleClosePair(const hierarchy::Elements& elements, const Scene& scene,
-                                         const PointAt& pointAt, hierarchy::ElementId patch, SampleKey key, int index) {
+                                         const PointAt& pointAt, hierarchy::ElementId patch, paper::SampleKey key,
+                                         int index) {
   std::array<ClosePair, kClosePairs> pairs;
   double total = 0;
   for (int i = 0; i < kClosePairs; ++i) {
-    const auto u = stratified4(key.with(static_cast<std::uint64_t>(i)), index);
+    const auto u = paper::stratified4(key.with(static_cast<std::uint64_t>(i)), index);
     ClosePair& p = pairs[static_cast<std::size_t>(i)];
     p = closePair(elements, scene, pointAt(u[2], u[3]), patch, i, u[0], u[1]);
     total += p.weight;
   }
-  const double u = stratified4(key.with(kClosePairs), index)[0];
-  ClosePair* picked = pickByWeight(std::span<ClosePair>(pairs), total, u);
+  const double u = paper::stratified4(key.with(kClosePairs), index)[0];
+  ClosePair* picked = paper::pickByWeight(std::span<ClosePair>(pairs), total, u);
   if (!picked) return std::nullopt;
   picked->weight = total;
   return *picked;

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "hierarchy/patch.hpp"
-#include "radiosity/kernel.hpp"
-#include "radiosity/sender_sampling.hpp"
+#include "paper/kernel.hpp"
+#include "paper/sender_sampling.hpp"
 
 namespace deltalux::radiosity {
 
@@ -42,7 +42,7 @@ void DirectSampler::setKernel(hierarchy::ElementId leaf, Term& t) const {
   const hierarchy::ElementNodes& n = elements_.nodes[leaf.index()];
   for (std::size_t q = 0; q < 4; ++q) {
     if (n.weight[q] <= 0) continue;
-    t.at[q] = static_cast<float>(kernelAtPoint(elements_, scene_, n.position[q], n.normal[q], t.sender));
+    t.at[q] = static_cast<float>(paper::kernelAtPoint(elements_, scene_, n.position[q], n.normal[q], t.sender));
     t.K += n.weight[q] * t.at[q];
   }
 }
@@ -197,7 +197,7 @@ Rgb DirectSampler::wholeB(hierarchy::ElementId sender) const {
 
 DirectSampler::Shot DirectSampler::shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, std::uint64_t key,
                                          int i) const {
-  const auto u = stratified4(key, i);
+  const auto u = paper::stratified4(key, i);
   const hierarchy::PatchPoint x = hierarchy::samplePatch(elements_, scene_, leaf, u[2], u[3]);
   Shot shot;
   shot.quadrant = (u[2] < 0.5 ? 0u : 1u) + (u[3] < 0.5 ? 0u : 2u);
@@ -210,12 +210,12 @@ DirectSampler::Shot DirectSampler::shoot(hierarchy::ElementId leaf, hierarchy::E
     shot.weight = 1;
   } else if (elements_.isDistant(sender)) {
     const Vec3f w = hierarchy::directionOf(elements_, scene_, sender, u[0], u[1]);
-    shot.weight = pointKernel(elements_, scene_, x.position, x.normal, sender, w, Vec3f(0.0f));
+    shot.weight = paper::pointKernel(elements_, scene_, x.position, x.normal, sender, w, Vec3f(0.0f));
     shot.ray.origin = tracing::offsetOrigin(x.position, x.normal, w);
     shot.ray.direction = w;
   } else {
-    const hierarchy::PatchPoint y = samplePoint(elements_, scene_, sender, u[0], u[1]);
-    shot.weight = pointKernel(elements_, scene_, x.position, x.normal, sender, y.position, y.normal);
+    const hierarchy::PatchPoint y = paper::samplePoint(elements_, scene_, sender, u[0], u[1]);
+    shot.weight = paper::pointKernel(elements_, scene_, x.position, x.normal, sender, y.position, y.normal);
     shot.ray = tracing::segment(x.position, x.normal, y.position, y.normal);
   }
   return shot;

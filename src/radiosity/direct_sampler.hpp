@@ -14,11 +14,11 @@
 #include <span>
 
 #include "base/random.hpp"
+#include "paper/space_change.hpp"
 #include "radiosity/direct_senders.hpp"
 #include "radiosity/exposure.hpp"
 #include "radiosity/leaf_row.hpp"
 #include "radiosity/ray_shares.hpp"
-#include "radiosity/space_change.hpp"
 #include "scene/light_sampling.hpp"
 #include "tracing/ray_tracer.hpp"
 
@@ -52,8 +52,8 @@ class DirectSampler {
   /// Traces those terms of the leaf's row again whose rays meet what has moved, and samples lights anew whose links are
   /// others by now; rays are dealt to them as the row has dealt them, `rays` in all. `changed`: the topmost changed
   /// links of lights that arrive at the leaf or above it.
-  DirectUpdate update(hierarchy::ElementId leaf, int rays, const LinkChanges&,
-                      std::span<const hierarchy::LinkId> changed, const SpaceChange&, TransferRow&,
+  DirectUpdate update(hierarchy::ElementId leaf, int rays, const paper::LinkChanges&,
+                      std::span<const hierarchy::LinkId> changed, const paper::SpaceChange&, TransferRow&,
                       std::uint64_t& traced) const;
 
  private:
@@ -109,8 +109,8 @@ class DirectSampler {
   Vec3f endOf(const tracing::Ray&) const;
   void remember(hierarchy::ElementId sender, const Passage&, TransferRow&) const;
   Shot shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, std::uint64_t key, int i) const;
-  bool meets(hierarchy::ElementId leaf, const RowTerm&, const SpaceChange&) const;
-  std::vector<std::uint32_t> meeting(hierarchy::ElementId leaf, const LinkChanges&, const SpaceChange&,
+  bool meets(hierarchy::ElementId leaf, const RowTerm&, const paper::SpaceChange&) const;
+  std::vector<std::uint32_t> meeting(hierarchy::ElementId leaf, const paper::LinkChanges&, const paper::SpaceChange&,
                                      const TransferRow&) const;
   Passage pass(hierarchy::ElementId leaf, const Term&, int rays, std::uint64_t key, std::uint64_t& traced) const;
   /// Deals rays out over terms, one for `step` of weight; over those that are worth less than one by halves
@@ -126,7 +126,7 @@ class DirectSampler {
   Passage tracedAgain(hierarchy::ElementId leaf, const RowTerm&, std::uint64_t& traced) const;
   bool sampleChanged(hierarchy::ElementId leaf, int rays, std::span<const hierarchy::LinkId> changed, float gone,
                      TransferRow&, DirectUpdate&, std::uint64_t& traced) const;
-  bool dealtOver(const LinkChanges&, std::span<const hierarchy::LinkId> changed, const SpaceChange&,
+  bool dealtOver(const paper::LinkChanges&, std::span<const hierarchy::LinkId> changed, const paper::SpaceChange&,
                  const RowTerm&) const;
 
   const Scene& scene_;

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "hierarchy/below.hpp"
-#include "radiosity/kernel.hpp"
-#include "radiosity/links_below.hpp"
+#include "paper/kernel.hpp"
+#include "paper/links_below.hpp"
 
 namespace deltalux::radiosity {
 
@@ -57,7 +57,7 @@ void DirectSenders::addLights(hierarchy::ElementId e, hierarchy::ElementId leaf,
   }
   const hierarchy::ElementGeometry& g = elements_.shape(leaf);
   const Vec3f normal = g.normalCone > 0 ? g.normal : Vec3f(0.0f);
-  const double K = kernelAtPoint(elements_, scene_, g.center, normal, e);
+  const double K = paper::kernelAtPoint(elements_, scene_, g.center, normal, e);
   const float potential = std::max(static_cast<float>(K), leastKernel(elements_, g.center, e)) * strength(leaf, e);
   if (potential > 0) out.push_back({by.link, e, potential, by.open, by.rays});
 }
@@ -119,11 +119,11 @@ std::vector<PossibleSender> DirectSenders::over(std::span<const hierarchy::LinkI
 std::vector<PossibleSender> DirectSenders::joined(const std::vector<PossibleSender>& parts) const {
   std::vector<PossibleSender> out;
   for (PossibleSender s : parts) {
-    if (!isPartOfCurved(elements_, s.sender)) {
+    if (!paper::isPartOfCurved(elements_, s.sender)) {
       out.push_back(s);
       continue;
     }
-    s.link = toWholeLight(links_, elements_, s.link);
+    s.link = paper::toWholeLight(links_, elements_, s.link);
     s.sender = links_[s.link].sender;
     s.rays = std::max<std::uint8_t>(s.rays, 1);  // other parts may be hidden: rays will tell
     const auto at = std::find_if(out.begin(), out.end(), [&](const PossibleSender& o) { return o.sender == s.sender; });
@@ -152,7 +152,7 @@ void DirectSenders::collectAll(hierarchy::ElementId e, const Vec3f& x, const Vec
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) collectAll(elements_.child(e, i), x, normal, out);
     return;
   }
-  double K = kernelAtPoint(elements_, scene_, x, normal, e);
+  double K = paper::kernelAtPoint(elements_, scene_, x, normal, e);
   const hierarchy::ElementGeometry& g = elements_.shape(e);
   const bool above = elements_.isDistant(e) || glm::dot(g.center - x, normal) + g.radius > 0;
   if (above) K = std::max(K, double(leastKernel(elements_, x, e)));

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/sort_unique.hpp"
+#include "paper/links_below.hpp"
 #include "radiosity/direct_sampler.hpp"
-#include "radiosity/links_below.hpp"
 #include "radiosity/row_terms.hpp"
 
 namespace deltalux::radiosity {
@@ -19,7 +19,7 @@ float raysOf(const RowTerm& t) { return static_cast<float>(t.index) / t.gain; }
 
 }  // namespace
 
-bool DirectSampler::meets(hierarchy::ElementId leaf, const RowTerm& t, const SpaceChange& space) const {
+bool DirectSampler::meets(hierarchy::ElementId leaf, const RowTerm& t, const paper::SpaceChange& space) const {
   const hierarchy::ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(t.sender);
   if (elements_.isDistant(t.sender) ? !space.meetsBeam(r.center, r.radius, s.center, s.radius)
                                     : !space.meets(r.center, r.radius, s.center, s.radius))
@@ -36,12 +36,12 @@ bool DirectSampler::meets(hierarchy::ElementId leaf, const RowTerm& t, const Spa
 }
 
 /// Whether changed links cover the term by now.
-bool DirectSampler::dealtOver(const LinkChanges& links, std::span<const hierarchy::LinkId> changed,
-                              const SpaceChange& space, const RowTerm& t) const {
-  if (changeOf(links, t.link) == LinkChange::Changed || space.moved(t.sender)) return true;
+bool DirectSampler::dealtOver(const paper::LinkChanges& links, std::span<const hierarchy::LinkId> changed,
+                              const paper::SpaceChange& space, const RowTerm& t) const {
+  if (paper::changeOf(links, t.link) == paper::LinkChange::Changed || space.moved(t.sender)) return true;
   return links_[t.link].state == hierarchy::LinkState::Interior &&
          std::any_of(changed.begin(), changed.end(), [&](hierarchy::LinkId id) {
-           return holds(elements_, links_[toWholeLight(links_, elements_, id)].sender, t.sender);
+           return paper::holds(elements_, links_[paper::toWholeLight(links_, elements_, id)].sender, t.sender);
          });
 }
 
@@ -54,20 +54,21 @@ DirectSampler::Passage DirectSampler::tracedAgain(hierarchy::ElementId leaf, con
 }
 
 /// Terms whose rays meet what moved, in ascending order.
-std::vector<std::uint32_t> DirectSampler::meeting(hierarchy::ElementId leaf, const LinkChanges& links,
-                                                  const SpaceChange& space, const TransferRow& row) const {
+std::vector<std::uint32_t> DirectSampler::meeting(hierarchy::ElementId leaf, const paper::LinkChanges& links,
+                                                  const paper::SpaceChange& space, const TransferRow& row) const {
   std::vector<std::uint32_t> out;
   const hierarchy::ElementGeometry& g = elements_.shape(leaf);
   if (elements_.at(leaf).flat && space.behind(g.center, g.normal)) return out;
   for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
     const RowTerm& t = row.terms[i];
-    if (!t.clear && changeOf(links, t.link) != LinkChange::None && meets(leaf, t, space)) out.push_back(i);
+    if (!t.clear && paper::changeOf(links, t.link) != paper::LinkChange::None && meets(leaf, t, space))
+      out.push_back(i);
   }
   return out;
 }
 
-DirectUpdate DirectSampler::update(hierarchy::ElementId leaf, int rays, const LinkChanges& links,
-                                   std::span<const hierarchy::LinkId> changed, const SpaceChange& space,
+DirectUpdate DirectSampler::update(hierarchy::ElementId leaf, int rays, const paper::LinkChanges& links,
+                                   std::span<const hierarchy::LinkId> changed, const paper::SpaceChange& space,
                                    TransferRow& row, std::uint64_t& traced) const {
   DirectUpdate update;
   const std::vector<std::uint32_t> again = meeting(leaf, links, space, row);
@@ -113,9 +114,9 @@ bool DirectSampler::sampleChanged(hierarchy::ElementId leaf, int rays, std::span
   if (gone > kMostDirectGone * all) return false;
   std::vector<hierarchy::LinkId> active;
   std::vector<hierarchy::LinkId> tops;
-  for (const hierarchy::LinkId id : changed) tops.push_back(toWholeLight(links_, elements_, id));
+  for (const hierarchy::LinkId id : changed) tops.push_back(paper::toWholeLight(links_, elements_, id));
   sortUnique(tops);
-  for (const hierarchy::LinkId top : tops) activeBelow(links_, elements_, top, leaf, active);
+  for (const hierarchy::LinkId top : tops) paper::activeBelow(links_, elements_, top, leaf, active);
   const std::vector<Term> fresh = terms(leaf, senders_.over(active, leaf));
   float weight = 0;
   for (const Term& t : fresh) weight += t.known() ? 0.0f : t.weight;

@@ -5,7 +5,7 @@
 #include "base/cosine_direction.hpp"
 #include "base/random.hpp"
 #include "hierarchy/patch.hpp"
-#include "radiosity/sender_sampling.hpp"
+#include "paper/sender_sampling.hpp"
 #include "scene/stops_light.hpp"
 
 namespace deltalux::radiosity {
@@ -32,7 +32,7 @@ Exposure::Exposure(const Scene& scene, const hierarchy::Elements& elements, cons
 float Exposure::of(hierarchy::ElementId leaf) const {
   const std::uint64_t key = combineKeys(elements_.key[leaf.index()], 7);
   const auto isCovered = [&](int i) {
-    const auto u = stratified4(key, i);
+    const auto u = paper::stratified4(key, i);
     const hierarchy::PatchPoint p = hierarchy::samplePatch(elements_, scene_, leaf, u[0], u[1]);
     return covered(p.position, p.normal, elements_.shape(leaf).radius, combineKeys(key, static_cast<std::uint64_t>(i)));
   };
@@ -69,7 +69,7 @@ bool Exposure::stoodUpon(hierarchy::ElementId leaf) const {
 bool Exposure::covered(const Vec3f& p, const Vec3f& normal, float near, std::uint64_t key) const {
   const Frame frame{Vec3(normal)};
   for (int k = 0; k < kRays; ++k) {
-    const auto u = stratified4(key, k);
+    const auto u = paper::stratified4(key, k);
     const Vec3f w(cosineDirection(frame, u[0], u[1]));
     tracing::Ray ray;
     ray.origin = tracing::offsetOrigin(p, normal, w);

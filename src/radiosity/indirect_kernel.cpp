@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paper/kernel.hpp"
+#include "paper/rounding.hpp"
 #include "radiosity/indirect_sampler.hpp"
-#include "radiosity/kernel.hpp"
-#include "radiosity/rounding.hpp"
 
 namespace deltalux::radiosity {
 
@@ -45,7 +45,7 @@ bool crosses(const hierarchy::ElementGeometry& g, const hierarchy::ElementGeomet
   const Vec3f half = 0.5f * (g.upper - g.lower);
   const float extent = glm::dot(half, glm::abs(plane.normal));
   const float above = glm::dot(0.5f * (g.upper + g.lower) - plane.center, plane.normal);
-  return extent - std::abs(above) > roundingAlong(plane.normal, g, plane);
+  return extent - std::abs(above) > paper::roundingAlong(plane.normal, g, plane);
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ float IndirectSampler::kernelAtLeaf(hierarchy::ElementId leaf, hierarchy::Elemen
   const float reach = kNearSender * r.radius + s.radius;
   const Vec3f d = s.center - r.center;
   if (!clear && !measures(leaf) && glm::dot(d, d) > reach * reach)
-    return static_cast<float>(kernelAtPoint(elements_, scene_, r.center, r.normal, sender));
+    return static_cast<float>(paper::kernelAtPoint(elements_, scene_, r.center, r.normal, sender));
   return kernelOverNodes(leaf, sender);
 }
 
@@ -79,7 +79,7 @@ float IndirectSampler::kernelOverNodes(hierarchy::ElementId at, hierarchy::Eleme
   const hierarchy::ElementNodes& n = elements_.nodes[at.index()];
   double K = 0;
   const auto add = [&](const Vec3f& x, const Vec3f& normal, float weight) {
-    if (weight > 0) K += weight * kernelAtPoint(elements_, scene_, x, normal, of);
+    if (weight > 0) K += weight * paper::kernelAtPoint(elements_, scene_, x, normal, of);
   };
   if (elements_.at(at).flat && isRectangle(elements_, at)) {
     const auto visit = [&](const Vec3f& x, float weight) { add(x, g.normal, weight); };
@@ -99,9 +99,9 @@ float IndirectSampler::kernelOverPoints(hierarchy::ElementId leaf, hierarchy::El
   const std::uint64_t key = combineKeys(combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]), 12);
   double sum = 0;
   for (int k = 0; k < kPoints; ++k) {
-    const auto u = stratified4(key, k);
+    const auto u = paper::stratified4(key, k);
     const hierarchy::PatchPoint x = hierarchy::samplePatch(elements_, scene_, at, u[0], u[1]);
-    sum += kernelAtPoint(elements_, scene_, x.position, x.normal, of);
+    sum += paper::kernelAtPoint(elements_, scene_, x.position, x.normal, of);
   }
   return static_cast<float>(sum / kPoints) * (turned ? ofSender / A : 1.0f);
 }
@@ -114,7 +114,7 @@ float IndirectSampler::kernelOverPairs(hierarchy::ElementId leaf, hierarchy::Ele
   const std::uint64_t key = combineKeys(combineKeys(elements_.key[leaf.index()], elements_.key[sender.index()]), 11);
   double sum = 0;
   for (int k = 0; k < sets * kClosePairs; ++k) {
-    const auto u = stratified4(key, k);
+    const auto u = paper::stratified4(key, k);
     const hierarchy::PatchPoint x = hierarchy::samplePatch(elements_, scene_, from, u[2], u[3]);
     sum += closePair(elements_, scene_, x, to, k % kClosePairs, u[0], u[1]).weight;
   }

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/random.hpp"
+#include "paper/visibility.hpp"
 #include "radiosity/indirect_sampler.hpp"
-#include "radiosity/visibility.hpp"
 
 namespace deltalux::radiosity {
 
@@ -29,7 +29,7 @@ struct IndirectSampler::Place {
 };
 
 /// All rays between the two draw by it.
-SampleKey IndirectSampler::rayKey(hierarchy::ElementId leaf, hierarchy::ElementId sender) const {
+paper::SampleKey IndirectSampler::rayKey(hierarchy::ElementId leaf, hierarchy::ElementId sender) const {
   const LeafGroup group = groupOf(elements_, leaf);
   return {combineKeys(group.key, elements_.key[sender.index()]), group.place};
 }
@@ -38,8 +38,8 @@ bool IndirectSampler::isClosePatch(hierarchy::ElementId leaf, hierarchy::Element
   return elements_.isPatch(sender) && areClose(elements_, leaf, sender);  // also when it has been split since
 }
 
-SenderSample IndirectSampler::along(const ClosePair& pair, hierarchy::ElementId sender) const {
-  SenderSample s;
+paper::SenderSample IndirectSampler::along(const ClosePair& pair, hierarchy::ElementId sender) const {
+  paper::SenderSample s;
   s.leaf = sender, s.weight = pair.weight / elements_.shape(sender).area;
   s.ray = tracing::segment(pair.from.position, pair.from.normal, pair.to.position, pair.to.normal);
   return s;
@@ -48,10 +48,11 @@ SenderSample IndirectSampler::along(const ClosePair& pair, hierarchy::ElementId 
 /// To a flat sender where the kernel between the whole leaf and the whole sender does not tell that of the parts that
 /// see each other: from a curved leaf, or where one of the two is covered in part, since what is not covered is closer
 /// to what it sees than the whole is.
-SenderSample IndirectSampler::shootMeasuring(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index) const {
+paper::SenderSample IndirectSampler::shootMeasuring(hierarchy::ElementId leaf, hierarchy::ElementId sender,
+                                                    int index) const {
   const Place place{*this, leaf, nullptr};
-  const SampleKey key = rayKey(leaf, sender);
-  SenderSample s;
+  const paper::SampleKey key = rayKey(leaf, sender);
+  paper::SenderSample s;
   if (isClosePatch(leaf, sender)) {
     if (const auto pair = sampleClosePair(elements_, scene_, place, sender, key, index)) s = along(*pair, sender);
   } else {
@@ -63,20 +64,20 @@ SenderSample IndirectSampler::shootMeasuring(hierarchy::ElementId leaf, hierarch
 
 /// From a sender close by to the leaf: where the sender is curved, or the smaller of the two, so that few points of the
 /// leaf see much of it. Each candidate has a point of the sender of its own: parts of it may lie behind the leaf.
-SenderSample IndirectSampler::shootBack(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index,
-                                        bool measures) const {
+paper::SenderSample IndirectSampler::shootBack(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index,
+                                               bool measures) const {
   const auto from = [&](double a, double b) { return hierarchy::samplePatch(elements_, scene_, sender, a, b); };
   const auto pair = sampleClosePair(elements_, scene_, from, leaf, rayKey(leaf, sender), index);
   if (!pair) return {};
-  SenderSample s;
+  paper::SenderSample s;
   s.leaf = sender, s.weight = pair->weight / elements_.shape(leaf).area;
   s.ray = tracing::segment(pair->to.position, pair->to.normal, pair->from.position, pair->from.normal);
   s.measures = measures;
   return s;
 }
 
-SenderSample IndirectSampler::shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index,
-                                    bool measures) const {
+paper::SenderSample IndirectSampler::shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index,
+                                           bool measures) const {
   if (!(elements_.shape(sender).area > 0)) return {};  // removed
   const bool curved = !exact(sender);
   const bool back = (curved && elements_.at(leaf).flat) || elements_.shape(sender).area < elements_.shape(leaf).area;
@@ -85,9 +86,9 @@ SenderSample IndirectSampler::shoot(hierarchy::ElementId leaf, hierarchy::Elemen
   return shoot(leaf, sender, index, nullptr);
 }
 
-SenderSample IndirectSampler::shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index,
-                                    const hierarchy::PatchPoint* at) const {
-  const SampleKey key = rayKey(leaf, sender);
+paper::SenderSample IndirectSampler::shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index,
+                                           const hierarchy::PatchPoint* at) const {
+  const paper::SampleKey key = rayKey(leaf, sender);
   const Place place{*this, leaf, at};
   if (isClosePatch(leaf, sender)) {
     if (const auto pair = sampleClosePair(elements_, scene_, place, sender, key, index)) return along(*pair, sender);
@@ -95,32 +96,33 @@ SenderSample IndirectSampler::shoot(hierarchy::ElementId leaf, hierarchy::Elemen
   }
   if (!exact(sender)) return shootMeasured(sender, key, index, place);
   for (int tries = 0; tries < kFacingTries; ++tries) {
-    const auto u = stratified4(key.with(tries), index);
-    const SenderSample s = sampleLeafOf(elements_, scene_, place(u[2], u[3]), sender, u[0], u[1]);
+    const auto u = paper::stratified4(key.with(tries), index);
+    const paper::SenderSample s = paper::sampleLeafOf(elements_, scene_, place(u[2], u[3]), sender, u[0], u[1]);
     if (s.weight > 0) return s;
   }
   return {};
 }
 
 /// Of a few pairs of points one in proportion to its kernel; their mean is its weight [TCE05].
-SenderSample IndirectSampler::shootMeasured(hierarchy::ElementId sender, SampleKey key, int index,
-                                            const Place& place) const {
-  std::array<SenderSample, kTries> samples;
+paper::SenderSample IndirectSampler::shootMeasured(hierarchy::ElementId sender, paper::SampleKey key, int index,
+                                                   const Place& place) const {
+  std::array<paper::SenderSample, kTries> samples;
   double total = 0;
   for (int i = 0; i < kTries; ++i) {
-    const auto u = stratified4(key.with(static_cast<std::uint64_t>(i)), index);
-    SenderSample& s = samples[static_cast<std::size_t>(i)];
-    s = sampleLeafOf(elements_, scene_, place(u[2], u[3]), sender, u[0], u[1]);
+    const auto u = paper::stratified4(key.with(static_cast<std::uint64_t>(i)), index);
+    paper::SenderSample& s = samples[static_cast<std::size_t>(i)];
+    s = paper::sampleLeafOf(elements_, scene_, place(u[2], u[3]), sender, u[0], u[1]);
     total += s.weight;
   }
-  const double u = stratified4(key.with(kTries), index)[0];
-  SenderSample* picked = pickByWeight(std::span<SenderSample>(samples), total, u);
+  const double u = paper::stratified4(key.with(kTries), index)[0];
+  paper::SenderSample* picked = paper::pickByWeight(std::span<paper::SenderSample>(samples), total, u);
   if (!picked) return {};
   picked->weight = total / kTries;
   return *picked;
 }
 
-IndirectSampler::Found IndirectSampler::find(const Dealt& d, const SenderSample& s, std::uint64_t& traced) const {
+IndirectSampler::Found IndirectSampler::find(const Dealt& d, const paper::SenderSample& s,
+                                             std::uint64_t& traced) const {
   if (known(d.term)) return {Rgb(d.term.K)};
   if (!s.leaf.valid()) return {Rgb(0.0f)};
   const bool isKnown = exact(d.term.sender) && !s.measures;
@@ -145,7 +147,7 @@ void IndirectSampler::remember(hierarchy::ElementId leaf, std::size_t term, cons
 
 void IndirectSampler::append(hierarchy::ElementId leaf, const Dealt& d, TransferRow& row, std::uint64_t& traced) const {
   const bool measured = measures(leaf, d.term.sender);
-  const SenderSample s = known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index, measured);
+  const paper::SenderSample s = known(d.term) ? paper::SenderSample{} : shoot(leaf, d.term.sender, d.index, measured);
   const Found found = find(d, s, traced);
   const bool some = !isBlack(found.T);
   row.terms.push_back(

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "base/random.hpp"
-#include "radiosity/facing.hpp"
-#include "radiosity/kernel.hpp"
-#include "radiosity/links_below.hpp"
-#include "radiosity/oracle.hpp"
-#include "radiosity/sender_sampling.hpp"
-#include "radiosity/visibility.hpp"
+#include "paper/facing.hpp"
+#include "paper/kernel.hpp"
+#include "paper/links_below.hpp"
+#include "paper/oracle.hpp"
+#include "paper/sender_sampling.hpp"
+#include "paper/visibility.hpp"
 
 namespace deltalux::radiosity {
 
@@ -55,7 +55,7 @@ IndirectSampler::IndirectSampler(const Scene& scene, const hierarchy::Elements& 
 /// Radiosity that senders are credited with; so what is all but dark gets no few heavy samples either.
 float IndirectSampler::faintest(hierarchy::ElementId receiver) const {
   const hierarchy::ElementLight& here = elements_.radiometry[receiver.index()];
-  return static_cast<float>(kFaintLight) * std::max(gray(here.indirect), here.tolerance);
+  return static_cast<float>(paper::kFaintLight) * std::max(gray(here.indirect), here.tolerance);
 }
 
 /// What all around the place together are worth at present: rays dealt out later go by weights of their own time.
@@ -84,7 +84,7 @@ bool IndirectSampler::exact(hierarchy::ElementId sender) const {
 /// Whether nothing can come from a sender that may be credited with more than its nodes show.
 bool IndirectSampler::averted(hierarchy::ElementId leaf, hierarchy::ElementId sender) const {
   const hierarchy::ElementGeometry &r = elements_.shape(leaf), &s = elements_.shape(sender);
-  return turnsAway(r, s) || (elements_.isPatch(sender) && turnsAway(s, r));
+  return paper::turnsAway(r, s) || (elements_.isPatch(sender) && paper::turnsAway(s, r));
 }
 
 template <class KernelOf>
@@ -107,7 +107,7 @@ void IndirectSampler::add(hierarchy::ElementId leaf, hierarchy::LinkId id, const
                           std::vector<Term>& out) const {
   const hierarchy::Link& l = links_[id];
   if (!l.carries() || l.fromLight) return;
-  const Term t = term(leaf, id, l.sender, openness(l), kernelOf);
+  const Term t = term(leaf, id, l.sender, paper::openness(l), kernelOf);
   if (t.weight > 0) out.push_back(t);
 }
 
@@ -159,13 +159,14 @@ float IndirectSampler::guess(hierarchy::ElementId leaf, const hierarchy::PatchPo
   if (!exact(part)) {
     const float K = isClosePatch(leaf, part)
                         ? kernelOverPairs(leaf, part, 1)
-                        : static_cast<float>(kernelAtPoint(elements_, scene_, x.position, x.normal, part));
+                        : static_cast<float>(paper::kernelAtPoint(elements_, scene_, x.position, x.normal, part));
     return kUneven * B * atLeast(elements_, leaf, x.position, part, K);
   }
   const hierarchy::ElementGeometry& g = elements_.shape(part);
   const Vec3f d = g.center - x.position;
   const float squared = glm::dot(d, d);
-  const auto K = static_cast<float>(pointKernel(elements_, scene_, x.position, x.normal, part, g.center, g.normal));
+  const auto K =
+      static_cast<float>(paper::pointKernel(elements_, scene_, x.position, x.normal, part, g.center, g.normal));
   return B * atLeast(elements_, leaf, x.position, part, K * g.area * squared / (squared + g.area / float(kPi)));
 }
 
@@ -236,7 +237,7 @@ bool IndirectSampler::dealChanged(hierarchy::ElementId leaf, std::span<const hie
                                   TransferRow& row, std::uint64_t& traced) const {
   const auto kernelOf = [&](hierarchy::ElementId s, bool clear) { return kernelAtLeaf(leaf, s, clear); };
   std::vector<hierarchy::LinkId> active;
-  for (const hierarchy::LinkId top : changed) activeBelow(links_, elements_, top, leaf, active);
+  for (const hierarchy::LinkId top : changed) paper::activeBelow(links_, elements_, top, leaf, active);
   std::vector<Term> whole;
   for (const hierarchy::LinkId id : active) add(leaf, id, kernelOf, whole);
   const hierarchy::PatchPoint center{elements_.shape(leaf).center, elements_.shape(leaf).normal};
@@ -268,7 +269,7 @@ void IndirectSampler::gatherAt(hierarchy::ElementId leaf, const Vec3f& p, const 
                                const Visit& visit) const {
   const hierarchy::PatchPoint x{p, normal};
   const auto kernelOf = [&](hierarchy::ElementId s, bool) {
-    return static_cast<float>(kernelAtPoint(elements_, scene_, p, normal, s));
+    return static_cast<float>(paper::kernelAtPoint(elements_, scene_, p, normal, s));
   };
   std::vector<Term> whole = allTerms(leaf, kernelOf);
   float sum = 0;
@@ -278,7 +279,7 @@ void IndirectSampler::gatherAt(hierarchy::ElementId leaf, const Vec3f& p, const 
   for (const Term& t : terms) total += known(t) ? 0.0f : t.weight;
   std::uint64_t traced = 0;
   deal(leaf, x, terms, total / rays, rays, kernelOf, [&](const Dealt& d) {
-    const auto s = known(d.term) ? SenderSample{} : shoot(leaf, d.term.sender, d.index, &x);
+    const auto s = known(d.term) ? paper::SenderSample{} : shoot(leaf, d.term.sender, d.index, &x);
     const Rgb T = find(d, s, traced).T;
     visit(d.term.sender, T * elements_.radiometry[d.term.sender.index()].B);
   });

@@ -19,11 +19,11 @@
 #include <vector>
 
 #include "hierarchy/patch.hpp"
+#include "paper/sender_sampling.hpp"
+#include "paper/space_change.hpp"
 #include "radiosity/close_pairs.hpp"
 #include "radiosity/leaf_row.hpp"
 #include "radiosity/ray_shares.hpp"
-#include "radiosity/sender_sampling.hpp"
-#include "radiosity/space_change.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux::radiosity {
@@ -39,11 +39,11 @@ class IndirectSampler {
   /// stay. `changed`: the topmost changed links that arrive at the leaf or above it; at most `rays` go over those.
   /// Returns whether the transfers are others then. The row of a leaf that moved is made anew by `rays` where too
   /// little of it is left, or its rays have grown too uneven.
-  bool update(hierarchy::ElementId leaf, const LinkChanges& links, std::span<const hierarchy::LinkId> changed,
-              const SpaceChange&, int rays, TransferRow&, std::uint64_t& traced) const;
+  bool update(hierarchy::ElementId leaf, const paper::LinkChanges& links, std::span<const hierarchy::LinkId> changed,
+              const paper::SpaceChange&, int rays, TransferRow&, std::uint64_t& traced) const;
   /// The row of a leaf that has been split off another, by the rays that were dealt to that one: each is drawn anew
   /// from this leaf, and those over changed links are dealt anew. A row of its own where the rays do not suit it.
-  TransferRow inherited(hierarchy::ElementId leaf, const TransferRow& from, const LinkChanges&,
+  TransferRow inherited(hierarchy::ElementId leaf, const TransferRow& from, const paper::LinkChanges&,
                         std::span<const hierarchy::LinkId> changed, int rays, std::uint64_t& traced) const;
   /// Irradiance at a point of a leaf patch (unit normal) from the leaves' radiosities.
   Rgb atPoint(hierarchy::ElementId leaf, const Vec3f& p, const Vec3f& normal, int rays) const;
@@ -93,20 +93,20 @@ class IndirectSampler {
   void dealBelow(hierarchy::ElementId leaf, const hierarchy::PatchPoint& x, const Term&, double expected, int rays,
                  const Roundings&, const KernelOf&, const Visit&) const;
   struct Place;
-  SampleKey rayKey(hierarchy::ElementId leaf, hierarchy::ElementId sender) const;
+  paper::SampleKey rayKey(hierarchy::ElementId leaf, hierarchy::ElementId sender) const;
   /// The ray of a dealt term, from a point or anywhere on the leaf (null); no leaf where no points face each other.
-  SenderSample shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index,
-                     const hierarchy::PatchPoint* at) const;
-  SenderSample shootMeasured(hierarchy::ElementId sender, SampleKey key, int index, const Place&) const;
+  paper::SenderSample shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index,
+                            const hierarchy::PatchPoint* at) const;
+  paper::SenderSample shootMeasured(hierarchy::ElementId sender, paper::SampleKey key, int index, const Place&) const;
   /// `measures`: its weight tells the kernel, also of a flat sender.
-  SenderSample shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index, bool measures) const;
-  SenderSample shootOf(hierarchy::ElementId leaf, const RowTerm& t) const {
+  paper::SenderSample shoot(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index, bool measures) const;
+  paper::SenderSample shootOf(hierarchy::ElementId leaf, const RowTerm& t) const {
     return shoot(leaf, t.sender, t.index, t.measures || measures(leaf));
   }
-  SenderSample shootBack(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index, bool measures) const;
-  SenderSample shootMeasuring(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index) const;
+  paper::SenderSample shootBack(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index, bool measures) const;
+  paper::SenderSample shootMeasuring(hierarchy::ElementId leaf, hierarchy::ElementId sender, int index) const;
   bool isClosePatch(hierarchy::ElementId leaf, hierarchy::ElementId sender) const;
-  SenderSample along(const ClosePair&, hierarchy::ElementId sender) const;
+  paper::SenderSample along(const ClosePair&, hierarchy::ElementId sender) const;
   struct Found {
     Rgb T{0.0f};  // black where the term brings nothing
     const tracing::Ray* ray = nullptr;
@@ -114,27 +114,27 @@ class IndirectSampler {
     PrimitiveId blocker = {};
   };
   /// What a dealt term brings, by its ray.
-  Found find(const Dealt&, const SenderSample&, std::uint64_t& traced) const;
+  Found find(const Dealt&, const paper::SenderSample&, std::uint64_t& traced) const;
   /// Notes where the ray of one of the row's terms goes.
   void remember(hierarchy::ElementId leaf, std::size_t term, const Found&, TransferRow&) const;
   void append(hierarchy::ElementId leaf, const Dealt&, TransferRow&, std::uint64_t& traced) const;
   /// A term of a row that has to be traced again, and its ray.
   struct Again {
     std::uint32_t term;
-    SenderSample sample;
+    paper::SenderSample sample;
   };
   /// In ascending order.
-  std::vector<Again> meeting(hierarchy::ElementId leaf, const SpaceChange&, const TransferRow&) const;
-  bool turn(hierarchy::ElementId leaf, const LinkChanges&, std::span<const hierarchy::LinkId> changed,
-            const SpaceChange&, TransferRow&) const;
-  bool relink(hierarchy::ElementId leaf, const LinkChanges&, std::span<const hierarchy::LinkId> changed,
+  std::vector<Again> meeting(hierarchy::ElementId leaf, const paper::SpaceChange&, const TransferRow&) const;
+  bool turn(hierarchy::ElementId leaf, const paper::LinkChanges&, std::span<const hierarchy::LinkId> changed,
+            const paper::SpaceChange&, TransferRow&) const;
+  bool relink(hierarchy::ElementId leaf, const paper::LinkChanges&, std::span<const hierarchy::LinkId> changed,
               TransferRow&) const;
   std::vector<Again> allOf(hierarchy::ElementId leaf, const TransferRow&) const;
-  bool dropStale(const LinkChanges&, std::span<const hierarchy::LinkId> changed, TransferRow&) const;
+  bool dropStale(const paper::LinkChanges&, std::span<const hierarchy::LinkId> changed, TransferRow&) const;
   bool suits(hierarchy::ElementId leaf, std::span<const Again>, int rays, const TransferRow&) const;
   bool uneven(hierarchy::ElementId leaf, std::span<const Again>, const TransferRow&) const;
   bool coveredBy(std::span<const hierarchy::LinkId> changed, const RowTerm&) const;
-  Found findAgain(hierarchy::ElementId leaf, const RowTerm&, const SenderSample&, std::uint64_t& traced) const;
+  Found findAgain(hierarchy::ElementId leaf, const RowTerm&, const paper::SenderSample&, std::uint64_t& traced) const;
   /// Whether any brings something else than before.
   bool retrace(hierarchy::ElementId leaf, std::span<const Again>, TransferRow&, std::uint64_t& traced) const;
   /// Appends the terms over changed links, by at most `most` rays; false when none bring anything.

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "paper/links_below.hpp"
+#include "paper/visibility.hpp"
 #include "radiosity/indirect_sampler.hpp"
-#include "radiosity/links_below.hpp"
 #include "radiosity/moved_rays.hpp"
 #include "radiosity/row_terms.hpp"
-#include "radiosity/visibility.hpp"
 
 namespace deltalux::radiosity {
 
@@ -20,7 +20,7 @@ constexpr std::size_t kMostInherited = 2;  // times the rays that a leaf deserve
 
 }  // namespace
 
-std::vector<IndirectSampler::Again> IndirectSampler::meeting(hierarchy::ElementId leaf, const SpaceChange& space,
+std::vector<IndirectSampler::Again> IndirectSampler::meeting(hierarchy::ElementId leaf, const paper::SpaceChange& space,
                                                              const TransferRow& row) const {
   std::vector<Again> out;
   const hierarchy::ElementGeometry& r = elements_.shape(leaf);
@@ -41,7 +41,7 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(hierarchy::ElementI
       const hierarchy::ElementGeometry& s = elements_.shape(t.sender);
       if (t.clear || !space.meets(r.center, r.radius, s.center, s.radius)) continue;
     }
-    const SenderSample sample = t.clear && exact(t.sender) ? SenderSample{} : shootOf(leaf, t);
+    const paper::SenderSample sample = t.clear && exact(t.sender) ? paper::SenderSample{} : shootOf(leaf, t);
     // Where the sender has been split since, it is another ray.
     const bool another = !elements_.isLeaf(t.sender);
     if (moved || (sample.leaf.valid() && (another || space.meets(sample.ray)))) out.push_back({i, sample});
@@ -49,8 +49,8 @@ std::vector<IndirectSampler::Again> IndirectSampler::meeting(hierarchy::ElementI
   return out;
 }
 
-bool IndirectSampler::update(hierarchy::ElementId leaf, const LinkChanges& links,
-                             std::span<const hierarchy::LinkId> changed, const SpaceChange& space, int rays,
+bool IndirectSampler::update(hierarchy::ElementId leaf, const paper::LinkChanges& links,
+                             std::span<const hierarchy::LinkId> changed, const paper::SpaceChange& space, int rays,
                              TransferRow& row, std::uint64_t& traced) const {
   if (space.hiddenFrom(leaf) && !space.moved(leaf) && turn(leaf, links, changed, space, row)) return false;
   const bool gone = dropStale(links, changed, row);
@@ -67,9 +67,9 @@ bool IndirectSampler::update(hierarchy::ElementId leaf, const LinkChanges& links
   return gone || other || dealt;
 }
 
-TransferRow IndirectSampler::inherited(hierarchy::ElementId leaf, const TransferRow& from, const LinkChanges& links,
-                                       std::span<const hierarchy::LinkId> changed, int rays,
-                                       std::uint64_t& traced) const {
+TransferRow IndirectSampler::inherited(hierarchy::ElementId leaf, const TransferRow& from,
+                                       const paper::LinkChanges& links, std::span<const hierarchy::LinkId> changed,
+                                       int rays, std::uint64_t& traced) const {
   if (from.terms.size() > kMostInherited * static_cast<std::size_t>(rays)) return atLeaf(leaf, rays, traced);
   TransferRow row = from;
   dropStale(links, changed, row);
@@ -82,11 +82,11 @@ TransferRow IndirectSampler::inherited(hierarchy::ElementId leaf, const Transfer
 }
 
 /// Takes the terms over links that are others by now out of a row; whether they brought anything.
-bool IndirectSampler::dropStale(const LinkChanges& links, std::span<const hierarchy::LinkId> changed,
+bool IndirectSampler::dropStale(const paper::LinkChanges& links, std::span<const hierarchy::LinkId> changed,
                                 TransferRow& row) const {
   const auto stale = [&](const RowTerm& t) {
-    const LinkChange change = changeOf(links, t.link);
-    return change == LinkChange::Changed || (change == LinkChange::Touched && coveredBy(changed, t));
+    const paper::LinkChange change = paper::changeOf(links, t.link);
+    return change == paper::LinkChange::Changed || (change == paper::LinkChange::Touched && coveredBy(changed, t));
   };
   return !changed.empty() && drop(row, stale) > 0;
 }
@@ -99,8 +99,8 @@ bool IndirectSampler::suits(hierarchy::ElementId leaf, std::span<const Again> ag
 
 /// The row of a leaf from which all that moved is hidden, before and after, brings what it did, over the links that
 /// there are now. False where it must be looked at all the same.
-bool IndirectSampler::turn(hierarchy::ElementId leaf, const LinkChanges& links,
-                           std::span<const hierarchy::LinkId> changed, const SpaceChange& space,
+bool IndirectSampler::turn(hierarchy::ElementId leaf, const paper::LinkChanges& links,
+                           std::span<const hierarchy::LinkId> changed, const paper::SpaceChange& space,
                            TransferRow& row) const {
   if (!changed.empty() && !relink(leaf, links, changed, row)) return false;
   if (!space.meets(row.reach.objects)) return true;
@@ -134,19 +134,19 @@ bool IndirectSampler::turn(hierarchy::ElementId leaf, const LinkChanges& links,
 }
 
 /// Gives terms over links that are no more those that cover them now. False where that is not all there is to it.
-bool IndirectSampler::relink(hierarchy::ElementId leaf, const LinkChanges& links,
+bool IndirectSampler::relink(hierarchy::ElementId leaf, const paper::LinkChanges& links,
                              std::span<const hierarchy::LinkId> changed, TransferRow& row) const {
   const auto covers = [&](hierarchy::LinkId id, const RowTerm& t) {
     const hierarchy::Link& l = links_[id];
-    return l.state != hierarchy::LinkState::Free && holds(elements_, l.receiver, leaf) &&
-           holds(elements_, l.sender, t.sender);
+    return l.state != hierarchy::LinkState::Free && paper::holds(elements_, l.receiver, leaf) &&
+           paper::holds(elements_, l.sender, t.sender);
   };
   std::vector<hierarchy::LinkId> active;
   for (RowTerm& t : row.terms) {
-    if (changeOf(links, t.link) != LinkChange::Changed) continue;
+    if (paper::changeOf(links, t.link) != paper::LinkChange::Changed) continue;
     if (!covers(t.link, t)) {
       if (active.empty())
-        for (const hierarchy::LinkId top : changed) activeBelow(links_, elements_, top, leaf, active);
+        for (const hierarchy::LinkId top : changed) paper::activeBelow(links_, elements_, top, leaf, active);
       const auto now = std::find_if(active.begin(), active.end(), [&](hierarchy::LinkId id) { return covers(id, t); });
       if (now == active.end()) return false;
       t.link = *now;
@@ -162,7 +162,7 @@ std::vector<IndirectSampler::Again> IndirectSampler::allOf(hierarchy::ElementId 
   out.reserve(row.terms.size());
   for (std::uint32_t i = 0; i < row.terms.size(); ++i) {
     const RowTerm& t = row.terms[i];
-    out.push_back({i, t.clear && exact(t.sender) ? SenderSample{} : shootOf(leaf, t)});
+    out.push_back({i, t.clear && exact(t.sender) ? paper::SenderSample{} : shootOf(leaf, t)});
   }
   return out;
 }
@@ -175,7 +175,7 @@ bool IndirectSampler::uneven(hierarchy::ElementId leaf, std::span<const Again> a
     const RowTerm& t = row.terms[a.term];
     if (t.clear || !a.sample.leaf.valid()) continue;
     const double K = elements_.shape(t.sender).area * a.sample.weight;
-    const double x = t.gain * K * strength(leaf, t.sender) * std::sqrt(openness(links_[t.link]));
+    const double x = t.gain * K * strength(leaf, t.sender) * std::sqrt(paper::openness(links_[t.link]));
     sum += x * x;
   }
   return sum > kUnevenRow * share * share * static_cast<double>(row.terms.size());
@@ -186,12 +186,12 @@ bool IndirectSampler::uneven(hierarchy::ElementId leaf, std::span<const Again> a
 bool IndirectSampler::coveredBy(std::span<const hierarchy::LinkId> changed, const RowTerm& t) const {
   if (links_[t.link].state != hierarchy::LinkState::Interior) return false;
   return std::any_of(changed.begin(), changed.end(),
-                     [&](hierarchy::LinkId id) { return holds(elements_, links_[id].sender, t.sender); });
+                     [&](hierarchy::LinkId id) { return paper::holds(elements_, links_[id].sender, t.sender); });
 }
 
 /// What a term brings by today's kernel. That of a flat sender is worked out only where something passes.
 IndirectSampler::Found IndirectSampler::findAgain(hierarchy::ElementId leaf, const RowTerm& t,
-                                                  const SenderSample& sample, std::uint64_t& traced) const {
+                                                  const paper::SenderSample& sample, std::uint64_t& traced) const {
   Found found = find({{t.link, t.sender, 1.0f, t.clear ? 1.0f : 0.0f, 0.0f}, t.gain, t.index}, sample, traced);
   if (!isBlack(found.T) && exact(t.sender) && !sample.measures) found.T *= kernelAtLeaf(leaf, t.sender, t.clear);
   return found;

@@ -11,10 +11,10 @@
 #include <span>
 
 #include "hierarchy/link.hpp"
+#include "paper/line_space.hpp"
 #include "radiosity/direct_rows.hpp"
 #include "radiosity/gather_rays.hpp"
 #include "radiosity/leaf_row.hpp"
-#include "radiosity/line_space.hpp"
 #include "radiosity/row_surplus.hpp"
 #include "radiosity/surface_reaches.hpp"
 #include "tracing/ray_tracer.hpp"
@@ -56,13 +56,14 @@ class LeafTransfers {
   /// changed links, and those whose rays meet what moved, or lead to it. Rows of patches that are leaves no more are
   /// dropped. `changed`: topmost changed links.
   ConcernedLeaves concerned(const hierarchy::Elements&, const hierarchy::Links&,
-                            std::span<const hierarchy::LinkId> changed, const SpaceChange&);
+                            std::span<const hierarchy::LinkId> changed, const paper::SpaceChange&);
   /// Makes the rows of these leaves anew, or the terms of them over links that have changed or whose rays meet what
   /// moved. Other rows stand as they are; their turn may come in a later call, also after further moves, when `marks`,
   /// `changed` and `space` are those of all moves since.
   LeafUpdateReport update(hierarchy::Elements&, const hierarchy::Links&, const Scene&, const tracing::RayTracer&,
-                          const LeafTransferSettings&, const LinkMarks&, std::span<const hierarchy::LinkId> changed,
-                          const SpaceChange&, const ConcernedLeaves&);
+                          const LeafTransferSettings&, const paper::LinkMarks&,
+                          std::span<const hierarchy::LinkId> changed, const paper::SpaceChange&,
+                          const ConcernedLeaves&);
 
   bool empty() const { return rows_.empty(); }
   std::span<const LeafRow> rows() const { return rows_; }
@@ -105,7 +106,8 @@ class LeafTransfers {
   void dropNoLeaves(const hierarchy::Elements&, std::span<const hierarchy::ElementId> inputs);
   void measure(const LeafRow&, const hierarchy::Elements&, const Scene&);
   void setRow(hierarchy::ElementId leaf, std::size_t row);
-  const TransferRow* inheritance(const hierarchy::Elements&, hierarchy::ElementId leaf, const SpaceChange&) const;
+  const TransferRow* inheritance(const hierarchy::Elements&, hierarchy::ElementId leaf,
+                                 const paper::SpaceChange&) const;
 
   std::vector<LeafRow> rows_;  // one a leaf
   MeanLeaf mean_;              // when they were built

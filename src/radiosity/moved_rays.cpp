@@ -6,7 +6,7 @@
 
 namespace deltalux::radiosity {
 
-void meetsRays(const SpaceChange& space, const hierarchy::ElementGeometry& from, std::span<const RayCode> rays,
+void meetsRays(const paper::SpaceChange& space, const hierarchy::ElementGeometry& from, std::span<const RayCode> rays,
                std::vector<std::uint32_t>& out) {
   if (space.empty()) return;
   constexpr float kSmallest = 1e-6f;  // of a coordinate of a direction

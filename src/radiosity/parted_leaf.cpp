@@ -4,7 +4,7 @@
 
 #include "base/random.hpp"
 #include "hierarchy/patch.hpp"
-#include "radiosity/sender_sampling.hpp"
+#include "paper/sender_sampling.hpp"
 
 namespace deltalux::radiosity {
 
@@ -23,7 +23,7 @@ bool standsBetween(const hierarchy::Elements& elements, const Scene& scene, cons
   };
   int blocked = 0;
   for (int i = 0; i < kLines; ++i) {
-    const auto u = stratified4(key, i);
+    const auto u = paper::stratified4(key, i);
     const Vec3f up = (i % 2 == 0 ? kLow : kHigh) * side * g.normal;
     blocked += tracer.occluded(
         tracing::segment(pointIn(a, u[0], u[1]) + up, Vec3f(0.0f), pointIn(b, u[2], u[3]) + up, Vec3f(0.0f)));

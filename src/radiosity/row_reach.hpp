@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "hierarchy/element.hpp"
-#include "radiosity/object_set.hpp"
+#include "paper/object_set.hpp"
 
 namespace deltalux::radiosity {
 
@@ -30,7 +30,7 @@ class RowReach {
   bool operator==(const RowReach&) const = default;
 
   std::array<std::uint8_t, kSectors> furthest{};  // 0: no ray that passes
-  ObjectSet objects;                              // of rays that do not: what blocks them, and what they lead to
+  paper::ObjectSet objects;                       // of rays that do not: what blocks them, and what they lead to
 };
 
 }  // namespace deltalux::radiosity

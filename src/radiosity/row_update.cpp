@@ -24,14 +24,14 @@ constexpr std::size_t kFew = 8;  // a row made from nothing takes as long as loo
 constexpr int kByLights = 1, kByLeaves = 2;  // which row of a leaf is concerned
 
 /// Whether what moved may have covered some of the leaf, or may cover it now.
-bool uncovers(const hierarchy::Elements& elements, hierarchy::ElementId leaf, const SpaceChange& space) {
+bool uncovers(const hierarchy::Elements& elements, hierarchy::ElementId leaf, const paper::SpaceChange& space) {
   const Box beside = SurfaceReaches::beside(elements.shape(leaf));
   return space.meets(Vec3f(beside.lower), Vec3f(beside.upper));
 }
 
 /// Which rows of a leaf a move may change by itself. `hidden`: it is known to see nothing of what moves; then only rays
 /// that are blocked may lead elsewhere. `inScene`: else rays to lights at infinity may go on to what moves.
-int concernedBy(const hierarchy::Elements& elements, const LeafRow& row, const SpaceChange& space, bool inScene,
+int concernedBy(const hierarchy::Elements& elements, const LeafRow& row, const paper::SpaceChange& space, bool inScene,
                 bool hidden) {
   if (hidden) return space.meets(row.indirect.reach.objects) ? kByLeaves : 0;
   const hierarchy::ElementGeometry& g = elements.shape(row.leaf);
@@ -83,7 +83,7 @@ void LeafTransfers::dropNoLeaves(const hierarchy::Elements& elements, std::span<
 /// The row of the leaf that another was split off; null where there is none, and where what moved may have covered that
 /// leaf: its rays are those of the part that was not covered.
 const TransferRow* LeafTransfers::inheritance(const hierarchy::Elements& elements, hierarchy::ElementId leaf,
-                                              const SpaceChange& space) const {
+                                              const paper::SpaceChange& space) const {
   for (hierarchy::ElementId e = leaf; e.valid() && elements.at(e).depth > 0;) {
     e = elements.at(e).parent;
     const LeafRow* kept = find(e);  // where it was split just now
@@ -118,7 +118,8 @@ void LeafTransfers::setRow(hierarchy::ElementId leaf, std::size_t row) {
 }
 
 ConcernedLeaves LeafTransfers::concerned(const hierarchy::Elements& elements, const hierarchy::Links& links,
-                                         std::span<const hierarchy::LinkId> changedLinks, const SpaceChange& space) {
+                                         std::span<const hierarchy::LinkId> changedLinks,
+                                         const paper::SpaceChange& space) {
   dropNoLeaves(elements, space.inputs());
   PagedArray<char> found(elements.size());  // bits: kBy
   const auto add = [&](hierarchy::ElementId leaf, int by) {
@@ -164,15 +165,15 @@ struct LeafTransfers::Change {
   const Scene& scene;
   const tracing::RayTracer& tracer;
   const LeafTransferSettings& settings;
-  const LinkMarks& marks;
+  const paper::LinkMarks& marks;
   const ArrivingLinks& arriving;
-  const SpaceChange& space;
+  const paper::SpaceChange& space;
 };
 
 LeafUpdateReport LeafTransfers::update(hierarchy::Elements& elements, const hierarchy::Links& links, const Scene& scene,
                                        const tracing::RayTracer& tracer, const LeafTransferSettings& settings,
-                                       const LinkMarks& marks, std::span<const hierarchy::LinkId> changedLinks,
-                                       const SpaceChange& space, const ConcernedLeaves& leaves) {
+                                       const paper::LinkMarks& marks, std::span<const hierarchy::LinkId> changedLinks,
+                                       const paper::SpaceChange& space, const ConcernedLeaves& leaves) {
   LeafUpdateReport report;
   const ArrivingLinks arriving(elements, links, changedLinks);
   const Change change{links, scene, tracer, settings, marks, arriving, space};

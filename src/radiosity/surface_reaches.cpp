@@ -40,7 +40,7 @@ void SurfaceReaches::add(const hierarchy::Elements& elements, hierarchy::Element
   }
 }
 
-std::vector<hierarchy::ElementId> SurfaceReaches::met(const SpaceChange& space, bool everywhere) const {
+std::vector<hierarchy::ElementId> SurfaceReaches::met(const paper::SpaceChange& space, bool everywhere) const {
   const auto isMet = [&](std::size_t i) {
     const Surface& s = surfaces_[i];
     return everywhere || space.meets(s.objects) || (space.meets(s.lower, s.upper) && !space.hiddenFrom(s.element));

@@ -7,8 +7,8 @@
 // Cost: some nanoseconds a surface and move; 160 bytes a surface, 4 an element.
 #include <vector>
 
+#include "paper/space_change.hpp"
 #include "radiosity/leaf_row.hpp"
-#include "radiosity/space_change.hpp"
 
 namespace deltalux::radiosity {
 
@@ -19,7 +19,7 @@ class SurfaceReaches {
            const TransferRow& indirect);
 
   /// All surfaces that something moving may touch, or whose rows it may. `everywhere`: all that have rows.
-  std::vector<hierarchy::ElementId> met(const SpaceChange&, bool everywhere) const;
+  std::vector<hierarchy::ElementId> met(const paper::SpaceChange&, bool everywhere) const;
   /// Whether what the row of a leaf reaches is known.
   bool holds(const hierarchy::Elements&, hierarchy::ElementId leaf, const TransferRow&) const;
   std::size_t memoryBytes() const;
@@ -31,7 +31,7 @@ class SurfaceReaches {
   struct Surface {
     hierarchy::ElementId element;
     Vec3f lower, upper;
-    ObjectSet objects;
+    paper::ObjectSet objects;
   };
   static constexpr std::uint32_t kNone = 0xffffffffu;
 

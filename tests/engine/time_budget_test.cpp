@@ -18,9 +18,9 @@ using namespace test;
 TEST(TimeBudget, MoreTimeReachesASmallerError) {
   const Engine engine = solved(loadScene({bundledScene("cornell/cornell.rad")}).scene, 0.2);
   const Solution& s = engine.solution().get();
-  radiosity::OracleSettings oracle;
+  paper::OracleSettings oracle;
   oracle.error = 4;
-  const radiosity::LinkErrors errors(s.links, s.elements, oracle);
+  const paper::LinkErrors errors(s.links, s.elements, oracle);
   EXPECT_GT(errors.madeBy(0.5), errors.madeBy(1.0));
   EXPECT_GT(errors.madeBy(1.0), 0);
 

@@ -94,9 +94,9 @@ struct Staleness {
 Staleness staleness(const Solution& s) {
   hierarchy::Elements elements = s.elements;
   radiosity::LeafTransfers transfers = s.transfers;
-  radiosity::LinkMarks all;
-  all.changes = radiosity::LinkChanges(s.links.size(), radiosity::LinkChange::Touched);
-  radiosity::SpaceChange everywhere;
+  paper::LinkMarks all;
+  all.changes = paper::LinkChanges(s.links.size(), paper::LinkChange::Touched);
+  paper::SpaceChange everywhere;
   everywhere.add(elements.sceneBox);
   radiosity::ConcernedLeaves leaves;
   for (const radiosity::LeafRow& row : transfers.rows()) leaves.byLeaves.push_back(row.leaf);
@@ -156,7 +156,7 @@ TEST(Update, NoRayIsMissed) {
 /// Rays towards an object from leaves that see nothing of it.
 std::size_t raysInVain(const Solution& s, const char* object) {
   std::vector<hierarchy::ElementId> inputs;
-  radiosity::SpaceChange space;
+  paper::SpaceChange space;
   for (const hierarchy::ElementId e : s.elements.inputs) {
     if (!s.elements.isPatch(e)) continue;
     const Primitive& p = s.scene[s.elements.domain[e.index()].primitive];

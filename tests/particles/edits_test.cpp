@@ -7,11 +7,11 @@
 #include "base/random.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/patch.hpp"
+#include "paper/coarse_solution.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/particle_tracing.hpp"
 #include "particles/segment_box.hpp"
 #include "particles/transfer.hpp"
-#include "radiosity/coarse_solution.hpp"
 #include "support/rooms.hpp"
 
 namespace deltalux {

@@ -7,10 +7,10 @@
 #include <map>
 
 #include "base/parallel.hpp"
+#include "paper/coarse_solution.hpp"
 #include "particles/count_paths.hpp"
 #include "particles/trace.hpp"
 #include "particles/transfer.hpp"
-#include "radiosity/coarse_solution.hpp"
 #include "support/rooms.hpp"
 
 namespace deltalux {

@@ -5,6 +5,7 @@
 #include "base/random.hpp"
 
 namespace deltalux {
+using namespace paper;
 using namespace radiosity;
 
 namespace {

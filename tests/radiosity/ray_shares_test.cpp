@@ -8,10 +8,11 @@
 #include "hierarchy/below.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/patch.hpp"
-#include "radiosity/sender_sampling.hpp"
+#include "paper/sender_sampling.hpp"
 #include "support/rooms.hpp"
 
 namespace deltalux {
+using namespace paper;
 using namespace radiosity;
 
 namespace {

@@ -1,0 +1,194 @@
+#include "paper/link_descent.hpp"
+
+#include <algorithm>
+
+#include "base/parallel.hpp"
+#include "hierarchy/patch.hpp"
+#include "paper/link_news.hpp"
+#include "paper/links_below.hpp"
+
+namespace deltalux::paper {
+
+namespace {
+
+constexpr std::size_t kLinkBlock = 64;
+
+/// Children of `link` after splitting its end(s), appended contiguously. False when the end cannot be split.
+bool splitLink(hierarchy::Links& links, hierarchy::Elements& elements, const Scene& scene, hierarchy::LinkId id,
+               Split split) {
+  const hierarchy::ElementId receiver = links[id].receiver, sender = links[id].sender;
+  const bool splitReceiver = split != Split::Sender, splitSender = split != Split::Receiver;
+  if (splitReceiver && !elements.isCluster(receiver) && !hierarchy::subdivide(elements, scene, receiver)) return false;
+  if (splitSender && !elements.isCluster(sender) && !hierarchy::subdivide(elements, scene, sender)) return false;
+  const std::size_t rCount = splitReceiver ? elements.at(receiver).childCount : 1;
+  const std::size_t sCount = splitSender ? elements.at(sender).childCount : 1;
+  if (rCount * sCount == 0 || rCount * sCount > 65535) return false;
+  const hierarchy::LinkId first = links.addChildren(id, rCount * sCount);
+  for (std::size_t i = 0; i < rCount; ++i)
+    for (std::size_t j = 0; j < sCount; ++j)
+      links.setEnds(hierarchy::LinkId(first.index() + i * sCount + j),
+                    splitReceiver ? elements.child(receiver, i) : receiver,
+                    splitSender ? elements.child(sender, j) : sender);
+  return true;
+}
+
+void add(const RefineReport& more, RefineReport& report) {
+  report.judged += more.judged, report.rays += more.rays;
+  report.provenClear += more.provenClear, report.provenBlocked += more.provenBlocked;
+}
+
+}  // namespace
+
+RefineReport LinkDescent::run() {
+  above_.assign(1, {});
+  above_[0].blockers = elements_.sceneRoots();
+  const BlockerRange everything{0, static_cast<std::uint32_t>(above_[0].blockers.size())};
+  std::vector<Task> tasks, next;
+  for (const hierarchy::LinkId root : links_.roots)
+    if (marks_[root.index()] != LinkMark::None) tasks.push_back({root, everything, 0, marks_[root.index()]});
+  while (!tasks.empty()) {
+    const std::size_t blocks = (tasks.size() + kLinkBlock - 1) / kLinkBlock;
+    if (level_.size() < blocks) level_.resize(blocks);
+    const LinkJudge judge(elements_, scene_, tracer_, settings_);
+    parallelBlocks(tasks.size(), kLinkBlock, [&](std::size_t begin, std::size_t end) {
+      judgeBlock(judge, std::span(tasks).subspan(begin, end - begin), static_cast<std::uint32_t>(begin / kLinkBlock),
+                 level_[begin / kLinkBlock]);
+    });
+    next.clear();
+    const bool stopping = stop && stop();
+    for (const Block& block : std::span(level_).first(blocks)) {
+      add(block.report, report_);
+      auto at = block.next.begin();
+      for (const Pending& p : block.pending) {
+        const auto place = block.next.begin() + static_cast<std::ptrdiff_t>(p.place);
+        next.insert(next.end(), at, place);
+        at = place;
+        commit(p, stopping, next);
+      }
+      next.insert(next.end(), at, block.next.end());
+    }
+    std::swap(above_, level_);
+    std::swap(tasks, next);
+  }
+  return report_;
+}
+
+void LinkDescent::judgeBlock(const LinkJudge& judge, std::span<const Task> tasks, std::uint32_t index, Block& block) {
+  block.blockers.clear(), block.next.clear(), block.pending.clear();
+  block.report = {};
+  block.report.judged = tasks.size();
+  for (Task task : tasks) {
+    const hierarchy::ElementId* const candidates = above_[task.block].blockers.data() + task.candidates.begin;
+    const Verdict v = verdictOf(judge, task, {candidates, task.candidates.count, block.blockers});
+    block.report.rays += v.rays;
+    task.block = index;
+    if (!settle(task, v, block)) block.pending.push_back({task, v, block.next.size()});
+  }
+}
+
+Verdict LinkDescent::verdictOf(const LinkJudge& judge, const Task& t, const Candidates& candidates) const {
+  const hierarchy::Link& link = links_[t.link];
+  Verdict v = judged(judge, link, t, candidates);
+  if (v.split == Split::None && tooWide(judge, v.link)) {
+    const std::uint16_t rays = v.rays;
+    v = judge.pass(v.link, candidates);
+    v.split = Split::Receiver, v.rays = rays;
+  }
+  v.refined = t.mark > LinkMark::Path && link.state == hierarchy::LinkState::Interior && v.split == Split::None &&
+              judge.splits(link);
+  v.news = !samePlan(link, v.link) && isNews(judge, link, v.link);
+  v.link.hidden = hiddenAsBefore(link, v.link) ? hierarchy::Link::kHidden : links_.hiddenAbove(t.link);
+  return v;
+}
+
+Verdict LinkDescent::judged(const LinkJudge& judge, const hierarchy::Link& link, const Task& t,
+                            const Candidates& candidates) const {
+  const bool interior = link.state == hierarchy::LinkState::Interior;
+  if (t.mark == LinkMark::Way && interior) return judge.passUnseen(link, candidates);
+  if (t.mark == LinkMark::Path && interior) return judge.pass(link, candidates);
+  if (t.mark == LinkMark::Between) return judge.judgeBetween(link, raysOf(t.link), candidates);
+  if (t.mark == LinkMark::Ends) return judge.judgeMoved(link, candidates);
+  const hierarchy::Link& above = link.parent.valid() ? links_[link.parent] : link;
+  return judge.judge(link, above.visibility == hierarchy::Visibility::Sampled && !isBlack(above.V), candidates);
+}
+
+/// Whether a link from what has grown is better taken apart, although light asks for no more: all leaves below its
+/// receiver would look for rays to what has grown, and walls may hide it from most.
+bool LinkDescent::tooWide(const LinkJudge& judge, const hierarchy::Link& link) const {
+  if (!grown.valid() || !link.carries() || !elements_.isCluster(link.receiver)) return false;
+  return holds(elements_, grown, link.sender) && !holds(elements_, grown, link.receiver) &&
+         judge.brings(link, kNewsToRows);
+}
+
+bool LinkDescent::isNews(const LinkJudge& judge, const hierarchy::Link& before, const hierarchy::Link& after) {
+  if (!before.carries()) return !hiddenAsBefore(before, after) && judge.brings(after, kNewsToRows);
+  return before.visibility != after.visibility || judge.brings(before, kNews) || judge.brings(after, kNews);
+}
+
+std::uint32_t LinkDescent::raysOf(hierarchy::LinkId id) const {
+  return std::lower_bound(disturbed_.begin(), disturbed_.end(), id,
+                          [](const DisturbedLink& d, hierarchy::LinkId link) { return d.link < link; })
+      ->rays;
+}
+
+/// Takes a verdict that leaves the tree and its lists as they are; false when it does not. Nothing is written that
+/// other links of the level read.
+bool LinkDescent::settle(const Task& task, const Verdict& v, Block& block) {
+  const hierarchy::Link& link = links_[task.link];
+  const bool anew = task.mark > LinkMark::Path, interior = link.state == hierarchy::LinkState::Interior;
+  const bool same = anew && sameTransfer(link, v.link, settings_.sameKernel);
+  // A link collapses for what a move has changed, not for light that has settled since it was refined. One that shows
+  // nothing any more stays refined for when what hides it moves on: until then that costs no more than its place.
+  if (interior && (!anew || same || v.split != Split::None || !v.refined || v.link.unseen())) {
+    if (anew && !same) links_.judged(task.link, v.link);
+    descend(task, v, block.next, false);
+    return true;
+  }
+  if (same) return true;
+  if (interior || v.news || v.split != Split::None || v.link.carries() != link.listed) return false;
+  accept(task.link, v.link, block.report);
+  return true;
+}
+
+void LinkDescent::accept(hierarchy::LinkId id, const hierarchy::Link& as, RefineReport& report) {
+  links_.judged(id, as);
+  report.provenClear += as.visibility == hierarchy::Visibility::Clear;
+  report.provenBlocked += as.visibility == hierarchy::Visibility::Blocked;
+}
+
+void LinkDescent::commit(const Pending& p, bool stopping, std::vector<Task>& next) {
+  const hierarchy::LinkId id = p.task.link;
+  const Verdict& v = p.verdict;
+  if (links_[id].state == hierarchy::LinkState::Interior) {
+    links_.collapse(id, renewed);
+    ++report_.collapsed;
+    changed(id);
+  } else if (v.news) {
+    changed(id);
+  }
+  accept(id, v.link, report_);
+  if (v.split == Split::None) return;
+  const bool optional =
+      v.link.receiver != v.link.sender && v.link.K >= 0 && v.link.visibility != hierarchy::Visibility::Unknown;
+  if (stopping && optional) {
+    report_.stopped = true;
+    return;
+  }
+  // Rows go on to sample over the link: it covers all that they did, and they find their way to leaves themselves.
+  if (!splitLink(links_, elements_, scene_, id, v.split)) return;
+  ++report_.split;
+  report_.created += links_[id].childCount;
+  descend(p.task, v, next, true);
+}
+
+void LinkDescent::descend(const Task& task, const Verdict& v, std::vector<Task>& next, bool fresh) const {
+  const hierarchy::Link& link = links_[task.link];
+  for (std::size_t c = 0; c < link.childCount; ++c) {
+    const hierarchy::LinkId child = links_.child(task.link, c);
+    if (fresh) renewed(child);
+    const LinkMark mark = fresh ? LinkMark::Path : marks_[child.index()];
+    if (mark != LinkMark::None) next.push_back({child, v.blockers, task.block, mark});
+  }
+}
+
+}  // namespace deltalux::paper

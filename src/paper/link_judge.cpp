@@ -1,0 +1,281 @@
+#include "paper/link_judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "paper/kernel.hpp"
+
+namespace deltalux::paper {
+
+namespace {
+
+constexpr int kSomeSamples = 8, kManySamples = 16;
+constexpr std::size_t kShortList = 8;  // of blockers: sooner looked through than rays are traced
+constexpr std::size_t kHandedOn = 32;  // of blockers: links below look through them as soon as their parent does
+constexpr float kFineCell = 0.2f;      // radians: sky cells larger than this are split before the surface they light
+constexpr float kFinestCell = 0.06f;   // radians: smaller ones are not split
+
+bool open(const hierarchy::Link& l) {
+  return l.visibility == hierarchy::Visibility::Unknown || l.visibility == hierarchy::Visibility::Sampled;
+}
+bool allPass(const hierarchy::Link& l) { return l.V == Rgb(1.0f); }
+
+/// What is proven takes no samples.
+void prove(hierarchy::Link& link, hierarchy::Visibility v) {
+  link.visibility = v;
+  link.V = Rgb(v == hierarchy::Visibility::Clear ? 1.0f : 0.0f);
+  link.visibilitySpread = 0, link.samples = 0, link.sampleMask = 0;
+}
+
+hierarchy::Link forgotten(hierarchy::Link link) {
+  link.state = hierarchy::LinkState::Active, link.visibility = hierarchy::Visibility::Unknown, link.samples = 0;
+  return link;
+}
+
+}  // namespace
+
+/// The link's own blockers, drawn up when they are first asked for.
+class LinkJudge::OwnBlockers {
+ public:
+  OwnBlockers(const LinkJudge& judge, const hierarchy::Link& link, const Candidates& candidates, Verdict& v)
+      : judge_(judge), receiver_(link.receiver), sender_(link.sender), candidates_(candidates), range_(v.blockers) {}
+
+  std::span<const hierarchy::ElementId> list() {
+    if (!std::exchange(drawnUp_, true)) {
+      Blockers& own = candidates_.own;
+      range_.begin = static_cast<std::uint32_t>(own.size());
+      shrinkBlockers(judge_.elements_, judge_.scene_, receiver_, sender_, candidates_.parents, candidates_.count, own);
+      range_.count = static_cast<std::uint32_t>(own.size()) - range_.begin;
+    }
+    return {candidates_.own.data() + range_.begin, range_.count};
+  }
+
+ private:
+  const LinkJudge& judge_;
+  hierarchy::ElementId receiver_, sender_;
+  const Candidates& candidates_;
+  BlockerRange& range_;
+  bool drawnUp_ = false;
+};
+
+bool LinkJudge::couple(hierarchy::Link& link, const Candidates& candidates, Verdict& v) const {
+  const Kernel k = kernel(elements_, scene_, link.receiver, link.sender);
+  if (k.averted || elements_.at(link.receiver).blocker || !sends(link.sender)) {
+    link.state = hierarchy::LinkState::Averted, link.K = 0;
+    return false;
+  }
+  link.K = k.K, link.receiverSpread = k.receiverSpread, link.senderSpread = k.senderSpread;
+  if (!k.overlapping) return true;
+  OwnBlockers(*this, link, candidates, v).list();
+  v.split = link.receiver == link.sender ? Split::Both : splitOverlapping(link);
+  return false;
+}
+
+void LinkJudge::see(hierarchy::Link& link, int least, bool saw, const Candidates& candidates, Verdict& v) const {
+  OwnBlockers blockers(*this, link, candidates, v);
+  const bool solid = solidEnds(link), unknown = link.visibility == hierarchy::Visibility::Unknown;
+  if (unknown && !(saw && (candidates.count > kShortList || !solid))) {
+    if (blockers.list().empty() && solid)
+      prove(link, hierarchy::Visibility::Clear);
+    else if (!saw)
+      proveBlocked(link, blockers);
+  }
+  if (open(link)) {
+    VisibilitySamples samples(elements_, scene_, tracer_, link.receiver, link.sender);
+    look(link, least, samples);
+    v.rays = static_cast<std::uint16_t>(samples.traced());
+  }
+  if (unknown && saw && link.visibility == hierarchy::Visibility::Sampled) {
+    if (isBlack(link.V))
+      proveBlocked(link, blockers);
+    else if (solid && allPass(link) && blockers.list().empty())
+      prove(link, hierarchy::Visibility::Clear);
+  }
+  v.split = choose(link);
+  if (v.split != Split::None || link.childCount > 0) blockers.list();
+}
+
+Verdict LinkJudge::judge(const hierarchy::Link& before, bool parentSaw, const Candidates& candidates) const {
+  Verdict v;
+  v.link = before;
+  if (couple(v.link, candidates, v)) see(v.link, 0, parentSaw, candidates, v);
+  return v;
+}
+
+Verdict LinkJudge::judgeMoved(const hierarchy::Link& before, const Candidates& candidates) const {
+  Verdict v;
+  v.link = forgotten(before);
+  if (!couple(v.link, candidates, v) || sawEnough(before, v.link)) return v;
+  const bool saw = before.visibility == hierarchy::Visibility::Sampled && !isBlack(before.V);
+  see(v.link, before.samples, saw, candidates, v);
+  return v;
+}
+
+/// Whether what few rays told of a link before may stand: as little comes over it.
+bool LinkJudge::sawEnough(const hierarchy::Link& before, hierarchy::Link& after) const {
+  if (before.visibility != hierarchy::Visibility::Sampled || before.samples > trusted_ || before.childCount > 0)
+    return false;
+  hierarchy::Link same = after;
+  same.visibility = before.visibility, same.samples = before.samples, same.sampleMask = before.sampleMask;
+  same.V = before.V, same.visibilitySpread = before.visibilitySpread;
+  if (wantedSamples(same, oracle_.judge(same)) > kFewSamples || choose(same) != Split::None) return false;
+  after = same;
+  return true;
+}
+
+Verdict LinkJudge::judgeBetween(const hierarchy::Link& before, std::uint32_t rays, const Candidates& candidates) const {
+  if (before.visibility != hierarchy::Visibility::Sampled) return judge(forgotten(before), false, candidates);
+  VisibilitySamples samples(elements_, scene_, tracer_, before.receiver, before.sender);
+  const VisibilityEstimate e = samples.renewed(before, rays);
+  Verdict v;
+  v.link = before;
+  hierarchy::Link& link = v.link;
+  link.V = e.V, link.sampleMask = e.mask, link.visibilitySpread = e.spread;
+  if (e.V == before.V && e.mask == before.sampleMask) {
+    v = passUnseen(link, candidates);
+  } else {
+    OwnBlockers blockers(*this, link, candidates, v);
+    if (isBlack(e.V)) proveBlocked(link, blockers);
+    if (solidEnds(link) && allPass(link) && blockers.list().empty()) prove(link, hierarchy::Visibility::Clear);
+    if (link.visibility == hierarchy::Visibility::Sampled) look(link, link.samples, samples);
+    link.state = hierarchy::LinkState::Active;
+    v.split = choose(link);
+    if (v.split != Split::None || link.childCount > 0) blockers.list();
+  }
+  v.rays = static_cast<std::uint16_t>(samples.traced());
+  return v;
+}
+
+Verdict LinkJudge::pass(const hierarchy::Link& link, const Candidates& candidates) const {
+  if (candidates.count <= kHandedOn) return passUnseen(link, candidates);
+  Verdict v;
+  v.link = link;
+  OwnBlockers(*this, link, candidates, v).list();
+  return v;
+}
+
+Verdict LinkJudge::passUnseen(const hierarchy::Link& link, const Candidates& candidates) const {
+  Verdict v;
+  v.link = link;
+  v.blockers = {static_cast<std::uint32_t>(candidates.own.size()), static_cast<std::uint32_t>(candidates.count)};
+  candidates.own.insert(candidates.own.end(), candidates.parents, candidates.parents + candidates.count);
+  return v;
+}
+
+bool LinkJudge::splits(hierarchy::Link link) const {
+  link.state = hierarchy::LinkState::Active;
+  return link.receiver == link.sender || choose(link) != Split::None;
+}
+
+bool LinkJudge::brings(const hierarchy::Link& link, double least) const {
+  return link.carries() && oracle_.most(link) * std::sqrt(openness(link)) > least * oracle_.budget(link.receiver);
+}
+
+bool LinkJudge::unsettled(const hierarchy::Link& link) const {
+  if (link.state != hierarchy::LinkState::Active || link.visibility == hierarchy::Visibility::Blocked) return false;
+  const LinkError e = oracle_.judge(link);
+  return e.total() > e.budget || wantedSamples(link, e) > link.samples;
+}
+
+bool LinkJudge::solidEnds(const hierarchy::Link& link) const {
+  return !elements_.isCluster(link.receiver) && !elements_.isCluster(link.sender);
+}
+
+void LinkJudge::proveBlocked(hierarchy::Link& link, OwnBlockers& blockers) const {
+  const std::span<const hierarchy::ElementId> own = blockers.list();
+  if (provablyBlocked(elements_, scene_, link.receiver, link.sender, own.data(), own.size()))
+    prove(link, hierarchy::Visibility::Blocked);
+}
+
+bool LinkJudge::sends(hierarchy::ElementId sender) const {
+  const hierarchy::ElementTopology& s = elements_.at(sender);
+  if (s.kind != hierarchy::ElementKind::Patch) return true;
+  if (!(elements_.shape(sender).area > 0)) return false;  // removed
+  if (s.emitter) return true;
+  const hierarchy::ElementLight& l = elements_.radiometry[sender.index()];
+  return !isBlack(l.rho) || !isBlack(l.tau);
+}
+
+int LinkJudge::wantedSamples(const hierarchy::Link& link, const LinkError& e) const {
+  if (!open(link)) return 0;
+  const double weight = e.power / std::max(e.budget, 1e-30);
+  return weight < 0.5 ? kFewSamples : weight < 2 ? kSomeSamples : kManySamples;
+}
+
+/// Few rays, and more when the kernel alone does not already demand a split.
+void LinkJudge::look(hierarchy::Link& link, int least, VisibilitySamples& samples) const {
+  const auto take = [&](int count) {
+    if (count <= link.samples) return;
+    const VisibilityEstimate e = samples.estimate(static_cast<std::size_t>(count));
+    link.V = e.V, link.sampleMask = e.mask, link.visibilitySpread = e.spread, link.samples = e.samples;
+    link.visibility = hierarchy::Visibility::Sampled;
+  };
+  const int wanted = std::max(least, wantedSamples(link, oracle_.judge(link)));
+  take(std::min(wanted, kFewSamples));
+  const LinkError e = oracle_.judge(link);
+  if (wanted > kFewSamples && !(e.receiver + e.sender > e.budget)) take(wanted);
+}
+
+Split LinkJudge::splitOverlapping(const hierarchy::Link& link) const {
+  const bool clusterReceiver = elements_.isCluster(link.receiver), clusterSender = elements_.isCluster(link.sender);
+  if (clusterReceiver && clusterSender)
+    return elements_.shape(link.receiver).radius >= elements_.shape(link.sender).radius ? Split::Receiver
+                                                                                        : Split::Sender;
+  return clusterReceiver ? Split::Receiver : Split::Sender;
+}
+
+/// The end to split, or none; an end that is too small to matter leaves the other one.
+Split LinkJudge::choose(const hierarchy::Link& link) const {
+  const Split split = prefer(link);
+  if (split == Split::None) return split;
+  const bool receiver = oracle_.divisible(link.receiver), sender = senderDivisible(link.sender);
+  if (split == Split::Both) return receiver ? split : Split::None;
+  if (split == Split::Receiver) return receiver ? split : worthSplitting(link, sender) ? Split::Sender : Split::None;
+  return sender ? split : receiver ? Split::Receiver : Split::None;
+}
+
+bool LinkJudge::senderDivisible(hierarchy::ElementId sender) const {
+  if (elements_.isDistant(sender)) return !isSun(sender) && elements_.shape(sender).radius > kFinestCell;
+  return oracle_.divisible(sender);
+}
+
+/// When the receiver is as small as it gets, splitting the sender helps only where the sender's own error counts.
+bool LinkJudge::worthSplitting(const hierarchy::Link& link, bool divisible) const {
+  const LinkError e = oracle_.judge(link);
+  return divisible && e.sender + e.visibility > e.budget;
+}
+
+Split LinkJudge::prefer(const hierarchy::Link& link) const {
+  if (link.visibility == hierarchy::Visibility::Blocked) return Split::None;
+  LinkError e = oracle_.judge(link);
+  const hierarchy::ElementGeometry &r = elements_.shape(link.receiver), &s = elements_.shape(link.sender);
+  const bool clusterReceiver = elements_.isCluster(link.receiver), clusterSender = elements_.isCluster(link.sender);
+  if (link.visibility == hierarchy::Visibility::Sampled && isBlack(link.V)) {
+    // What rays may have missed between them matters on surfaces larger than A_0.
+    if (r.area < oracle_.referenceArea(link.receiver)) e.visibility = 0;
+  }
+  if (!(e.total() > e.budget)) return Split::None;
+  if (link.receiver == link.sender) return Split::Both;
+  if (elements_.isDistant(link.sender)) {
+    if (!isSun(link.sender) && s.radius > kFineCell) return Split::Sender;
+    return Split::Receiver;
+  }
+  if (elements_.isPoint(link.sender)) return Split::Receiver;
+  if (clusterReceiver != clusterSender) {
+    if (clusterSender)
+      return e.receiver > e.sender + e.visibility && r.radius > s.radius ? Split::Receiver : Split::Sender;
+    return e.sender > e.receiver + e.visibility && s.radius > r.radius ? Split::Sender : Split::Receiver;
+  }
+  if (clusterReceiver) return r.radius >= s.radius ? Split::Receiver : Split::Sender;
+  // Partial visibility is told apart best by the end that is larger.
+  (r.area >= s.area ? e.receiver : e.sender) += e.visibility;
+  return e.receiver >= e.sender ? Split::Receiver : Split::Sender;
+}
+
+bool LinkJudge::isSun(hierarchy::ElementId e) const {
+  return std::holds_alternative<SunLight>(scene_[elements_.light[e.index()]].emitter);
+}
+
+}  // namespace deltalux::paper
