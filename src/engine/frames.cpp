@@ -15,9 +15,15 @@ StepReport Engine::State::frame(double seconds) {
   Solution& s = *solution;
   StepReport step;
   const std::uint64_t traced = tracer().traced();
-  if (byLines() || byPaper()) {  // the next update does it all
+  if (byLines()) {
+    frameOverLines(left, step);
+    step.rays = tracer().traced() - traced;
+    step.times.total = time.seconds();
+    return step;
+  }
+  if (byPaper()) {  // the next update does it all
     takeIn(step);
-    step.deferred = byLines() ? s.lines.leaves() : backlog.links.moved.size() + backlog.links.movedLights.size();
+    step.deferred = backlog.links.moved.size() + backlog.links.movedLights.size();
     step.times.total = time.seconds();
     return step;
   }
@@ -50,6 +56,24 @@ StepReport Engine::State::frame(double seconds) {
   step.rays = tracer().traced() - traced;
   step.times.total = time.seconds();
   return step;
+}
+
+void Engine::State::frameOverLines(const SecondsLeft& left, StepReport& step) {
+  Solution& s = *solution;
+  const engine::SceneUpdate edits = pending;
+  takeIn(step);
+  const auto moves = [](const SceneChange::Moved& m) { return !m.before.empty() && !m.after.empty(); };
+  if (s.memory && std::ranges::all_of(edits.moved, moves)) {  // what comes and goes, the update takes in
+    std::vector<PrimitiveId> moved;
+    for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
+    groups.rebuild(tracer(), s.scene, moved);
+    if (!lineMotion) lineMotion.emplace(s);
+    if (!edits.empty()) lineMotion->note(s, edits);
+    lineMotion->follow(s, left);
+  }
+  step.deferred = (lineMotion ? lineMotion->waiting() : 0) + lineEdits.moved.size() + lineEdits.dimmed.size() +
+                  lineEdits.movedLights.size() + lineEdits.materials.size();
+  step.staleW = lineMotion ? lineMotion->stale(s) * s.scene.metresPerUnit * s.scene.metresPerUnit : 0.0;
 }
 
 void Engine::State::countWaiting(StepReport& step) const {

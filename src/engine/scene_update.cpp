@@ -41,6 +41,23 @@ void SceneUpdate::add(const SceneUpdate& later) {
   op = later.op, subject = later.subject;
 }
 
+SceneUpdate endToEnd(SceneUpdate edits) {
+  for (std::vector<SceneChange::Moved>* all : {&edits.moved, &edits.whole.moved}) {
+    std::vector<SceneChange::Moved> ends;
+    std::vector<std::size_t> place;  // by primitive: one more than its index in `ends`
+    for (const SceneChange::Moved& m : *all) {
+      place.resize(std::max(place.size(), m.primitive.index() + 1), 0);
+      std::size_t& at = place[m.primitive.index()];
+      if (at == 0)
+        ends.push_back(m), at = ends.size();
+      else
+        ends[at - 1].after = m.after;
+    }
+    all->swap(ends);
+  }
+  return edits;
+}
+
 bool haveElements(const hierarchy::Elements& elements, const Scene& scene, const SceneUpdate& update) {
   const bool nothing = update.moved.empty() && update.movedLights.empty();
   if (!elements.sceneRoot.valid()) return nothing;  // nothing was lit

@@ -20,6 +20,9 @@ struct SceneUpdate {
   bool empty() const { return moved.empty() && movedLights.empty() && dimmed.empty() && materials.empty(); }
 };
 
+/// The same where of all the places that something has been at only the first and the last count.
+SceneUpdate endToEnd(SceneUpdate);
+
 /// Whether all lights of the edits have elements to send from: new ones have none. Surfaces can get theirs
 /// (growth.hpp).
 bool haveElements(const hierarchy::Elements&, const Scene&, const SceneUpdate&);

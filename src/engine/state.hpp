@@ -12,6 +12,7 @@
 #include "engine/clock.hpp"
 #include "engine/growth.hpp"
 #include "engine/light_settling.hpp"
+#include "engine/line_motion.hpp"
 #include "engine/line_solve.hpp"
 #include "engine/motion.hpp"
 #include "engine/moving_groups.hpp"
@@ -57,6 +58,7 @@ struct Engine::State {
   engine::Backlog backlog;                              // what edits that were taken in have still to do
   engine::MovingGroups groups;                          // of the tracer
   std::unique_ptr<engine::LineSolve> lineSolve;         // between rounds of a solve over lines
+  std::optional<engine::LineMotion> lineMotion;         // since the last solve over lines
   engine::SceneUpdate lineEdits;                        // since the last solve over lines
   std::optional<particles::ParticleUpdate> newPaths;    // paths that the last edits have led elsewhere
   std::optional<engine::KnownSolve> known;              // of the solution before, while the next is found
@@ -163,6 +165,8 @@ struct Engine::State {
 
   // Frames of motion.
   using SecondsLeft = std::function<double()>;
+  /// What fits of motion over lines.
+  void frameOverLines(const SecondsLeft& left, StepReport& step);
   /// As much of an update as fits. [GD01 4.3]
   StepReport frame(double seconds);
   void countWaiting(StepReport& step) const;

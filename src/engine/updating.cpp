@@ -26,7 +26,8 @@ StepReport Engine::State::update(Progress* progress) {
   takeIn(step);
   updated = true;
   if (backlog.afresh) {
-    recall(std::exchange(lineEdits, {}));
+    lineMotion.reset();
+    recall(engine::endToEnd(std::exchange(lineEdits, {})));
     const std::uint64_t before = known ? traced : 0;  // or by a tracer of its own
     solveAfresh(progress);
     step.rays = tracer().traced() - before;
@@ -123,9 +124,7 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
     if (newPaths->all || added) newPaths.reset();
     if (gapsAreMany()) closeGaps(), newPaths.reset();
   }
-  engine::KnownSolve::OtherLights lights{std::vector<char>(s.scene.lights.size(), 0),
-                                         edits.movedLights.empty() && !lampMoves};
-  for (const LightId light : edits.dimmed) lights.others[light.index()] = 1;
+  engine::KnownSolve::OtherLights lights{engine::otherLights(s.scene, edits), edits.movedLights.empty() && !lampMoves};
   for (std::size_t i = 0; i < s.scene.lights.size(); ++i)
     lights.stay = lights.stay && i < before->shining.size() && before->shining[i] == !isBlack(s.scene.lights[i].scale);
   known.emplace(std::move(*before), s, change::MovedSpace(s.scene, edits.moved), std::move(lights));

@@ -1,0 +1,183 @@
+#include "engine/line_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "change/moved_space.hpp"
+#include "engine/clock.hpp"
+#include "hierarchy/input_level.hpp"
+#include "hierarchy/pull.hpp"
+#include "lines/tuning.hpp"
+
+namespace deltalux::engine {
+
+namespace {
+
+constexpr std::size_t kMotionLeaves = 256, kLightLeaves = 8;  // of a task
+constexpr std::size_t kFewestLeaves = 64;                     // that follow in any frame, so that it gets on
+constexpr double kPasses = 2;                                 // that a frame keeps time for
+
+void paint(hierarchy::Elements& elements, const Scene& scene, std::span<const MaterialId> materials) {
+  std::vector<PrimitiveId> painted;
+  for (std::size_t i = 0; i < scene.primitives.size(); ++i)
+    if (std::ranges::find(materials, scene.primitives[i].material) != materials.end()) painted.emplace_back(i);
+  for (const hierarchy::ElementId e : hierarchy::elementsOf(elements, painted))
+    if (!elements.at(e).emitter) hierarchy::setReflectance(elements, scene, e);
+}
+
+/// What suns and lamps may bring to a leaf [W/m2, gray].
+double potentialOf(const direct::Lamps& lamps, const hierarchy::ElementGeometry& g) {
+  double sum = 0;
+  for (const std::uint32_t i : lamps.suns()) sum += direct::potential(lamps.all()[i], g);
+  lamps.tree().reaching(g, [&](std::uint32_t, double most) { sum += most; });
+  return sum;
+}
+
+/// Finds leaves whose shadow rays edits may have led elsewhere, from the top of the hierarchy down.
+class ShadowSearch {
+ public:
+  ShadowSearch(const Solution& s, const SceneUpdate& edits, const direct::Lamps& lamps)
+      : elements_(s.elements), lamps_(lamps.all()), others_(otherLights(s.scene, edits)), space_(s.scene, edits.moved) {
+    for (std::uint32_t i = 0; i < lamps_.size(); ++i) all_.push_back(i);
+  }
+
+  std::vector<hierarchy::ElementId> find() {
+    for (const hierarchy::ElementId root : elements_.sceneRoots()) visit(root, all_);
+    return std::move(found_);
+  }
+
+ private:
+  /// `lamps`: those whose rays to what is above may be others.
+  void visit(hierarchy::ElementId e, const std::vector<std::uint32_t>& lamps) {
+    const hierarchy::ElementGeometry& g = elements_.shape(e);
+    const BoxF box{g.lower, g.upper};
+    const bool moved = space_.touches(box), leaf = elements_.isReceivingLeaf(e);
+    std::vector<std::uint32_t> left;
+    for (const std::uint32_t i : lamps)
+      if ((moved || mayDiffer(lamps_[i], box)) && (!leaf || direct::potential(lamps_[i], g) > 0)) left.push_back(i);
+    if (left.empty()) return;
+    if (leaf) found_.push_back(e);
+    for (std::size_t c = 0; c < elements_.at(e).childCount; ++c) visit(elements_.child(e, c), left);
+  }
+  bool mayDiffer(const direct::Lamp& lamp, const BoxF& box) const {
+    if (others_[lamp.id.index()]) return true;
+    if (!lamp.sun) return space_.between(box, {lamp.lower, lamp.upper});
+    return space_.crosses(box, Vec3f(lamp.axis), std::numeric_limits<float>::infinity(),
+                          static_cast<float>(std::tan(lamp.halfAngle)));
+  }
+
+  const hierarchy::Elements& elements_;
+  std::span<const direct::Lamp> lamps_;
+  std::vector<char> others_;
+  change::MovedSpace space_;
+  std::vector<std::uint32_t> all_;
+  std::vector<hierarchy::ElementId> found_;
+};
+
+}  // namespace
+
+std::vector<char> otherLights(const Scene& scene, const SceneUpdate& edits) {
+  std::vector<char> others(scene.lights.size(), 0);
+  for (const auto* lights : {&edits.dimmed, &edits.movedLights})
+    for (const LightId light : *lights) others[light.index()] = 1;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (const auto* area = std::get_if<AreaLight>(&scene.lights[i].emitter))
+      for (const SceneChange::Moved& m : edits.moved) others[i] |= m.primitive == area->primitive;
+  return others;
+}
+
+LineMotion::LineMotion(const Solution& s) : leaves_(s.elements), light_(lines::leafLight(s.elements, leaves_)) {
+  lamps_.resize(leaves_.size()), worth_.resize(leaves_.size(), 0.0f);
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    const hierarchy::ElementLight& l = s.elements.radiometry[leaves_[i].index()];
+    light_.source[i] = l.direct + l.particle, light_.indirect[i] = l.indirect, light_.B[i] = l.B;
+    lamps_[i] = s.memory->samples.direct[leaves_[i].index()].E;
+  }
+  for (const DimLeaf& dim : s.memory->dim) lamps_[leaves_.indexOf[dim.leaf.index()]] = dim.light.E;
+}
+
+void LineMotion::note(Solution& s, const SceneUpdate& edits) {
+  std::vector<PrimitiveId> moved;
+  for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
+  hierarchy::reshape(s.elements, s.scene, hierarchy::elementsOf(s.elements, moved));
+  if (!edits.materials.empty()) {
+    paint(s.elements, s.scene, edits.materials);
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+      const hierarchy::ElementLight& l = s.elements.radiometry[leaves_[i].index()];
+      light_.rho[i] = l.rho, light_.tau[i] = l.tau;
+    }
+  }
+  const direct::Lamps lamps(s.scene);
+  for (const hierarchy::ElementId e : ShadowSearch(s, edits, lamps).find()) {
+    const std::uint32_t i = leaves_.indexOf[e.index()];
+    if (worth_[i] > 0 || !(s.memory->exchange->area(i) > 0)) continue;
+    const hierarchy::ElementGeometry& g = s.elements.shape(e);
+    worth_[i] = static_cast<float>(g.area * std::max<double>(potentialOf(lamps, g), gray(lamps_[i])));
+    waiting_ += worth_[i] > 0;
+  }
+}
+
+std::vector<std::uint32_t> LineMotion::mostWorth(std::size_t count) const {
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t i = 0; i < worth_.size(); ++i)
+    if (worth_[i] > 0) all.push_back(i);
+  count = std::min(count, all.size());
+  std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(count), std::greater{},
+                           [&](std::uint32_t i) { return worth_[i]; });
+  all.resize(count);
+  return all;
+}
+
+void LineMotion::light(Solution& s, const direct::Lamps& lamps, std::span<const std::uint32_t> leaves) {
+  const direct::DirectSampler sampler(s.elements, s.scene, *s.tracer, lamps, s.settings.error);
+  const PatchSamples& samples = s.memory->samples;
+  parallelFor(leaves.size(), kLightLeaves, [&](std::size_t n) {
+    const std::uint32_t i = leaves[n];
+    const hierarchy::ElementId leaf = leaves_[i], above = s.elements.at(leaf).parent;
+    const lines::LeafScale& scale = samples.scale[leaf.index()];
+    const Rgb E = sampler
+                      .at(leaf, {scale.covered, scale.known},
+                          above.valid() ? samples.direct[above.index()].sight : direct::LampSight{})
+                      .E;
+    light_.source[i] += E - lamps_[i], s.elements.radiometry[leaf.index()].direct += E - lamps_[i];
+    lamps_[i] = E, worth_[i] = 0;
+  });
+  waiting_ -= leaves.size();
+}
+
+void LineMotion::follow(Solution& s, const std::function<double()>& secondsLeft) {
+  const direct::Lamps lamps(s.scene);
+  bool fewest = true;
+  while (waiting_ > 0) {
+    const Clock lighting;
+    const double seconds = secondsLeft() - kPasses * pass_.seconds();
+    // Not all at once, so that what a leaf takes is learned while there is time.
+    const auto fit = static_cast<std::size_t>(std::max(0.0, 0.5 * seconds) / leaf_.seconds());
+    if (fit < kFewestLeaves && !fewest) break;
+    const std::vector<std::uint32_t> next = mostWorth(std::max(kFewestLeaves, fit));
+    light(s, lamps, next);
+    leaf_.learn(lighting.seconds(), static_cast<double>(next.size()));
+    fewest = false;
+  }
+  do {
+    const Clock passing;
+    const lines::IterationReport report = lines::iterate(*s.memory->exchange, light_, lines::tuning::kConverged, 1);
+    pass_.learn(passing.seconds());
+    if (gray(report.residual) <= lines::tuning::kConverged * gray(report.emitted)) break;
+  } while (secondsLeft() > kPasses * pass_.seconds());
+  parallelFor(leaves_.size(), kMotionLeaves, [&](std::size_t i) {
+    hierarchy::ElementLight& l = s.elements.radiometry[leaves_[i].index()];
+    l.indirect = light_.indirect[i], l.B = light_.B[i];
+  });
+  hierarchy::pull(s.elements);
+}
+
+double LineMotion::stale(const Solution& s) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < worth_.size(); ++i)
+    if (worth_[i] > 0) sum += s.elements.shape(leaves_[i]).area * gray(lamps_[i]);
+  return sum;
+}
+
+}  // namespace deltalux::engine
