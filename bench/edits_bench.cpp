@@ -36,7 +36,8 @@ namespace {
 
 constexpr const char* kColumns =
     "row,scene,error,kind,subject,edits,solve_s,update_s,solve_over_update,rays,leaves_changed,leaves_of_solve,"
-    "particles_retraced,particles_total,textures_rebuilt,median_percent,p95_percent,max_percent,particles_identical";
+    "particles_retraced,particles_total,textures_rebuilt,median_percent,p95_percent,max_percent,mesh_identical,lines_"
+    "identical,particles_identical";
 
 struct Options {
   ImportSettings import;
@@ -96,8 +97,10 @@ class Table {
   }
 
   void check(const std::string& phase, const CheckReport& c) const {
-    fmt::print("check,{},{},{},,{},{:.4g},,,,,,,,,{:.3g},{:.3g},{:.3g},{}\n", scene_, error_, phase, edits_, c.solveS,
-               100 * c.medianRelDiff, 100 * c.p95RelDiff, 100 * c.maxRelDiff, c.particlesIdentical ? "yes" : "no");
+    const auto word = [](bool identical) { return identical ? "yes" : "no"; };
+    fmt::print("check,{},{},{},,{},{:.4g},,,,,,,,,{:.3g},{:.3g},{:.3g},{},{},{}\n", scene_, error_, phase, edits_,
+               c.solveS, 100 * c.medianRelDiff, 100 * c.p95RelDiff, 100 * c.maxRelDiff, word(c.meshIdentical),
+               word(c.linesIdentical), word(c.particlesIdentical));
     std::fflush(stdout);
   }
 
@@ -127,7 +130,7 @@ class Table {
   void print(const char* row, const std::string& kind, std::size_t edits, const Cost& c) const {
     fmt::print("{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},", row, scene_, error_, kind, c.subject, edits, solve_,
                c.seconds, solve_ / c.seconds);
-    fmt::print("{},{},{},{},{},{},,,,\n", c.step.rays, c.step.leavesChanged, leaves_, c.step.particlesRetraced,
+    fmt::print("{},{},{},{},{},{},,,,,,\n", c.step.rays, c.step.leavesChanged, leaves_, c.step.particlesRetraced,
                c.step.particlesTotal, c.step.texturesRebuilt);
     std::fflush(stdout);
   }

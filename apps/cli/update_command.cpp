@@ -91,9 +91,9 @@ void record(const UpdateOptions& options, const Recording& session) {
 }
 
 void describe(const StepReport& step, Run& run) {
-  std::string line = fmt::format("{} {}: {:.0f} ms, {} links visited, {} changed, {} of {} particles retraced", step.op,
-                                 step.object, 1e3 * step.times.total, step.linksVisited, step.linksChanged,
-                                 step.particlesRetraced, step.particlesTotal);
+  std::string line =
+      fmt::format("{} {}: {:.0f} ms, {} leaves changed, {} of {} particles retraced, {} rays", step.op, step.object,
+                  1e3 * step.times.total, step.leavesChanged, step.particlesRetraced, step.particlesTotal, step.rays);
   if (step.staleW) line += fmt::format(", {} deferred, {:.3g} W stale", step.deferred, *step.staleW);
   run.say(line);
 }

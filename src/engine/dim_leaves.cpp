@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/parallel.hpp"
 #include "direct/dim_direct.hpp"
@@ -48,11 +49,10 @@ std::vector<char> inRooms(const LineSolve& x, const hierarchy::LeafTable& leaves
 }
 
 /// Direct light of leaves that got more lines: from as many points.
-void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Lines& lines,
-                       const std::vector<char>& more) {
+void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Lines& lines) {
   std::vector<std::uint32_t> all;
   for (std::uint32_t i = 0; i < leaves.size(); ++i)
-    if (more[i]) all.push_back(i);
+    if (lines.countOf(i) > 0) all.push_back(i);
   x.dim.assign(all.size(), {});
   x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(all.size(), kDimLeaves, [&](std::size_t n) {
     const std::uint32_t i = all[n];
@@ -82,16 +82,17 @@ lines::TracedLines lookIntoTheDark(LineSolve& x, const lines::LineScene& over, l
   if (std::ranges::find(places, lines::kDim) == places.end()) return traced;
   std::vector<float> area(leaves.size());
   for (std::size_t i = 0; i < leaves.size(); ++i) area[i] = x.s.elements.shape(leaves[i]).area;
-  std::vector<char> more(leaves.size(), 0);
+  std::optional<lines::TracedLines> more;
   for (int round = 0; round < lines::tuning::kDimRounds; ++round) {
-    const lines::DimCounts counts = lines::dimCounts(traced, area, places, !x.skies.empty());
-    for (std::size_t i = 0; i < more.size(); ++i) more[i] |= counts.lines[i] > 0;
+    const lines::DimCounts counts = lines::dimCounts(traced, area, places, !x.skies.empty(), more ? &*more : nullptr);
     if (std::ranges::all_of(counts.lines, [](std::uint32_t count) { return count == 0; })) break;
-    traced = lines::replaced(traced, lines::traceLines(over, counts.lines));
+    lines::TracedLines next = lines::traceLines(over, counts.lines);
+    more = more ? lines::replaced(*more, next) : std::move(next);
     if (counts.told) break;
   }
-  lightByManyPoints(x, leaves, traced.lines, more);
-  return traced;
+  if (!more) return traced;
+  lightByManyPoints(x, leaves, more->lines);
+  return lines::replaced(traced, *more);
 }
 
 }  // namespace deltalux::engine

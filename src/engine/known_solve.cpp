@@ -33,22 +33,35 @@ KnownSolve::KnownSolve(SolveMemory memory, Solution& s, change::MovedSpace space
       space_(std::move(space)),
       lights_(std::move(lights)) {
   for (std::uint32_t i = 0; i < elements_.size(); ++i)
-    if (elements_.receives(hierarchy::ElementId(i))) byKey_.emplace_back(elements_.key[i], i);
+    if (elements_.isInputLevel(hierarchy::ElementId(i)) && elements_.receives(hierarchy::ElementId(i)))
+      byKey_.emplace_back(elements_.key[i], i);
   std::sort(byKey_.begin(), byKey_.end());
 }
 
 std::uint32_t KnownSolve::find(const hierarchy::Elements& elements, hierarchy::ElementId e) const {
   if (!holds_ || space_.moved(elements.domain[e.index()].primitive)) return kNone;
   if (e.index() < parts_.of.size() && parts_.of[e.index()] != kNone) return parts_.of[e.index()];
+  if (elements.at(e).depth > 0) return findPart(elements, e);
   const std::uint64_t key = elements.key[e.index()];
   const auto at = std::lower_bound(byKey_.begin(), byKey_.end(), std::pair(key, std::uint32_t(0)));
   if (at == byKey_.end() || at->first != key || !samePlace(elements_, at->second, elements, e.index())) return kNone;
   return at->second;
 }
 
+std::uint32_t KnownSolve::findPart(const hierarchy::Elements& elements, hierarchy::ElementId e) const {
+  const std::uint32_t whole = find(elements, elements.at(e).parent);
+  if (whole == kNone) return kNone;
+  const hierarchy::ElementId old(whole);
+  for (std::size_t i = 0; i < elements_.at(old).childCount; ++i)
+    if (const std::uint32_t part = elements_.child(old, i).value; samePlace(elements_, part, elements, e.index()))
+      return part;
+  return kNone;
+}
+
 void KnownSolve::holdTo(const hierarchy::Elements& elements) {
   const Box &now = elements.sceneBox, &before = elements_.sceneBox;
   holds_ = now.lower == before.lower && now.upper == before.upper;
+  parts(elements, elements.inputs);
 }
 
 lines::LightWalks* KnownSolve::walks(const hierarchy::Elements& elements, hierarchy::ElementId side) {
@@ -122,7 +135,9 @@ hierarchy::KnownParts* KnownSolve::parts(const hierarchy::Elements& elements,
                                          std::span<const hierarchy::ElementId> patches) {
   parts_.before = &elements_;
   parts_.of.resize(elements.size(), kNone);
-  for (const hierarchy::ElementId e : patches) parts_.of[e.index()] = find(elements, e);
+  parallelFor(patches.size(), kLeavesOfTask, [&](std::size_t i) {
+    if (elements.receives(patches[i])) parts_.of[patches[i].index()] = find(elements, patches[i]);
+  });
   return &parts_;
 }
 

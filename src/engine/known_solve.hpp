@@ -56,6 +56,7 @@ class KnownSolve {
   /// The element there was for a patch that is where it was, by index; kNone. Found by its key where nobody has
   /// followed it from the patch above.
   std::uint32_t find(const hierarchy::Elements&, hierarchy::ElementId) const;
+  std::uint32_t findPart(const hierarchy::Elements&, hierarchy::ElementId) const;
   std::uint32_t findLit(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId,
                         const lines::LeafScale&) const;
 

@@ -117,6 +117,13 @@ bool LineSolve::takesPart(hierarchy::ElementId patch) const {
   return !enclosed[hierarchy::surfaceOf(s.elements, patch).index()];
 }
 
+std::size_t changedLeaves(const LineSolve& x) {
+  if (!x.knownLines) return x.s.lines.leaves();
+  return static_cast<std::size_t>(std::ranges::count_if(x.knownLines->of, [&](std::uint32_t old) {
+    return old == hierarchy::LeafTable::kNone || !x.knownLines->whole[old];
+  }));
+}
+
 std::shared_ptr<SolveMemory> memoryOf(LineSolve&& x) {
   auto memory = std::make_shared<SolveMemory>();
   memory->samples = std::move(x.samples);
@@ -195,7 +202,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
         std::clamp(affordable, double(lines::tuning::kFirstLines), static_cast<double>(wanted)));
   }
   lines::TracedLines traced = traceLeaves(x, base);
-  lightLeaves(x, std::move(traced), lines::tuning::kConverged);
+  lightLeaves(x, std::move(traced), x.known ? lines::tuning::kConvergedAgain : lines::tuning::kConverged);
   hierarchy::pull(s.elements);
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.error = estimateError(s, x.floor);

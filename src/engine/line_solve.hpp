@@ -74,6 +74,8 @@ ErrorEstimate estimateError(const Solution&, double floor);
 
 // The rounds.
 
+/// Leaves whose lines are others than before, or new.
+std::size_t changedLeaves(const LineSolve&);
 /// What the next solve may ask of one that is done.
 std::shared_ptr<SolveMemory> memoryOf(LineSolve&&);
 

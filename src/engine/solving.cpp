@@ -66,6 +66,7 @@ void Engine::State::lineRound(Progress* progress) {
   }
   finished = true;
   s.report.converged = engine::solveFinely(*lineSolve, budget, progress);
+  counts.leavesChanged = engine::changedLeaves(*lineSolve);
   transfer = std::move(lineSolve->transfer);
   if (!budget.limited()) s.memory = engine::memoryOf(std::move(*lineSolve));
   lineSolve.reset(), known.reset();
@@ -198,9 +199,13 @@ void Engine::State::makeTextures() {
 
 void Engine::State::followTextures() {
   Solution& s = *solution;
-  if (!upkeep || !newPaths) return makeTextures();
+  if (!upkeep || !newPaths) {
+    makeTextures();
+    counts.texturesRebuilt = s.caustics.count();
+    return;
+  }
   const engine::Clock time;
-  upkeep->follow(*std::exchange(newPaths, {}), *transfer, s.caustics);
+  counts.texturesRebuilt = upkeep->follow(*std::exchange(newPaths, {}), *transfer, s.caustics).rebuilt;
   DELTALUX_VALIDATED(validate(s.caustics));
   s.report.times.textures += time.seconds();
   countTextures();

@@ -60,6 +60,7 @@ struct Engine::State {
   std::unique_ptr<engine::LineSolve> lineSolve;         // between rounds of a solve over lines
   std::optional<engine::LineMotion> lineMotion;         // since the last solve over lines
   engine::SceneUpdate lineEdits;                        // since the last solve over lines
+  StepReport counts;                                    // counts of the update over lines that runs
   std::optional<particles::ParticleUpdate> newPaths;    // paths that the last edits have led elsewhere
   std::optional<engine::KnownSolve> known;              // of the solution before, while the next is found
 

@@ -26,12 +26,15 @@ StepReport Engine::State::update(Progress* progress) {
   takeIn(step);
   updated = true;
   if (backlog.afresh) {
-    lineMotion.reset();
+    lineMotion.reset(), counts = {};
     recall(engine::endToEnd(std::exchange(lineEdits, {})));
     const std::uint64_t before = known ? traced : 0;  // or by a tracer of its own
     solveAfresh(progress);
+    step.leavesChanged = counts.leavesChanged, step.texturesRebuilt = counts.texturesRebuilt;
+    step.particlesRetraced = counts.particlesRetraced, step.particlesTotal = solution->particles.arrived();
     step.rays = tracer().traced() - before;
     step.times = solution->report.times;
+    step.times.particles += counts.times.particles;
     step.times.total = time.seconds();
     return step;
   }
@@ -118,7 +121,10 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
   }
   groups.rebuild(tracer(), s.scene, moved);
   if (tracing) {
+    const engine::Clock following;
     newPaths = tracing->follow(s.particles, edits.whole);
+    counts.times.particles = following.seconds();
+    counts.particlesRetraced = newPaths->all ? s.particles.arrived() : newPaths->particles;
     DELTALUX_VALIDATED(validate(s.particles, s.scene));
     const bool added = std::ranges::any_of(edits.moved, [](const SceneChange::Moved& m) { return m.before.empty(); });
     if (newPaths->all || added) newPaths.reset();

@@ -18,7 +18,9 @@ struct DimCounts {
 
 /// By leaf: how many lines it wants in place of those it has, so that enough of its room's lead out, as many an area
 /// all over the room; 0 where it has enough, or is in no such room, or so many of its room's lines lead nowhere that it
-/// is closed. `area`: of leaves; `skies`: whether what leaves the scene meets light.
-DimCounts dimCounts(const TracedLines&, std::span<const float> area, std::span<const Place>, bool skies);
+/// is closed. `area`: of leaves; `skies`: whether what leaves the scene meets light; `more`: of leaves that have lines
+/// there, those in their place.
+DimCounts dimCounts(const TracedLines&, std::span<const float> area, std::span<const Place>, bool skies,
+                    const TracedLines* more = nullptr);
 
 }  // namespace deltalux::lines

@@ -73,6 +73,8 @@ constexpr int kScalingPasses = 8;
 constexpr float kMostScale = 4;
 /// Power that changes in the last pass, relative to emitted, and the most passes.
 constexpr double kConverged = 1e-6;
+/// The same of an update, which starts from the light there was.
+constexpr double kConvergedAgain = 1e-5;
 /// Most that a leaf's radiosity changes in the last pass, relative. Larger: dark rooms beside bright places are not
 /// done.
 constexpr double kLeafConverged = 6e-3;
