@@ -51,22 +51,21 @@ bool holdWalks(const MovedSpace& space, const lines::LightWalks& walks) {
       walks.steps, [&](const lines::LineSegment& s) { return space.crosses(at(s.from), s.direction, s.length); });
 }
 
-bool holdShadowRays(const MovedSpace& space, const direct::Lamps& lamps, std::span<const char> others,
-                    const hierarchy::Elements& elements, hierarchy::ElementId patch) {
+bool holdShadowRays(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::Elements& elements,
+                    hierarchy::ElementId patch) {
   const hierarchy::ElementGeometry& g = elements.shape(patch);
   const BoxF box = boxOf(g);
   if (space.moved(elements.domain[patch.index()].primitive) || space.touches(box)) return false;
   for (const std::uint32_t i : lamps.suns()) {
     const direct::Lamp& sun = lamps.all()[i];
     if (!(direct::potential(sun, g) > 0)) continue;
-    if (others[sun.id.index()]) return false;
     const auto stray = static_cast<float>(std::tan(sun.halfAngle));
     if (space.crosses(box, Vec3f(sun.axis), std::numeric_limits<float>::infinity(), stray)) return false;
   }
   bool holds = true;
   lamps.tree().reaching(g, [&](std::uint32_t i, double) {
     const direct::Lamp& lamp = lamps.all()[i];
-    holds = holds && !others[lamp.id.index()] && !space.between(box, {lamp.lower, lamp.upper});
+    holds = holds && !space.between(box, {lamp.lower, lamp.upper});
   });
   return holds;
 }

@@ -13,10 +13,8 @@ bool holdFirstLines(const MovedSpace&, const hierarchy::Elements&, const Scene&,
                     const lines::FirstLines&);
 /// Whether walks that looked for light are.
 bool holdWalks(const MovedSpace&, const lines::LightWalks&);
-/// Whether shadow rays of a patch to suns and lamps are, and what they bring. `others`: by light, whether it shines as
-/// it did not.
-bool holdShadowRays(const MovedSpace&, const direct::Lamps&, std::span<const char> others, const hierarchy::Elements&,
-                    hierarchy::ElementId patch);
+/// Whether shadow rays of a patch to suns and lamps are, all of which shine as they did.
+bool holdShadowRays(const MovedSpace&, const direct::Lamps&, const hierarchy::Elements&, hierarchy::ElementId patch);
 
 /// Whether shadow rays of a patch to the sky are, by their codes in the order of its sequence.
 bool holdSkyRays(const MovedSpace&, const hierarchy::Elements&, hierarchy::ElementId patch,

@@ -25,7 +25,7 @@ bool samePlace(const hierarchy::Elements& a, std::uint32_t i, const hierarchy::E
 
 }  // namespace
 
-KnownSolve::KnownSolve(SolveMemory memory, Solution& s, change::MovedSpace space, OtherLights lights)
+KnownSolve::KnownSolve(SolveMemory memory, Solution& s, change::MovedSpace space, Lights lights)
     : memory_(std::move(memory)),
       elements_(std::exchange(s.elements, {})),
       leaves_(elements_),
@@ -96,12 +96,12 @@ bool KnownSolve::takeScale(const hierarchy::Elements& elements, const Scene& sce
 
 std::uint32_t KnownSolve::findLit(const hierarchy::Elements& elements, const direct::Lamps& lamps,
                                   hierarchy::ElementId e, const lines::LeafScale& scale) const {
-  if (!lights_.stay) return kNone;
+  if (!lights_.same) return kNone;
   const std::uint32_t old = find(elements, e);
   if (old == kNone || old >= memory_.samples.direct.size()) return kNone;
   const lines::LeafScale& before = memory_.samples.scale[old];
   if (before.covered != scale.covered || before.known != scale.known) return kNone;
-  return change::holdShadowRays(space_, lamps, lights_.others, elements, e) ? old : kNone;
+  return change::holdShadowRays(space_, lamps, elements, e) ? old : kNone;
 }
 
 const direct::LeafDirect* KnownSolve::whole(const hierarchy::Elements& elements, const direct::Lamps& lamps,
@@ -124,11 +124,11 @@ KnownSolve::Evaluated KnownSolve::evaluated(const hierarchy::Elements& elements,
 
 const direct::DimDirect* KnownSolve::dim(const hierarchy::Elements& elements, const direct::Lamps& lamps,
                                          hierarchy::ElementId leaf, std::uint64_t points) const {
-  const std::uint32_t old = lights_.stay ? find(elements, leaf) : kNone;
+  const std::uint32_t old = lights_.same ? find(elements, leaf) : kNone;
   if (old == kNone) return nullptr;
   const auto at = std::ranges::lower_bound(memory_.dim, hierarchy::ElementId(old), {}, &DimLeaf::leaf);
   if (at == memory_.dim.end() || at->leaf != hierarchy::ElementId(old) || at->points != points) return nullptr;
-  return change::holdShadowRays(space_, lamps, lights_.others, elements, leaf) ? &at->light : nullptr;
+  return change::holdShadowRays(space_, lamps, elements, leaf) ? &at->light : nullptr;
 }
 
 hierarchy::KnownParts* KnownSolve::parts(const hierarchy::Elements& elements,

@@ -8,13 +8,14 @@ namespace deltalux::engine {
 
 class KnownSolve {
  public:
-  /// Which lights edits have made shine otherwise.
-  struct OtherLights {
-    std::vector<char> others;  // by light
-    bool stay = true;          // all of them are where they were, and none has been switched on or off
+  /// What edits have left of the lights.
+  struct Lights {
+    bool stay = true;  // all of them are where they were, and none has been switched on or off
+    bool same =
+        true;  // they send what they did as well: what one sends decides about rays to all, where lamps are drawn
   };
   /// Of the solution that there was, out of which elements and lines are taken.
-  KnownSolve(SolveMemory, Solution&, change::MovedSpace, OtherLights);
+  KnownSolve(SolveMemory, Solution&, change::MovedSpace, Lights);
 
   /// Nothing is known where the extent of the scene is another, by which its scales are measured.
   void holdTo(const hierarchy::Elements&);
@@ -66,7 +67,7 @@ class KnownSolve {
   hierarchy::LeafTable leaves_;
   lines::Lines lines_;
   change::MovedSpace space_;
-  OtherLights lights_;
+  Lights lights_;
   bool holds_ = true;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> byKey_;  // ascending
   hierarchy::KnownParts parts_;                                 // followed from patch to patch

@@ -130,10 +130,12 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
     if (newPaths->all || added) newPaths.reset();
     if (gapsAreMany()) closeGaps(), newPaths.reset();
   }
-  engine::KnownSolve::OtherLights lights{engine::otherLights(s.scene, edits), edits.movedLights.empty() && !lampMoves};
+  engine::KnownSolve::Lights lights;
+  lights.stay = edits.movedLights.empty() && !lampMoves;
   for (std::size_t i = 0; i < s.scene.lights.size(); ++i)
     lights.stay = lights.stay && i < before->shining.size() && before->shining[i] == !isBlack(s.scene.lights[i].scale);
-  known.emplace(std::move(*before), s, change::MovedSpace(s.scene, edits.moved), std::move(lights));
+  lights.same = lights.stay && edits.dimmed.empty();
+  known.emplace(std::move(*before), s, change::MovedSpace(s.scene, edits.moved), lights);
 }
 
 bool Engine::State::outshines(const engine::SceneUpdate& edits) const {
