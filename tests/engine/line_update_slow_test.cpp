@@ -1,0 +1,100 @@
+// Long sessions over lines: after each of 200 random edits of a room the solution is the fresh one, bit for bit in
+// mesh, lines and particles; after many of bigger scenes too; and memory does not grow.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <deltalux/io.hpp>
+#include <fstream>
+
+#include "support/furnished_room.hpp"
+#include "support/shared.hpp"
+#include "support/solved_by_lines.hpp"
+
+namespace deltalux {
+namespace {
+
+using namespace test;
+
+SolveSettings settingsOf(double error, std::uint64_t particles = 0) {
+  SolveSettings settings;
+  settings.error = error, settings.particles = particles, settings.method = SolveMethod::Lines;
+  return settings;
+}
+
+/// Whether the solution is that of a fresh solve of its scene.
+bool isTheFreshOne(const Engine& engine) {
+  Engine fresh(engine.solution().scene(), engine.solution().settings());
+  fresh.solve();
+  return hashOf(engine) == hashOf(fresh);
+}
+
+/// Edits of what is not there are passed over without a word.
+void expectAllThere(const Scene& scene, const Editable& what) {
+  for (const std::string& name : what.objects) EXPECT_FALSE(findObjects(scene, name).empty()) << name;
+  for (const std::string& name : what.lights) EXPECT_NO_THROW(validateEdit(scene, ScaleLight{name, 0.5f})) << name;
+  for (const std::string& name : what.placed) EXPECT_NO_THROW(validateEdit(scene, MoveLight{name, Vec3(0.01)})) << name;
+  for (const std::string& name : what.paints)
+    EXPECT_NO_THROW(validateEdit(scene, SetMaterial{name, Rgb(0.5f), {}})) << name;
+  for (const std::string& name : what.rough) EXPECT_NO_THROW(validateEdit(scene, SetMaterial{name, {}, 0.2f})) << name;
+}
+
+/// 20 edits of a bundled scene, held against a fresh solve after every so many.
+void expectTheFreshSolution(const char* file, const Editable& what, std::uint64_t seed, int every) {
+  Engine engine(loadScene({sourceFolder() / "scenes" / file}).scene, settingsOf(0.1));
+  expectAllThere(engine.solution().scene(), what);
+  engine.solve();
+  RandomEdits edits(engine, what, seed);
+  for (int i = 0; i < 20; ++i) {
+    edits.step();
+    if ((i + 1) % every == 0) {
+      ASSERT_TRUE(isTheFreshOne(engine)) << edits.last();
+    }
+  }
+}
+
+/// Of this process [bytes].
+double residentBytes() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t pages = 0, resident = 0;
+  file >> pages >> resident;
+  return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+TEST(LineUpdateSlow, TwoHundredEditsOfARoom) {
+  Engine engine(furnishedRoom(), settingsOf(0.1, 20000));
+  engine.solve();
+  RandomEdits edits(engine, editableOfFurnishedRoom(), 23);
+  for (int i = 0; i < 200; ++i) {
+    edits.step();
+    ASSERT_TRUE(isTheFreshOne(engine)) << edits.last();
+  }
+}
+
+TEST(LineUpdateSlow, TwentyEditsOfTheLodge) {
+  expectTheFreshSolution(
+      "lodge/morning.rad",
+      {{"container", "dresser_bowl", "ring", "chest_vase", "crystal_ball", "stool", "metronome", "reading_chair",
+        "coffee_table", "dresser_mirror", "picture_east", "side_table"},
+       {"sofa_lamp", "reading_lamp", "chandelier", "bedside_lamp", "basin_lamp", "sky"},
+       {"dresser_spot", "chest_spot"},
+       {"bedroom_paint", "east_wall_paint", "living_paint", "oak", "silvering", "pine", "floor_light"},
+       {"brass", "steel"},
+       0.3},
+      5, 5);
+}
+
+TEST(LineUpdateSlow, MemoryIsFlat) {
+  if (residentBytes() <= 0) GTEST_SKIP() << "no /proc/self/statm here";
+  Engine engine(furnishedRoom(), settingsOf(0.05));
+  engine.solve();
+  RandomEdits edits(engine, editableOfFurnishedRoom(), 29);
+  double early = 0;
+  for (int i = 1; i <= 100; ++i) {
+    edits.step();
+    if (i == 20) early = residentBytes();
+  }
+  EXPECT_LE(residentBytes(), 1.15 * early);
+}
+
+}  // namespace
+}  // namespace deltalux
