@@ -83,6 +83,17 @@ TEST(LineUpdateSlow, TwentyEditsOfTheLodge) {
       5, 5);
 }
 
+TEST(LineUpdateSlow, TwentyEditsOfTheStreet) {
+  expectTheFreshSolution("street/day.rad",
+                         {{"car", "parked.0", "cafe", "bollards", "sun_sign", "sun_sign_arms"},
+                          {"lanterns", "lanterns_east", "bakery_sign", "cafe_sign", "sky"},
+                          {"lanterns"},
+                          {"stucco_ochre", "stucco_rose", "brick", "limestone", "asphalt"},
+                          {"cladding"},
+                          0.3},
+                         5, 10);
+}
+
 TEST(LineUpdateSlow, MemoryIsFlat) {
   if (residentBytes() <= 0) GTEST_SKIP() << "no /proc/self/statm here";
   Engine engine(furnishedRoom(), settingsOf(0.05));
