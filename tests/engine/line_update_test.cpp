@@ -29,6 +29,23 @@ TEST(LineUpdate, IsTheFreshSolveAfterEachOfManyEdits) {
   }
 }
 
+TEST(LineUpdate, HasTheRowsOfTheFreshSolve) {
+  Engine engine(furnishedRoom(), settingsOf());
+  engine.solve();
+  RandomEdits edits(engine, editableOfFurnishedRoom(), 17);
+  for (int i = 0; i < 6; ++i) {
+    edits.step();
+    Engine fresh(engine.solution().scene(), settingsOf());
+    fresh.solve();
+    lines::Exchange &a = *engine.solution().get().memory->exchange, &b = *fresh.solution().get().memory->exchange;
+    ASSERT_EQ(a.leaves(), b.leaves());
+    std::vector<Rgb> B(a.leaves()), Ea(a.leaves()), Eb(a.leaves());
+    for (std::size_t k = 0; k < B.size(); ++k) B[k] = Rgb(toUnitFloat(mix64(k)));
+    a.gather(B, Ea), b.gather(B, Eb);
+    EXPECT_EQ(Ea, Eb) << edits.last();
+  }
+}
+
 TEST(LineUpdate, AsksOnlyWhatAMotionMayHaveChanged) {
   Engine engine(furnishedRoom(), settingsOf());
   engine.solve();
