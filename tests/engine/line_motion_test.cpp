@@ -13,12 +13,6 @@ namespace {
 
 using namespace test;
 
-SolveSettings settingsOf() {
-  SolveSettings settings;
-  settings.error = 0.1, settings.particles = 20000, settings.method = SolveMethod::Lines;
-  return settings;
-}
-
 /// A room with a lamp below its ceiling and a board that may come between it and the floor.
 Engine roomWithBoard() {
   Scene scene;
@@ -31,7 +25,7 @@ Engine roomWithBoard() {
   for (std::size_t i = first; i < scene.primitives.size(); ++i) scene.primitives[i].object = board;
   addLight(scene, PointLight{{2.5, 2.5, 2.9}, Rgb(1.0f)});
   scene.lights.back().name = "lamp";
-  Engine engine(std::move(scene), settingsOf());
+  Engine engine(std::move(scene), coarseLines());
   engine.solve();
   return engine;
 }
@@ -66,7 +60,7 @@ TEST(LineMotion, ShadowsFollowFrameByFrame) {
   EXPECT_LT(floorAt(engine, below), 0.05 * open);
   EXPECT_GT(floorAt(engine, {0.7f, 0.7f, 0}), 0.1 * open);  // where the board's shadow was
   engine.update();
-  Engine fresh(engine.solution().scene(), settingsOf());
+  Engine fresh(engine.solution().scene(), coarseLines());
   fresh.solve();
   EXPECT_EQ(hashOf(engine), hashOf(fresh));
   EXPECT_LT(floorAt(engine, below), 0.01 * open);
@@ -80,13 +74,13 @@ TEST(LineMotion, DimmedLampsFollow) {
   for (int i = 0; i < 50; ++i) engine.frame(20);
   EXPECT_NEAR(floorAt(engine, below), 0.5 * open, 0.1 * open);
   engine.update();
-  Engine fresh(engine.solution().scene(), settingsOf());
+  Engine fresh(engine.solution().scene(), coarseLines());
   fresh.solve();
   EXPECT_EQ(hashOf(engine), hashOf(fresh));
 }
 
 TEST(LineMotion, EndsAtTheFreshSolveForAnyObject) {
-  Engine engine(furnishedRoom(), settingsOf());
+  Engine engine(furnishedRoom(), coarseLines());
   engine.solve();
   for (const std::string& object : editableOfFurnishedRoom().objects) {
     for (int i = 0; i < 3; ++i) {
@@ -95,7 +89,7 @@ TEST(LineMotion, EndsAtTheFreshSolveForAnyObject) {
     }
     engine.update();
   }
-  Engine fresh(engine.solution().scene(), settingsOf());
+  Engine fresh(engine.solution().scene(), coarseLines());
   fresh.solve();
   EXPECT_EQ(hashOf(engine), hashOf(fresh));
 }

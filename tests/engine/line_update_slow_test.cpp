@@ -91,7 +91,7 @@ TEST(LineUpdateSlow, TwentyEditsOfTheStreet) {
                           {"stucco_ochre", "stucco_rose", "brick", "limestone", "asphalt"},
                           {"cladding"},
                           0.3},
-                         5, 10);
+                         5, 5);
 }
 
 TEST(LineUpdateSlow, MemoryIsFlat) {

@@ -11,31 +11,25 @@ namespace {
 
 using namespace test;
 
-SolveSettings settingsOf() {
-  SolveSettings settings;
-  settings.error = 0.1, settings.particles = 20000, settings.method = SolveMethod::Lines;
-  return settings;
-}
-
 TEST(LineUpdate, IsTheFreshSolveAfterEachOfManyEdits) {
-  Engine engine(furnishedRoom(), settingsOf());
+  Engine engine(furnishedRoom(), coarseLines());
   engine.solve();
   RandomEdits edits(engine, editableOfFurnishedRoom(), 11);
   for (int i = 0; i < 8; ++i) {
     edits.step();
-    Engine fresh(engine.solution().scene(), settingsOf());
+    Engine fresh(engine.solution().scene(), coarseLines());
     fresh.solve();
     ASSERT_EQ(hashOf(engine), hashOf(fresh)) << i << ": " << edits.last();
   }
 }
 
 TEST(LineUpdate, HasTheRowsOfTheFreshSolve) {
-  Engine engine(furnishedRoom(), settingsOf());
+  Engine engine(furnishedRoom(), coarseLines());
   engine.solve();
   RandomEdits edits(engine, editableOfFurnishedRoom(), 17);
   for (int i = 0; i < 6; ++i) {
     edits.step();
-    Engine fresh(engine.solution().scene(), settingsOf());
+    Engine fresh(engine.solution().scene(), coarseLines());
     fresh.solve();
     lines::Exchange &a = *engine.solution().get().memory->exchange, &b = *fresh.solution().get().memory->exchange;
     ASSERT_EQ(a.leaves(), b.leaves());
@@ -47,27 +41,27 @@ TEST(LineUpdate, HasTheRowsOfTheFreshSolve) {
 }
 
 TEST(LineUpdate, AsksOnlyWhatAMotionMayHaveChanged) {
-  Engine engine(furnishedRoom(), settingsOf());
+  Engine engine(furnishedRoom(), coarseLines());
   engine.solve();
   const std::string object = editableOfFurnishedRoom().objects.front();
   for (const double step : {0.05, -0.03}) {
     engine.apply(TransformObject{object, glm::translate(Mat4(1), Vec3(step, 0, 0))});
     engine.update();
     const std::uint64_t rays = engine.solution().get().report.counts.raysVisibility;
-    Engine fresh(engine.solution().scene(), settingsOf());
+    Engine fresh(engine.solution().scene(), coarseLines());
     EXPECT_LT(static_cast<double>(rays), 0.7 * static_cast<double>(fresh.solve().counts.raysVisibility));
     EXPECT_EQ(hashOf(engine), hashOf(fresh)) << step;
   }
 }
 
 TEST(LineUpdate, FollowsAnEditThatComesAfterOneBeforeTheSolve) {
-  Engine engine(furnishedRoom(), settingsOf());
+  Engine engine(furnishedRoom(), coarseLines());
   const std::string object = editableOfFurnishedRoom().objects.front();
   engine.apply(TransformObject{object, glm::translate(Mat4(1), Vec3(0.02, 0, 0))});
   engine.solve();
   engine.apply(TransformObject{object, glm::translate(Mat4(1), Vec3(0, 0.05, 0))});
   engine.update();
-  Engine fresh(engine.solution().scene(), settingsOf());
+  Engine fresh(engine.solution().scene(), coarseLines());
   fresh.solve();
   EXPECT_EQ(hashOf(engine), hashOf(fresh));
 }

@@ -6,6 +6,13 @@
 
 namespace deltalux::test {
 
+/// For tests of what holds at any error: soon done.
+inline SolveSettings coarseLines() {
+  SolveSettings settings;
+  settings.error = 0.1, settings.particles = 20000, settings.method = SolveMethod::Lines;
+  return settings;
+}
+
 inline Engine solvedByLines(Scene scene, double error = 0.05) {
   return solved(std::move(scene), error, SolveMethod::Lines);
 }
