@@ -7,6 +7,8 @@ FirstLine firstLine(const LineEnd& end, const Vec3f& direction, bool covered) {
   line.code = lineCode(direction, end.distance);
   if (covered)
     line.primitive = kCovered;
+  else if (end.fate == LineFate::Lost && end.turned)
+    return line;  // and so would its way
   else if (end.fate == LineFate::Lost)
     line.primitive = end.met ? kLostBeyond : kLost;
   else if (end.dimmed)

@@ -21,6 +21,14 @@ struct Found {
   std::uint64_t rays = 0;
 };
 
+/// Of a line's way, what lies behind its first turn: between two mirrors it may run as it did at first again.
+void addBends(std::span<const LineSegment> way, std::uint32_t leaf, std::uint32_t number, std::vector<Bend>& bends) {
+  std::size_t straight = 0;
+  while (straight < way.size() && way[straight].direction == way.front().direction) ++straight;
+  for (const LineSegment& segment : way.subspan(straight))
+    bends.push_back({leaf, number, segment.from, lineCode(segment.direction, segment.length)});
+}
+
 /// The lines of a leaf that are known from before, asked in order.
 class KnownOfLeaf {
  public:
@@ -136,10 +144,7 @@ class LeafTracing {
         } else if (k < live && which[k] == i) {
           way.clear();
           const LineEnd end = s_.tracer.follow(rays[k], hits[k], LineDirections::random(points.key(), i), &way);
-          if (end.turned)
-            for (const LineSegment& segment : way)
-              if (segment.direction != rays[k].direction)
-                found.bends.push_back({leaf, i, segment.from, lineCode(segment.direction, segment.length)});
+          if (end.turned) addBends(way, leaf, i, found.bends);
           mark = take(end, leaf, first + i, rays[k].direction, cosines[k], found);
           out.lines.code[first + i] = lineCode(rays[k].direction, end.distance), ++k;
         } else {

@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "support/furnished_room.hpp"
+#include "support/rooms.hpp"
 #include "support/solved_by_lines.hpp"
 
 namespace deltalux {
@@ -61,6 +62,31 @@ TEST(LineUpdate, FollowsAnEditThatComesAfterOneBeforeTheSolve) {
   engine.solve();
   engine.apply(TransformObject{object, glm::translate(Mat4(1), Vec3(0, 0.05, 0))});
   engine.update();
+  Engine fresh(engine.solution().scene(), coarseLines());
+  fresh.solve();
+  EXPECT_EQ(hashOf(engine), hashOf(fresh));
+}
+
+TEST(LineUpdate, FollowsLinesBetweenFacingMirrors) {
+  // Behind the second mirror they run as they did before the first.
+  Scene scene;
+  const MaterialId white = addMaterial(scene, "white", lambert(0.5f));
+  const MaterialId mirror = addMaterial(scene, "mirror", Mirror{Rgb(0.9f)});
+  addBox(scene, white, Vec3(0), {4, 3, 2.5}, true);
+  addPolygon(scene, mirror, {{0.01, 0.2, 0.2}, {0.01, 2.8, 0.2}, {0.01, 2.8, 2.3}, {0.01, 0.2, 2.3}});
+  addPolygon(scene, mirror, {{3.99, 0.2, 0.2}, {3.99, 0.2, 2.3}, {3.99, 2.8, 2.3}, {3.99, 2.8, 0.2}});
+  addLight(scene, PointLight{{2, 1.5, 2.4}, Rgb(1.0f)});
+  const ObjectId board(scene.objects.size());
+  scene.objects.push_back({"board", ObjectId(0)});
+  const std::size_t first = scene.primitives.size();
+  addBox(scene, white, {1, 1, 0.6}, {1.1, 1.4, 1}, false);
+  for (std::size_t i = first; i < scene.primitives.size(); ++i) scene.primitives[i].object = board;
+  Engine engine(std::move(scene), coarseLines());
+  engine.solve();
+  for (int i = 0; i < 3; ++i) {
+    engine.apply(TransformObject{"board", glm::translate(Mat4(1), Vec3(0.4, 0.15, 0.1))});
+    engine.update();
+  }
   Engine fresh(engine.solution().scene(), coarseLines());
   fresh.solve();
   EXPECT_EQ(hashOf(engine), hashOf(fresh));
