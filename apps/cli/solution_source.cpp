@@ -31,7 +31,8 @@ void SolveOptions::add(CLI::App& app) {
                "Show the light of particles on a finer mesh instead of in caustic textures");
 }
 
-SolutionView SolveOptions::solve(Scene scene, Run& run, const RunOptions& options, Progress& progress) const {
+SolutionView SolveOptions::solve(Scene scene, Run& run, const RunOptions& options, Progress& progress,
+                                 Then then) const {
   SolveSettings withSeed = settings;
   withSeed.seed = options.seed;
   Engine engine(std::move(scene), withSeed);
@@ -42,6 +43,7 @@ SolutionView SolveOptions::solve(Scene scene, Run& run, const RunOptions& option
     run.say(
         fmt::format("warning: {} of {} particles were cut after 64 reflections and refractions; their light is lost",
                     report.cutParticles, report.counts.particles));
+  if (then == Then::Read) engine.forget();
   return engine.solution();
 }
 

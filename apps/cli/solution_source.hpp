@@ -1,5 +1,6 @@
 #pragma once
 // Where a command reads a SOLUTION, a SCENE may stand: it is solved first.
+#include <cstdint>
 #include <deltalux/edit_io.hpp>
 #include <deltalux/solution.hpp>
 #include <functional>
@@ -16,8 +17,9 @@ struct SolveOptions {
   static std::vector<const char*> names() {
     return {"--error", "--particles", "--method", "--diffuse-only", "--no-caustic-textures"};
   }
+  enum class Then : std::uint8_t { Edited, Read };  // what is to become of the solution
   /// Solves; notes times, counts and energy in the run's report. Throws Interrupted.
-  SolutionView solve(Scene, Run&, const RunOptions&, Progress&) const;
+  SolutionView solve(Scene, Run&, const RunOptions&, Progress&, Then = Then::Edited) const;
 };
 
 class SolutionSource {

@@ -25,7 +25,8 @@ void runSolve(const SolveCommandOptions& options) {
   {
     ProgressPrinter progress(options.run.progressStyle());
     ImportedScene imported = options.scene.load(run);
-    const SolutionView solution = options.solve.solve(std::move(imported.scene), run, options.run, progress);
+    const SolutionView solution =
+        options.solve.solve(std::move(imported.scene), run, options.run, progress, SolveOptions::Then::Read);
     saveSolution(options.output, solution);
     if (!solution.report().converged) run.say("warning: the time was up before the target error was met everywhere");
   }

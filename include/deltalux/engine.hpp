@@ -46,6 +46,10 @@ class Engine {
   /// it.
   StepReport frame(double milliseconds, Progress* progress = nullptr);
 
+  /// Gives back what is kept for updates to ask, where none will come: a third of all memory, over lines. An update
+  /// after it solves the scene afresh.
+  void forget();
+
   SolutionView solution() const;
   /// Where the light of the solution goes, as it is now: some hundred thousand rays. After an update, the solution's
   /// own report says only what is emitted.

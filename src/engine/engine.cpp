@@ -66,6 +66,11 @@ StepReport Engine::frame(double milliseconds, Progress* progress) {
 
 void Engine::select(const std::string& object) { state_->select(object); }
 
+void Engine::forget() {
+  state_->solution->memory.reset();
+  state_->transfer.reset(), state_->upkeep.reset(), state_->tracing.reset();
+}
+
 EnergyLedger Engine::balance() const { return state_->balance(); }
 
 SolutionView Engine::solution() const {

@@ -185,6 +185,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
   if (!budget.up()) refineForParticles(x);
   x.transfer.emplace(s.particles, s.elements, s.scene);
   x.transfer->apply(s.elements, s.scene);
+  if (!x.known) x.transfer.reset();  // what follows takes more memory than making it again takes time
   const double meshSeconds = watch.lap();
   s.report.times.refine += meshSeconds;
   if (progress) progress->report("mesh", 1.0);
