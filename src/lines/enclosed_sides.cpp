@@ -46,6 +46,7 @@ class LightSearch {
     LightWalks walks;
     walks.enclosed = encloses(side, hollow, walks, rays);
     putIntoBox(walks);
+    walks.steps.shrink_to_fit();
     return walks;
   }
 
