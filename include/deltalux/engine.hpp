@@ -47,7 +47,7 @@ class Engine {
   StepReport frame(double milliseconds, Progress* progress = nullptr);
 
   /// Gives back what is kept for updates to ask, where none will come: a third of all memory, over lines. An update
-  /// after it solves the scene afresh.
+  /// after it solves the scene from scratch.
   void forget();
 
   SolutionView solution() const;
