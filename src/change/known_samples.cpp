@@ -51,6 +51,12 @@ bool holdWalks(const MovedSpace& space, const lines::LightWalks& walks) {
       walks.steps, [&](const lines::LineSegment& s) { return space.crosses(at(s.from), s.direction, s.length); });
 }
 
+bool mayShadow(const MovedSpace& space, const direct::Lamp& lamp, const BoxF& from) {
+  if (!lamp.sun) return space.between(from, {lamp.lower, lamp.upper});
+  return space.crosses(from, Vec3f(lamp.axis), std::numeric_limits<float>::infinity(),
+                       static_cast<float>(std::tan(lamp.halfAngle)));
+}
+
 bool holdShadowRays(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::Elements& elements,
                     hierarchy::ElementId patch) {
   const hierarchy::ElementGeometry& g = elements.shape(patch);
@@ -58,15 +64,10 @@ bool holdShadowRays(const MovedSpace& space, const direct::Lamps& lamps, const h
   if (space.moved(elements.domain[patch.index()].primitive) || space.touches(box)) return false;
   for (const std::uint32_t i : lamps.suns()) {
     const direct::Lamp& sun = lamps.all()[i];
-    if (!(direct::potential(sun, g) > 0)) continue;
-    const auto stray = static_cast<float>(std::tan(sun.halfAngle));
-    if (space.crosses(box, Vec3f(sun.axis), std::numeric_limits<float>::infinity(), stray)) return false;
+    if (direct::potential(sun, g) > 0 && mayShadow(space, sun, box)) return false;
   }
   bool holds = true;
-  lamps.tree().reaching(g, [&](std::uint32_t i, double) {
-    const direct::Lamp& lamp = lamps.all()[i];
-    holds = holds && !space.between(box, {lamp.lower, lamp.upper});
-  });
+  lamps.tree().reaching(g, [&](std::uint32_t i, double) { holds = holds && !mayShadow(space, lamps.all()[i], box); });
   return holds;
 }
 

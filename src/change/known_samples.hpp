@@ -13,6 +13,8 @@ bool holdFirstLines(const MovedSpace&, const hierarchy::Elements&, const Scene&,
                     const lines::FirstLines&);
 /// Whether walks that looked for light are.
 bool holdWalks(const MovedSpace&, const lines::LightWalks&);
+/// Whether a shadow ray from anywhere in a box to a sun or lamp may pass where something has moved.
+bool mayShadow(const MovedSpace&, const direct::Lamp&, const BoxF& from);
 /// Whether shadow rays of a patch to suns and lamps are, all of which shine as they did.
 bool holdShadowRays(const MovedSpace&, const direct::Lamps&, const hierarchy::Elements&, hierarchy::ElementId patch);
 

@@ -22,7 +22,7 @@ constexpr std::size_t kRoomLeaves = 1024, kDimLeaves = 16;  // of a task
 std::vector<float> roughIndirect(const LineSolve& x, const hierarchy::LeafTable& leaves,
                                  const lines::TracedLines& traced) {
   const std::size_t n = leaves.size();
-  const std::vector<direct::DimDirect> lamps = directOf(x, leaves);
+  const std::vector<direct::DimDirect> lamps = directOf(x.samples, x.dim, leaves);
   std::vector<float> rho(n), source(n);
   parallelFor(n, kRoomLeaves, [&](std::size_t i) {
     const hierarchy::ElementLight& l = x.s.elements.radiometry[leaves[i].index()];

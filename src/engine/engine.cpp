@@ -67,7 +67,7 @@ StepReport Engine::frame(double milliseconds, Progress* progress) {
 void Engine::select(const std::string& object) { state_->select(object); }
 
 void Engine::forget() {
-  state_->solution->memory.reset();
+  state_->solution->memory.reset(), state_->lineMotion.reset();
   state_->transfer.reset(), state_->upkeep.reset(), state_->tracing.reset();
 }
 

@@ -64,9 +64,7 @@ void Engine::State::frameOverLines(const SecondsLeft& left, StepReport& step) {
   takeIn(step);
   const auto moves = [](const SceneChange::Moved& m) { return !m.before.empty() && !m.after.empty(); };
   if (s.memory && std::ranges::all_of(edits.moved, moves)) {  // what comes and goes, the update takes in
-    std::vector<PrimitiveId> moved;
-    for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
-    groups.rebuild(tracer(), s.scene, moved);
+    groups.rebuild(tracer(), s.scene, edits.primitives());
     if (!lineMotion) lineMotion.emplace(s);
     if (!edits.empty()) lineMotion->note(s, edits);
     lineMotion->follow(s, left);

@@ -51,9 +51,7 @@ std::vector<hierarchy::ElementId> leavesBelow(const hierarchy::Elements& element
 Growth growInLight(Solution& s, const SceneUpdate& edits, const particles::ParticleUpdate& particles) {
   paper::CoveredSides sides;
   if (!edits.moved.empty() || !edits.movedLights.empty()) {
-    std::vector<PrimitiveId> moved;
-    for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
-    sides = paper::coveredSides(s.scene, *s.tracer, s.elements, moved, newlyLit(edits, s.scene));
+    sides = paper::coveredSides(s.scene, *s.tracer, s.elements, edits.primitives(), newlyLit(edits, s.scene));
   }
   addLanding(sides.uncovered, s, particles);
   particles::dropReachedSides(sides.covered, s.particles);

@@ -31,7 +31,7 @@ KnownSolve::KnownSolve(SolveMemory memory, Solution& s, change::MovedSpace space
       leaves_(elements_),
       lines_(std::exchange(s.lines, {})),
       space_(std::move(space)),
-      lights_(std::move(lights)) {
+      lights_(lights) {
   for (std::uint32_t i = 0; i < elements_.size(); ++i)
     if (elements_.isInputLevel(hierarchy::ElementId(i)) && elements_.receives(hierarchy::ElementId(i)))
       byKey_.emplace_back(elements_.key[i], i);
@@ -88,9 +88,6 @@ bool KnownSolve::takeScale(const hierarchy::Elements& elements, const Scene& sce
   if (!change::holdFirstLines(space_, elements, scene, e, *memory_.samples.first[old])) return false;
   to.scale[e.index()] = memory_.samples.scale[old];
   to.first[e.index()] = std::move(memory_.samples.first[old]);
-  // What was lost beyond mirrors may be found now.
-  for (lines::FirstLine& line : to.first[e.index()]->line)
-    if (line.primitive == lines::kLost || line.primitive == lines::kLostBeyond) line.primitive = line.kAgain;
   return true;
 }
 

@@ -11,8 +11,7 @@ class KnownSolve {
   /// What edits have left of the lights.
   struct Lights {
     bool stay = true;  // all of them are where they were, and none has been switched on or off
-    bool same =
-        true;  // they send what they did as well: what one sends decides about rays to all, where lamps are drawn
+    bool same = true;  // they send what they did as well: where lamps are drawn, that of one decides about rays to all
   };
   /// Of the solution that there was, out of which elements and lines are taken.
   KnownSolve(SolveMemory, Solution&, change::MovedSpace, Lights);
@@ -43,8 +42,6 @@ class KnownSolve {
                                std::uint64_t points) const;
   /// Light of a leaf by way of others as it was; where it was none, black [W/m2].
   Rgb indirect(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
-  /// By leaf: the number that it had where it stands, or LeafTable::kNone.
-  std::vector<std::uint32_t> leavesBefore(const hierarchy::Elements&, const hierarchy::LeafTable&) const;
   /// The lines, as they are now; once.
   std::optional<lines::KnownLines> takeLines(const hierarchy::Elements&, const hierarchy::LeafTable&);
   /// Sky light of a leaf, that had that number, if it follows from what has that key; nullptr.
@@ -57,6 +54,8 @@ class KnownSolve {
   /// The element there was for a patch that is where it was, by index; kNone. Found by its key where nobody has
   /// followed it from the patch above.
   std::uint32_t find(const hierarchy::Elements&, hierarchy::ElementId) const;
+  /// By leaf: the number that it had where it stands, or kNone.
+  std::vector<std::uint32_t> leavesBefore(const hierarchy::Elements&, const hierarchy::LeafTable&) const;
   std::uint32_t findPart(const hierarchy::Elements&, hierarchy::ElementId) const;
   std::uint32_t findLit(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId,
                         const lines::LeafScale&) const;

@@ -39,12 +39,11 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
   KnownSky sky;
   sky.at.resize(leaves.size());
   if (x.skies.empty()) return sky;
-  const KnownSolve* known = x.floor > 0 ? x.known : nullptr;  // not of the coarse light, whose leaves were others
+  // Not of the coarse light, whose leaves were others.
+  const std::vector<std::uint32_t>* before = x.knownLines ? &x.knownLines->of : nullptr;
   sky.key.resize(leaves.size()), sky.rays.resize(leaves.size() * kEach);
   const direct::Openness open = skyOpenness(x.s.elements, leaves, traced.lines);
   const std::vector<std::uint32_t> first = lines::firstOf(traced.escaped, leaves.size());
-  std::vector<std::uint32_t> before;
-  if (known) before = known->leavesBefore(x.s.elements, leaves);
   x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(leaves.size(), kSkyLeaves, [&](std::size_t i) {
     lines::LineCode* codes = sky.rays.data() + i * kEach;
     std::fill_n(codes, kEach, lines::LineCode{});
@@ -62,12 +61,12 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
       if (traced.lines.end[traced.lines.first[i] + k] != lines::kCovered) points.push_back(k);
     const direct::SkyLeaf leaf{static_cast<std::uint32_t>(i), leaves[i], count - traced.covered[i], escaped, points};
     sky.key[i] = direct::skyKey(x.skies, open, leaf);
-    const direct::SkyAtLeaf* same = known && before[i] != hierarchy::LeafTable::kNone
-                                        ? known->sky(x.s.elements, leaves[i], before[i], sky.key[i])
-                                        : nullptr;
+    const std::uint32_t old = before ? (*before)[i] : hierarchy::LeafTable::kNone;
+    const direct::SkyAtLeaf* same =
+        old != hierarchy::LeafTable::kNone ? x.known->sky(x.s.elements, leaves[i], old, sky.key[i]) : nullptr;
     if (same) {
       sky.at[i] = *same;
-      std::ranges::copy(known->skyRays(before[i]), codes);
+      std::ranges::copy(x.known->skyRays(old), codes);
       return std::uint64_t(0);
     }
     std::array<direct::SkyRay, kEach> ran;
@@ -90,13 +89,14 @@ std::unique_ptr<lines::Exchange> exchangeOf(const LineSolve& x, const hierarchy:
 
 }  // namespace
 
-std::vector<direct::DimDirect> directOf(const LineSolve& x, const hierarchy::LeafTable& leaves) {
+std::vector<direct::DimDirect> directOf(const PatchSamples& samples, std::span<const DimLeaf> dimLeaves,
+                                        const hierarchy::LeafTable& leaves) {
   std::vector<direct::DimDirect> all(leaves.size());
   parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
-    const direct::LeafDirect& l = x.samples.direct[leaves[i].index()];
+    const direct::LeafDirect& l = samples.direct[leaves[i].index()];
     all[i] = {l.E, l.deviation, 0};
   });
-  for (const DimLeaf& dim : x.dim) all[leaves.indexOf[dim.leaf.index()]] = dim.light;
+  for (const DimLeaf& dim : dimLeaves) all[leaves.indexOf[dim.leaf.index()]] = dim.light;
   return all;
 }
 
@@ -123,7 +123,7 @@ void lightLeaves(LineSolve& x, lines::TracedLines traced, double converged) {
   x.exchange = exchangeOf(x, leaves, traced);
   lines::Exchange& exchange = *x.exchange;
   KnownSky sky = skyOf(x, leaves, traced);
-  const std::vector<direct::DimDirect> lamps = directOf(x, leaves);
+  const std::vector<direct::DimDirect> lamps = directOf(x.samples, x.dim, leaves);
 
   lines::LeafLight light = lines::leafLight(elements, leaves);
   parallelFor(n, kLeaves, [&](std::size_t i) {

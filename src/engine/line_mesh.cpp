@@ -47,7 +47,7 @@ struct Samplers {
   std::uint64_t light(hierarchy::ElementId patch) const {
     const std::size_t e = patch.index();
     const lines::LeafScale& scale = x.samples.scale[e];
-    const direct::LampSight above = sightAbove(patch);
+    const direct::LampSight above = sightAbove(x.samples, x.s.elements, patch);
     x.samples.evaluated[e].reset();
     const direct::LeafDirect* before = x.known ? x.known->whole(x.s.elements, x.lamps, patch, scale, above) : nullptr;
     x.samples.direct[e] = before ? *before : direct.at(patch, {scale.covered, scale.known}, above);
@@ -59,7 +59,8 @@ struct Samplers {
     using enum direct::DirectSampler::Choice;
     const std::size_t e = patch.index();
     const lines::LeafScale& scale = x.samples.scale[e];
-    auto evaluated = std::make_unique<EvaluatedLight>(EvaluatedLight{{}, sightAbove(patch), Whole});
+    auto evaluated =
+        std::make_unique<EvaluatedLight>(EvaluatedLight{{}, sightAbove(x.samples, x.s.elements, patch), Whole});
     const KnownSolve::Evaluated before =
         x.known ? x.known->evaluated(x.s.elements, x.lamps, patch, scale, evaluated->above) : KnownSolve::Evaluated{};
     std::uint64_t rays = 0;
@@ -77,10 +78,6 @@ struct Samplers {
     }
     x.samples.evaluated[e] = std::move(evaluated);
     return rays;
-  }
-  direct::LampSight sightAbove(hierarchy::ElementId patch) const {
-    const hierarchy::ElementId above = x.s.elements.at(patch).parent;
-    return above.valid() ? x.samples.direct[above.index()].sight : direct::LampSight{};
   }
 
   LineSolve& x;
@@ -111,6 +108,12 @@ bool splits(const Samplers& samplers, hierarchy::ElementId patch, std::uint64_t&
 }
 
 }  // namespace
+
+direct::LampSight sightAbove(const PatchSamples& samples, const hierarchy::Elements& elements,
+                             hierarchy::ElementId patch) {
+  const hierarchy::ElementId above = elements.at(patch).parent;
+  return above.valid() ? samples.direct[above.index()].sight : direct::LampSight{};
+}
 
 void samplePatches(LineSolve& x, std::span<const hierarchy::ElementId> patches) {
   x.samples.resize(x.s.elements.size());

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "change/moved_space.hpp"
+#include "change/known_samples.hpp"
 #include "engine/clock.hpp"
+#include "engine/line_solve.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/pull.hpp"
 #include "lines/tuning.hpp"
@@ -17,14 +18,6 @@ namespace {
 constexpr std::size_t kMotionLeaves = 256, kLightLeaves = 8;  // of a task
 constexpr std::size_t kFewestLeaves = 64;                     // that follow in any frame, so that it gets on
 constexpr double kPasses = 2;                                 // that a frame keeps time for
-
-void paint(hierarchy::Elements& elements, const Scene& scene, std::span<const MaterialId> materials) {
-  std::vector<PrimitiveId> painted;
-  for (std::size_t i = 0; i < scene.primitives.size(); ++i)
-    if (std::ranges::find(materials, scene.primitives[i].material) != materials.end()) painted.emplace_back(i);
-  for (const hierarchy::ElementId e : hierarchy::elementsOf(elements, painted))
-    if (!elements.at(e).emitter) hierarchy::setReflectance(elements, scene, e);
-}
 
 /// What suns and lamps may bring to a leaf [W/m2, gray].
 double potentialOf(const direct::Lamps& lamps, const hierarchy::ElementGeometry& g) {
@@ -61,10 +54,7 @@ class ShadowSearch {
     for (std::size_t c = 0; c < elements_.at(e).childCount; ++c) visit(elements_.child(e, c), left);
   }
   bool mayDiffer(const direct::Lamp& lamp, const BoxF& box) const {
-    if (others_[lamp.id.index()]) return true;
-    if (!lamp.sun) return space_.between(box, {lamp.lower, lamp.upper});
-    return space_.crosses(box, Vec3f(lamp.axis), std::numeric_limits<float>::infinity(),
-                          static_cast<float>(std::tan(lamp.halfAngle)));
+    return others_[lamp.id.index()] || change::mayShadow(space_, lamp, box);
   }
 
   const hierarchy::Elements& elements_;
@@ -89,20 +79,19 @@ std::vector<char> otherLights(const Scene& scene, const SceneUpdate& edits) {
 
 LineMotion::LineMotion(const Solution& s) : leaves_(s.elements), light_(lines::leafLight(s.elements, leaves_)) {
   lamps_.resize(leaves_.size()), worth_.resize(leaves_.size(), 0.0f);
+  const std::vector<direct::DimDirect> lamps = directOf(s.memory->samples, s.memory->dim, leaves_);
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
     const hierarchy::ElementLight& l = s.elements.radiometry[leaves_[i].index()];
     light_.source[i] = l.direct + l.particle, light_.indirect[i] = l.indirect, light_.B[i] = l.B;
-    lamps_[i] = s.memory->samples.direct[leaves_[i].index()].E;
+    lamps_[i] = lamps[i].E;
   }
-  for (const DimLeaf& dim : s.memory->dim) lamps_[leaves_.indexOf[dim.leaf.index()]] = dim.light.E;
 }
 
 void LineMotion::note(Solution& s, const SceneUpdate& edits) {
-  std::vector<PrimitiveId> moved;
-  for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
-  hierarchy::reshape(s.elements, s.scene, hierarchy::elementsOf(s.elements, moved));
+  hierarchy::reshape(s.elements, s.scene, hierarchy::elementsOf(s.elements, edits.primitives()));
   if (!edits.materials.empty()) {
-    paint(s.elements, s.scene, edits.materials);
+    for (const hierarchy::ElementId e : paintedSurfaces(s.elements, s.scene, edits.materials))
+      hierarchy::setReflectance(s.elements, s.scene, e);
     for (std::size_t i = 0; i < leaves_.size(); ++i) {
       const hierarchy::ElementLight& l = s.elements.radiometry[leaves_[i].index()];
       light_.rho[i] = l.rho, light_.tau[i] = l.tau;
@@ -134,12 +123,9 @@ void LineMotion::light(Solution& s, const direct::Lamps& lamps, std::span<const 
   const PatchSamples& samples = s.memory->samples;
   parallelFor(leaves.size(), kLightLeaves, [&](std::size_t n) {
     const std::uint32_t i = leaves[n];
-    const hierarchy::ElementId leaf = leaves_[i], above = s.elements.at(leaf).parent;
+    const hierarchy::ElementId leaf = leaves_[i];
     const lines::LeafScale& scale = samples.scale[leaf.index()];
-    const Rgb E = sampler
-                      .at(leaf, {scale.covered, scale.known},
-                          above.valid() ? samples.direct[above.index()].sight : direct::LampSight{})
-                      .E;
+    const Rgb E = sampler.at(leaf, {scale.covered, scale.known}, sightAbove(samples, s.elements, leaf)).E;
     light_.source[i] += E - lamps_[i], s.elements.radiometry[leaf.index()].direct += E - lamps_[i];
     lamps_[i] = E, worth_[i] = 0;
   });

@@ -52,6 +52,8 @@ struct LineSolve {
 
 // The mesh.
 
+/// What is known of lamps at the patch that this one is a part of.
+direct::LampSight sightAbove(const PatchSamples&, const hierarchy::Elements&, hierarchy::ElementId patch);
 /// Samples that decide about patches, and their direct light.
 void samplePatches(LineSolve&, std::span<const hierarchy::ElementId> patches);
 /// Splits patches, from these down, until indirect and direct light vary over none by more than the error allows, or
@@ -61,7 +63,7 @@ bool refineMesh(LineSolve&, std::vector<hierarchy::ElementId> patches, const std
 // The light.
 
 /// Direct light of leaves by suns and lamps.
-std::vector<direct::DimDirect> directOf(const LineSolve&, const hierarchy::LeafTable&);
+std::vector<direct::DimDirect> directOf(const PatchSamples&, std::span<const DimLeaf>, const hierarchy::LeafTable&);
 /// More lines, and shadow rays, of leaves in rooms where hardly any light arrives. dim_leaves.cpp.
 lines::TracedLines lookIntoTheDark(LineSolve&, const lines::LineScene&, lines::TracedLines);
 /// About `base` lines of each of the leaves there are.

@@ -57,10 +57,8 @@ double deposited(const Solution& s, const particles::ParticleTransfer& transfer,
 }
 
 double lightOn(const Solution& s, const SceneUpdate& edits) {
-  std::vector<PrimitiveId> moved;
-  for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
   std::vector<char> of(s.elements.size(), 0);
-  for (const hierarchy::ElementId e : hierarchy::elementsOf(s.elements, moved)) of[e.index()] = 1;
+  for (const hierarchy::ElementId e : hierarchy::elementsOf(s.elements, edits.primitives())) of[e.index()] = 1;
   double light = 0;
   for (std::size_t i = 0; i < of.size(); ++i) {
     const hierarchy::ElementTopology& t = s.elements.topology[i];

@@ -5,7 +5,6 @@
 #include "base/check.hpp"
 #include "engine/state.hpp"
 #include "paper/update.hpp"
-#include "particles/mesh_for_particles.hpp"
 
 namespace deltalux {
 
@@ -17,9 +16,8 @@ void Engine::State::paperRound(Progress* progress) {
   const bool last = oracle.error <= least;
   const paper::RefineReport refined = refineLinks(oracle, progress);
 
-  const caustics::SurfaceSides shown = chooseTextures();
+  subdivideForParticles();
   const engine::Clock placing;
-  particles::subdivideForParticles(s.elements, s.scene, s.particles, shown);
   transfer.emplace(s.particles, s.elements, s.scene);
   s.report.times.particles += placing.seconds();
 

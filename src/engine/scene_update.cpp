@@ -4,6 +4,8 @@
 
 #include "scene/edit/plan.hpp"
 
+#include "hierarchy/input_level.hpp"
+
 namespace deltalux::engine {
 
 namespace {
@@ -39,6 +41,22 @@ void SceneUpdate::add(const SceneUpdate& later) {
   append(moved, later.moved), append(movedLights, later.movedLights), append(dimmed, later.dimmed);
   append(materials, later.materials);
   op = later.op, subject = later.subject;
+}
+
+std::vector<PrimitiveId> SceneUpdate::primitives() const {
+  std::vector<PrimitiveId> all;
+  for (const SceneChange::Moved& m : moved) all.push_back(m.primitive);
+  return all;
+}
+
+std::vector<hierarchy::ElementId> paintedSurfaces(const hierarchy::Elements& elements, const Scene& scene,
+                                                  std::span<const MaterialId> materials) {
+  std::vector<PrimitiveId> all;
+  for (std::size_t i = 0; i < scene.primitives.size(); ++i)
+    if (std::ranges::find(materials, scene.primitives[i].material) != materials.end()) all.emplace_back(i);
+  std::vector<hierarchy::ElementId> surfaces = hierarchy::elementsOf(elements, all);
+  std::erase_if(surfaces, [&](hierarchy::ElementId e) { return elements.at(e).emitter; });
+  return surfaces;
 }
 
 SceneUpdate endToEnd(SceneUpdate edits) {

@@ -17,6 +17,8 @@ struct SceneUpdate {
 
   /// What came later.
   void add(const SceneUpdate&);
+  /// Those that moved.
+  std::vector<PrimitiveId> primitives() const;
   bool empty() const { return moved.empty() && movedLights.empty() && dimmed.empty() && materials.empty(); }
 };
 
@@ -26,6 +28,10 @@ SceneUpdate endToEnd(SceneUpdate);
 /// Whether all lights of the edits have elements to send from: new ones have none. Surfaces can get theirs
 /// (growth.hpp).
 bool haveElements(const hierarchy::Elements&, const Scene&, const SceneUpdate&);
+
+/// Input-level patches of surfaces of these materials, lamps left out.
+std::vector<hierarchy::ElementId> paintedSurfaces(const hierarchy::Elements&, const Scene&,
+                                                  std::span<const MaterialId>);
 
 /// Applies the edit, adds what it did, and returns its inverse.
 Restore applyInto(SceneUpdate&, Scene&, const Edit&);

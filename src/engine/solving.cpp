@@ -128,10 +128,7 @@ void Engine::State::round(Progress* progress) {
   const bool last = oracle.error <= least;
   const paper::RefineReport refined = refineLinks(oracle, progress);
 
-  const caustics::SurfaceSides shown = chooseTextures();
-  const engine::Clock placing;
-  particles::subdivideForParticles(s.elements, s.scene, s.particles, shown);
-  s.report.times.particles += placing.seconds();
+  subdivideForParticles();
 
   const engine::Clock gathering;
   bool settled = settle(progress);
@@ -155,6 +152,14 @@ void Engine::State::round(Progress* progress) {
   if (finished) budget = engine::TimeBudget(0);  // updates take what time they need
   if (!limited) prepareToFollow();               // or the first edit does
   s.report.converged = settled && whole && last && !refined.stopped && !curtailed;
+}
+
+void Engine::State::subdivideForParticles() {
+  Solution& s = *solution;
+  const caustics::SurfaceSides shown = chooseTextures();
+  const engine::Clock placing;
+  particles::subdivideForParticles(s.elements, s.scene, s.particles, shown);
+  s.report.times.particles += placing.seconds();
 }
 
 paper::RefineReport Engine::State::refineLinks(const paper::OracleSettings& oracle, Progress* progress) {

@@ -78,6 +78,8 @@ struct Engine::State {
   void countParticles();
   void round(Progress* progress);
   paper::RefineReport refineLinks(const paper::OracleSettings& oracle, Progress* progress);
+  /// The mesh, but where textures show the particles.
+  void subdivideForParticles();
   /// Sides whose particles textures would show by the light there is: their mesh need not. [GD01 3]
   caustics::SurfaceSides chooseTextures();
   /// Of the light in the end, as updates judge it.

@@ -92,9 +92,7 @@ void Engine::State::takeIn(StepReport& step, bool inMotion) {
   backlog.dimmed |= !edits.dimmed.empty();
   const std::vector<hierarchy::ElementId> reflecting = relight(edits);
   backlog.reflecting.insert(backlog.reflecting.end(), reflecting.begin(), reflecting.end());
-  std::vector<PrimitiveId> moved;
-  for (const SceneChange::Moved& m : edits.moved) moved.push_back(m.primitive);
-  groups.rebuild(tracer(), solution->scene, moved);
+  groups.rebuild(tracer(), solution->scene, edits.primitives());
   backlog.add(edits);
   if (!tracing) return;
   const engine::Clock time;
@@ -113,13 +111,9 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
   const std::vector<char> plain = lines::SurfaceResponses(s.scene, !s.settings.diffuseOnly).plain();
   for (const MaterialId m : edits.materials)  // lines go on as others say
     if (m.index() >= before->plain.size() || !before->plain[m.index()] || !plain[m.index()]) return;
-  std::vector<PrimitiveId> moved;
-  bool lampMoves = false;
-  for (const SceneChange::Moved& m : edits.moved) {
-    moved.push_back(m.primitive);
-    lampMoves = lampMoves || sendsLight(s.scene.materialOf(m.primitive));
-  }
-  groups.rebuild(tracer(), s.scene, moved);
+  const bool lampMoves = std::ranges::any_of(
+      edits.moved, [&](const SceneChange::Moved& m) { return sendsLight(s.scene.materialOf(m.primitive)); });
+  groups.rebuild(tracer(), s.scene, edits.primitives());
   if (tracing) {
     const engine::Clock following;
     newPaths = tracing->follow(s.particles, edits.whole);
@@ -191,14 +185,8 @@ std::vector<hierarchy::ElementId> Engine::State::relight(const engine::SceneUpda
     if (Rgb& sampled = s.sampledScale[light.index()]; gray(s.scene[light].scale) > gray(sampled))
       sampled = s.scene[light].scale;
   if (edits.materials.empty()) return reflecting;
-  std::vector<PrimitiveId> repainted;
-  for (std::size_t i = 0; i < s.scene.primitives.size(); ++i)
-    if (std::find(edits.materials.begin(), edits.materials.end(), s.scene.primitives[i].material) !=
-        edits.materials.end())
-      repainted.emplace_back(i);
   const std::size_t earlier = backlog.painted.size();
-  for (const hierarchy::ElementId e : hierarchy::elementsOf(s.elements, repainted)) {
-    if (s.elements.at(e).emitter) continue;
+  for (const hierarchy::ElementId e : engine::paintedSurfaces(s.elements, s.scene, edits.materials)) {
     backlog.painted.push_back(e);
     const hierarchy::ElementLight& l = s.elements.radiometry[e.index()];
     const bool wasBlack = isBlack(l.rho) && isBlack(l.tau);
