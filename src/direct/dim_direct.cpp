@@ -1,6 +1,7 @@
 #include "direct/dim_direct.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <utility>
 
 #include "direct/open_light.hpp"
 #include "hierarchy/leaf_sequence.hpp"
@@ -22,29 +23,30 @@ DimDirect dimDirect(const hierarchy::Elements& elements, const Scene& scene, con
   LampTree::Cut all;
   lamps.tree().cut(g, 1, 0, 0, all);
   const ScrambledSobol choices(combineKeys(key, lamps.all().size()));
-  RgbSum sum(0.0);
-  double squares = 0;
+  std::vector<LampLight> passed;
+  double sum = 0, squares = 0;
   for (const std::uint32_t k : points) {
     const hierarchy::PatchPoint x = sequence.point(k);
-    Rgb found(0.0f);
+    double found = 0;
     const auto ask = [&](LightId id, double chance) {
       const ScrambledSobol numbers(combineKeys(key, id.value));
       const OpenLight light = openLight(lamps.sampler(), id, x, numbers(k));
       if (isBlack(light.E)) return;
       ++result.rays;
-      found += light.E * tracer.transmittance(light.ray(x)) / static_cast<float>(chance);
+      const Rgb E = light.E * tracer.transmittance(light.ray(x)) / static_cast<float>(chance);
+      if (isBlack(E)) return;
+      passed.push_back({id, E, 0});
+      found += gray(E);
     };
     for (const std::uint32_t i : lamps.suns())
       if (potential(lamps.all()[i], g) > 0) ask(lamps.all()[i].id, 1);
     if (all.restMost > 0)
       if (const auto drawn = lamps.tree().draw(all, g, choices(k).x)) ask(lamps.all()[drawn->lamp].id, drawn->chance);
-    sum += RgbSum(found), squares += double(gray(found)) * gray(found);
+    sum += found, squares += found * found;
   }
   const auto n = static_cast<double>(points.size());
-  if (!(n > 0)) return result;
-  result.E = Rgb(sum / n);
-  const double mean = gray(result.E);
-  if (n > 1) result.deviation = static_cast<float>(std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1)));
+  const double variance = n > 1 ? std::max(0.0, squares / n - (sum / n) * (sum / n)) / (n - 1) : 0.0;
+  addDrawn(result.lamps, std::move(passed), static_cast<int>(points.size()), variance);
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Direct light of leaves that it hardly reaches: through slots, keyholes, gaps beside doors. A few shadow rays tell
 // nothing there, and none may pass though light does; so many points ask, each of them every sun and one lamp.
+#include "direct/lamp_light.hpp"
 #include "direct/lamps.hpp"
 #include "hierarchy/element.hpp"
 #include "tracing/ray_tracer.hpp"
@@ -8,8 +9,7 @@
 namespace deltalux::direct {
 
 struct DimDirect {
-  Rgb E{0.0f};          // mean over the points [W/m2]
-  float deviation = 0;  // standard error of it, gray [W/m2]
+  std::vector<LampLight> lamps;  // means over the points
   std::uint64_t rays = 0;
 };
 

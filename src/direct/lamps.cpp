@@ -46,15 +46,15 @@ Vec3 axisOf(const Light& light) {
 
 }  // namespace
 
-Lamps::Lamps(const Scene& scene) : sampler_(scene) {
+Lamps::Lamps(const Scene& scene, const std::vector<Rgb>& scales) : sampler_(scene, scales) {
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
-    if (isBlack(light.scale) || std::holds_alternative<DomeLight>(light.emitter)) continue;
+    if (isBlack(scales[i]) || std::holds_alternative<DomeLight>(light.emitter)) continue;
     Lamp lamp;
     lamp.id = LightId(i);
     if (const auto* sun = std::get_if<SunLight>(&light.emitter)) {
       lamp.sun = true, lamp.axis = sun->direction, lamp.halfAngle = sun->angularRadius;
-      lamp.most = gray(light.scale * sun->radiance) * solidAngle(*sun);
+      lamp.most = gray(scales[i] * sun->radiance) * solidAngle(*sun);
     } else if (const auto* area = std::get_if<AreaLight>(&light.emitter)) {
       const Material& material = scene.materialOf(area->primitive);
       const Shape& shape = scene[area->primitive].shape;
@@ -64,7 +64,7 @@ Lamps::Lamps(const Scene& scene) : sampler_(scene) {
       const double size = sampler_.area(lamp.id);
       const bool plane = std::holds_alternative<Polygon>(shape) || std::holds_alternative<Ring>(shape);
       if (plane && !material.emission->bothSides) lamp.flat = true, lamp.axis = samplePoint(shape, {0.5, 0.5}).normal;
-      lamp.most = gray(light.scale * material.emission->radiance) * size;
+      lamp.most = gray(scales[i] * material.emission->radiance) * size;
       if (const auto& spot = material.emission->spot) {
         lamp.axis = glm::normalize(spot->direction), lamp.halfAngle = 0.5 * spot->fullAngle;
         lamp.beam = lamp.halfAngle;

@@ -8,8 +8,8 @@ namespace deltalux::direct {
 
 class Lamps {
  public:
-  /// The scene must outlive this.
-  explicit Lamps(const Scene&);
+  /// At these scales of lights; those that are black are left out. The scene must outlive this.
+  Lamps(const Scene&, const std::vector<Rgb>& scales);
 
   const scene::LightSampler& sampler() const { return sampler_; }
   std::span<const Lamp> all() const { return all_; }

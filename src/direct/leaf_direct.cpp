@@ -102,7 +102,12 @@ struct DirectSampler::Asked {
 struct DirectSampler::Drawn {
   const hierarchy::ElementGeometry& patch;
   LampTree::Cut cut;
-  std::vector<LampTree::Reaching> passed;  // whose rays did, as often as that
+  struct Passed {
+    LampTree::Reaching lamp;
+    Rgb lit;  // over its chance
+  };
+  std::vector<Passed> passed;              // rays that did, those of the pilot first
+  std::size_t piloted = 0;                 // of these
   std::vector<std::uint32_t> left;         // that are asked on their own instead, ascending
   bool matter = false;
   Tally pilot, tally;
@@ -179,7 +184,7 @@ void DirectSampler::shootDrawn(Points& points, int upTo, Drawn& drawn, Tally& t)
     if (isBlack(open)) continue;
     const Rgb lit = open * tracer_.transmittance(light.ray(x));
     t.add(open, lit, points.quadrant[k]);
-    if (!isBlack(lit)) drawn.passed.push_back({choice->lamp, choice->chance * drawn.cut.restMost});
+    if (!isBlack(lit)) drawn.passed.push_back({{choice->lamp, choice->chance * drawn.cut.restMost}, lit});
   }
 }
 
@@ -263,7 +268,8 @@ void DirectSampler::askDrawn(const LampSight& above, double& found, Points& poin
   if (!drawn.matter) return;
   shootDrawn(points, above.missedDrawn() ? tuning::kMissedDrawn : tuning::kDrawnPilots, drawn, drawn.pilot);
   found += drawn.pilot.mean();
-  for (const LampTree::Reaching& r : drawn.passed)
+  drawn.piloted = drawn.passed.size();
+  for (const auto& [r, lit] : drawn.passed)
     if (r.potential > tuning::kMatters * found && drawn.leave(r.lamp))
       ask(lamps_.all()[r.lamp], r.potential, above, points, asked);
 }
@@ -288,7 +294,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   Points points(elements_, scene_, patch, known);
   result.tooWideForBeam = lamps_.tooWideForBeam(g);
   if (!points.have(1)) return result;
-  Drawn drawn{g, {}, {}, {}, false, {}, {}};
+  Drawn drawn{g, {}, {}, 0, {}, false, {}, {}};
   lamps_.tree().cut(g, above.none() ? tuning::kFirstShare : tuning::kAskedShare, tuning::kLampsAsked, above.seen,
                     drawn.cut);
   std::vector<Asked> asked;
@@ -324,18 +330,25 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   const Choice choice = splits ? splits(result) : Choice::Whole;
   if (choice == Choice::Split) return result;
   if (choice == Choice::Keep) {
-    variance = drawn.tally.variance();
     double rest = found;  // and what unseen ones would bring
     for (const Asked& a : asked) rest += a.unseen();
-    for (Asked& a : asked)
-      result.rays += askAgain(rest, points, a), variance += a.tally.mixed() ? a.tally.variance() : 0.0;
-    result.deviation = static_cast<float>(std::sqrt(variance));
+    for (Asked& a : asked) result.rays += askAgain(rest, points, a);
   }
 
   const double light = gray(result.E);
-  result.E = drawn.tally.light();
   for (const Asked& a : asked)
-    if (a.tally.passed > 0) result.E += refined(a, light, g, points);
+    if (a.tally.passed > 0)
+      result.lamps.push_back({a.lamp->id, refined(a, light, g, points),
+                              a.tally.mixed() ? static_cast<float>(a.tally.variance()) : 0.0f});
+  std::vector<LampLight> passed;
+  for (const Drawn::Passed& p : std::span(drawn.passed).subspan(drawn.piloted))
+    passed.push_back({lamps_.all()[p.lamp.lamp].id, p.lit, 0});
+  addDrawn(result.lamps, std::move(passed), drawn.tally.samples, drawn.tally.variance());
+  result.lamps.shrink_to_fit();
+  RgbSum E(0.0);
+  variance = 0;
+  for (const LampLight& l : result.lamps) E += RgbSum(l.E), variance += l.variance;
+  result.E = Rgb(E), result.deviation = static_cast<float>(std::sqrt(variance));
   return result;
 }
 

@@ -9,6 +9,7 @@
 // many lamps there are.
 #include <functional>
 
+#include "direct/lamp_light.hpp"
 #include "direct/lamps.hpp"
 #include "tracing/ray_tracer.hpp"
 
@@ -31,6 +32,7 @@ struct LampSight {
   bool missedDrawn() const { return drawnAsked && !drawnSeen; }
 };
 
+/// All at the nominal scales of lights.
 struct LeafDirect {
   Rgb E{0.0f};                  // mean over what is not covered [W/m2]
   float deviation = 0;          // standard error of it, gray [W/m2]
@@ -38,6 +40,7 @@ struct LeafDirect {
   bool tooWideForBeam = false;  // a narrow beam would fall between samples
   std::uint32_t rays = 0;
   LampSight sight;
+  std::vector<LampLight> lamps;  // of what is not split: what E comes from
 };
 
 class DirectSampler {

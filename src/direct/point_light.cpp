@@ -4,6 +4,7 @@
 
 #include "base/morton.hpp"
 #include "tracing/shadow_ray.hpp"
+#include "scene/nominal_scale.hpp"
 
 namespace deltalux::direct {
 
@@ -34,7 +35,8 @@ hierarchy::ElementGeometry pointPatch(const Receiver& x) {
   return g;
 }
 
-PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer) : tracer_(tracer), lamps_(scene) {
+PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer)
+    : tracer_(tracer), lamps_(scene, scene::scalesOf(scene)) {
   whole_.assign(lamps_.all().begin(), lamps_.all().end());
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];

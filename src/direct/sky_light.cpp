@@ -6,6 +6,7 @@
 
 #include "base/unit_circle.hpp"
 #include "hierarchy/leaf_sequence.hpp"
+#include "scene/nominal_scale.hpp"
 #include "scene/stops_light.hpp"
 
 namespace deltalux::direct {
@@ -64,10 +65,15 @@ Vec3f SkyCells::direction(int cell, double a, double b) {
 }
 
 Skies::Skies(const Scene& scene) {
-  for (const Light& light : scene.lights)
-    if (const auto* dome = std::get_if<DomeLight>(&light.emitter); dome && !isBlack(light.scale))
-      domes_.push_back({*dome, light.scale});
-  if (domes_.empty()) return;
+  const std::vector<Rgb> nominal = scene::nominalScales(scene), dimmed = scene::dimming(scene);
+  std::vector<std::size_t> which;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (std::holds_alternative<DomeLight>(scene.lights[i].emitter) && !isBlack(nominal[i])) which.push_back(i);
+  if (which.empty()) return;
+  const bool alike = std::ranges::all_of(which, [&](std::size_t i) { return dimmed[i] == dimmed[which.front()]; });
+  if (alike) dimming_ = dimmed[which.front()];
+  for (const std::size_t i : which)
+    domes_.push_back({std::get<DomeLight>(scene.lights[i].emitter), alike ? nominal[i] : scene.lights[i].scale});
   for (int cell = 0; cell < SkyCells::kCount; ++cell)
     for (const double corner : {0.25, 0.75}) add(key_, radiance(SkyCells::direction(cell, corner, corner)));
   constexpr int kGrid = 8;

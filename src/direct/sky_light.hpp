@@ -21,11 +21,13 @@ struct SkyCells {
   static constexpr double solidAngle() { return 4 * kPi / kCount; }
 };
 
-/// All skies of a scene.
+/// All skies of a scene, at their nominal scales where all of them are dimmed alike.
 class Skies {
  public:
   explicit Skies(const Scene&);
   bool empty() const { return domes_.empty(); }
+  /// What their light is to be multiplied by.
+  const Rgb& dimming() const { return dimming_; }
   Rgb radiance(const Vec3f& direction) const;
   /// Greatest gray radiance of a few directions of a cell.
   float strength(int cell) const { return strength_[static_cast<std::size_t>(cell)]; }
@@ -40,6 +42,7 @@ class Skies {
   std::vector<Dome> domes_;
   std::array<float, SkyCells::kCount> strength_{};
   std::uint64_t key_ = 0;
+  Rgb dimming_{1.0f};
 };
 
 /// Openness by guide: shares of lines into each cell that escape, in octaves.

@@ -22,11 +22,12 @@ constexpr std::size_t kRoomLeaves = 1024, kDimLeaves = 16;  // of a task
 std::vector<float> roughIndirect(const LineSolve& x, const hierarchy::LeafTable& leaves,
                                  const lines::TracedLines& traced) {
   const std::size_t n = leaves.size();
-  const std::vector<direct::DimDirect> lamps = directOf(x.samples, x.dim, leaves);
+  const LampsOfLeaves lamps = lampsOf(x.samples, x.dim, leaves);
+  const Dimming undimmed = Dimming::none(x.s.scene);
   std::vector<float> rho(n), source(n);
   parallelFor(n, kRoomLeaves, [&](std::size_t i) {
     const hierarchy::ElementLight& l = x.s.elements.radiometry[leaves[i].index()];
-    rho[i] = gray(l.rho + l.tau), source[i] = gray(lamps[i].E + l.particle);
+    rho[i] = gray(l.rho + l.tau), source[i] = gray(direct::dimmed(lamps[i], undimmed.lights).E + l.particle);
   });
   if (!x.skies.empty())
     for (const lines::EscapedLine& e : traced.escaped) {

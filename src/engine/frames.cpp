@@ -5,6 +5,7 @@
 #include "base/sort_unique.hpp"
 #include "engine/state.hpp"
 #include "hierarchy/pull.hpp"
+#include "scene/nominal_scale.hpp"
 
 namespace deltalux {
 
@@ -66,7 +67,7 @@ void Engine::State::frameOverLines(const SecondsLeft& left, StepReport& step) {
   if (s.memory && std::ranges::all_of(edits.moved, moves)) {  // what comes and goes, the update takes in
     groups.rebuild(tracer(), s.scene, edits.primitives());
     if (!lineMotion) lineMotion.emplace(s);
-    if (!edits.empty()) lineMotion->note(s, edits);
+    if (!edits.empty()) lineMotion->note(s, edits, transfer ? &*transfer : nullptr);
     lineMotion->follow(s, left);
   }
   step.deferred = (lineMotion ? lineMotion->waiting() : 0) + lineEdits.moved.size() + lineEdits.dimmed.size() +
@@ -143,14 +144,14 @@ void Engine::State::carryTextures(engine::TextureFlux& textures, const particles
 void Engine::State::iterate(const SecondsLeft& left, StepReport& step) {
   Solution& s = *solution;
   const engine::Clock time;
-  transfer->apply(s.elements, s.scene);
+  transfer->apply(s.elements, scene::scalesOf(s.scene));
   hierarchy::pull(s.elements);
   backlog.deposit.learn(time.seconds());
   const double emitted = backlog.pass.seconds() < left() ? gray(directPower()) : 0.0;
   while (backlog.pass.seconds() < left()) {
     const engine::Clock passing;
     s.transfers.gatherIndirect(s.elements);
-    transfer->apply(s.elements, s.scene);
+    transfer->apply(s.elements, scene::scalesOf(s.scene));
     unsettled = hierarchy::pull(s.elements);
     backlog.pass.learn(passing.seconds());
     ++s.report.counts.iterations;

@@ -10,8 +10,8 @@ class KnownSolve {
  public:
   /// What edits have left of the lights.
   struct Lights {
-    bool stay = true;  // all of them are where they were, and none has been switched on or off
-    bool same = true;  // they send what they did as well: where lamps are drawn, that of one decides about rays to all
+    bool stay = true;  // all of them are where they were, and none has come or gone
+    bool same = true;  // they count for what they did as well: where lamps are drawn, one decides about rays to all
   };
   /// Of the solution that there was, out of which elements and lines are taken.
   KnownSolve(SolveMemory, Solution&, change::MovedSpace, Lights);

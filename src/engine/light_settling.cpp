@@ -12,6 +12,7 @@
 #include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
 #include "hierarchy/pull.hpp"
+#include "scene/nominal_scale.hpp"
 
 namespace deltalux::engine {
 
@@ -183,7 +184,7 @@ void LightSettling::gather(const Parts& parts, hierarchy::Elements& elements, Wo
     if (other[i]) work.leaves.push_back(work.rows[i]);
   if (!work.surfaces.empty()) {
     std::vector<char> marks(elements.size(), 0);
-    parts.particles.apply(work.surfaces, elements, {seen_, parts.scene}, kSame, marks);
+    parts.particles.apply(work.surfaces, elements, {seen_, scene::scalesOf(parts.scene)}, kSame, marks);
     addMarked(marks, work.leaves);
   }
   sortUnique(work.leaves);

@@ -8,7 +8,7 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "engine/line_solve.hpp"
-#include "lines/iterate.hpp"
+#include "engine/relight.hpp"
 #include "lines/line_counts.hpp"
 #include "lines/tuning.hpp"
 #include "solution/sky_openness.hpp"
@@ -22,7 +22,7 @@ constexpr double kWidest = 8;                           // standard errors, beyo
 constexpr int kSteps = 24;                              // of a bisection
 constexpr int kErrorSteps = 64 * 20;                    // of errors of leaves, in 64ths of an octave
 
-/// What each leaf sends of the light of its sources but for skies [W, gray].
+/// What each leaf sends of the light of its sources but for skies, at their nominal scales [W, gray].
 std::vector<float> powerOf(const LineSolve& x, const hierarchy::LeafTable& leaves) {
   std::vector<float> power(leaves.size());
   parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
@@ -33,11 +33,11 @@ std::vector<float> powerOf(const LineSolve& x, const hierarchy::LeafTable& leave
   return power;
 }
 
-/// Sky light of every leaf; that of leaves which nothing has changed for is taken from before.
+/// Sky light of every leaf, undimmed; that of leaves which nothing has changed for is taken from before.
 KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::TracedLines& traced) {
   constexpr std::size_t kEach = direct::tuning::kSkyRays;
   KnownSky sky;
-  sky.at.resize(leaves.size());
+  sky.at.resize(leaves.size()), sky.skies = x.skies.key();
   if (x.skies.empty()) return sky;
   // Not of the coarse light, whose leaves were others.
   const std::vector<std::uint32_t>* before = x.knownLines ? &x.knownLines->of : nullptr;
@@ -89,17 +89,6 @@ std::unique_ptr<lines::Exchange> exchangeOf(const LineSolve& x, const hierarchy:
 
 }  // namespace
 
-std::vector<direct::DimDirect> directOf(const PatchSamples& samples, std::span<const DimLeaf> dimLeaves,
-                                        const hierarchy::LeafTable& leaves) {
-  std::vector<direct::DimDirect> all(leaves.size());
-  parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
-    const direct::LeafDirect& l = samples.direct[leaves[i].index()];
-    all[i] = {l.E, l.deviation, 0};
-  });
-  for (const DimLeaf& dim : dimLeaves) all[leaves.indexOf[dim.leaf.index()]] = dim.light;
-  return all;
-}
-
 lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base) {
   const hierarchy::Elements& elements = x.s.elements;
   const hierarchy::LeafTable leaves(elements);
@@ -115,42 +104,24 @@ lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base) {
   return traced;
 }
 
-void lightLeaves(LineSolve& x, lines::TracedLines traced, double converged) {
+void lightLeaves(LineSolve& x, lines::TracedLines traced, const Dimming& dimming, double converged) {
   Solution& s = x.s;
-  hierarchy::Elements& elements = s.elements;
-  const hierarchy::LeafTable leaves(elements);
-  const std::size_t n = leaves.size();
+  const hierarchy::LeafTable leaves(s.elements);
   x.exchange = exchangeOf(x, leaves, traced);
-  lines::Exchange& exchange = *x.exchange;
-  KnownSky sky = skyOf(x, leaves, traced);
-  const std::vector<direct::DimDirect> lamps = directOf(x.samples, x.dim, leaves);
-
-  lines::LeafLight light = lines::leafLight(elements, leaves);
-  parallelFor(n, kLeaves, [&](std::size_t i) {
-    const std::size_t e = leaves[i].index();
-    hierarchy::ElementLight& l = elements.radiometry[e];
-    l.direct = exchange.area(i) > 0 ? lamps[i].E + sky.at[i].E : Rgb(0.0f);
-    light.source[i] = l.direct + l.particle;
+  x.sky = skyOf(x, leaves, traced);
+  parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
     // Not of the coarse light, by which the mesh is refined: what iteration leaves would decide.
-    if (x.known && x.floor > 0) light.indirect[i] = x.known->indirect(elements, leaves[i]);
+    s.elements.radiometry[leaves[i].index()].indirect =
+        x.known && x.floor > 0 ? x.known->indirect(s.elements, leaves[i]) : Rgb(0.0f);
   });
-  const lines::IterationReport iterated = lines::iterate(exchange, light, converged, lines::tuning::kMostPasses);
-  s.report.counts.iterations += static_cast<std::uint64_t>(iterated.passes);
-  s.deviation.resize(n);
-  exchange.deviation(light.B, s.deviation);
-  parallelFor(n, kLeaves, [&](std::size_t i) {
-    const std::size_t e = leaves[i].index();
-    elements.radiometry[e].indirect = light.indirect[i], elements.radiometry[e].B = light.B[i];
-    const double own = s.deviation[i], lamp = lamps[i].deviation, dome = sky.at[i].deviation;
-    s.deviation[i] = static_cast<float>(std::sqrt(own * own + lamp * lamp + dome * dome));
-  });
+  relight(s, *x.exchange, lampsOf(x.samples, x.dim, leaves), x.sky, dimming, converged);
   s.lines = std::move(traced.lines), x.escaped = std::move(traced.escaped), x.bends = std::move(traced.bends);
-  x.sky = std::move(sky);
   s.report.counts.lines = s.lines.size();
-  s.report.memory.lines = s.lines.memoryBytes() + exchange.memoryBytes();
+  s.report.memory.lines = s.lines.memoryBytes() + x.exchange->memoryBytes();
 }
 
-ErrorEstimate estimateError(const Solution& s, double floor) {
+ErrorEstimate estimateError(const Solution& s) {
+  const double floor = floorOf(s.elements);
   struct Leaf {
     double error, area;
   };

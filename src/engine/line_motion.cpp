@@ -10,6 +10,7 @@
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/pull.hpp"
 #include "lines/tuning.hpp"
+#include "scene/nominal_scale.hpp"
 
 namespace deltalux::engine {
 
@@ -27,11 +28,25 @@ double potentialOf(const direct::Lamps& lamps, const hierarchy::ElementGeometry&
   return sum;
 }
 
+/// Lights that shine from elsewhere by these edits, or count for something else: by light.
+std::vector<char> otherLights(const Solution& s, const SceneUpdate& edits) {
+  const Scene& scene = s.scene;
+  const std::vector<Rgb> nominal = scene::nominalScales(scene);
+  std::vector<char> others(scene.lights.size(), 0);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    others[i] = i >= s.memory->nominal.size() || nominal[i] != s.memory->nominal[i];
+    if (const auto* area = std::get_if<AreaLight>(&scene.lights[i].emitter))
+      for (const SceneChange::Moved& m : edits.moved) others[i] |= m.primitive == area->primitive;
+  }
+  for (const LightId light : edits.movedLights) others[light.index()] = 1;
+  return others;
+}
+
 /// Finds leaves whose shadow rays edits may have led elsewhere, from the top of the hierarchy down.
 class ShadowSearch {
  public:
   ShadowSearch(const Solution& s, const SceneUpdate& edits, const direct::Lamps& lamps)
-      : elements_(s.elements), lamps_(lamps.all()), others_(otherLights(s.scene, edits)), space_(s.scene, edits.moved) {
+      : elements_(s.elements), lamps_(lamps.all()), others_(otherLights(s, edits)), space_(s.scene, edits.moved) {
     for (std::uint32_t i = 0; i < lamps_.size(); ++i) all_.push_back(i);
   }
 
@@ -67,27 +82,42 @@ class ShadowSearch {
 
 }  // namespace
 
-std::vector<char> otherLights(const Scene& scene, const SceneUpdate& edits) {
-  std::vector<char> others(scene.lights.size(), 0);
-  for (const auto* lights : {&edits.dimmed, &edits.movedLights})
-    for (const LightId light : *lights) others[light.index()] = 1;
-  for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (const auto* area = std::get_if<AreaLight>(&scene.lights[i].emitter))
-      for (const SceneChange::Moved& m : edits.moved) others[i] |= m.primitive == area->primitive;
-  return others;
-}
-
-LineMotion::LineMotion(const Solution& s) : leaves_(s.elements), light_(lines::leafLight(s.elements, leaves_)) {
-  lamps_.resize(leaves_.size()), worth_.resize(leaves_.size(), 0.0f);
-  const std::vector<direct::DimDirect> lamps = directOf(s.memory->samples, s.memory->dim, leaves_);
+LineMotion::LineMotion(const Solution& s)
+    : leaves_(s.elements),
+      light_(lines::leafLight(s.elements, leaves_)),
+      dimming_(Dimming::of(s.scene, direct::Skies(s.scene))) {
+  lamps_.resize(leaves_.size()), direct_.resize(leaves_.size()), worth_.resize(leaves_.size(), 0.0f);
+  const LampsOfLeaves lamps = lampsOf(s.memory->samples, s.memory->dim, leaves_);
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
     const hierarchy::ElementLight& l = s.elements.radiometry[leaves_[i].index()];
     light_.source[i] = l.direct + l.particle, light_.indirect[i] = l.indirect, light_.B[i] = l.B;
-    lamps_[i] = lamps[i].E;
+    lamps_[i].assign(lamps[i].begin(), lamps[i].end());
+    direct_[i] = l.direct - dimming_.skies * s.memory->sky.at[i].E;
   }
 }
 
-void LineMotion::note(Solution& s, const SceneUpdate& edits) {
+/// Lights' light as it is dimmed now.
+void LineMotion::dim(Solution& s, const particles::ParticleTransfer* particles) {
+  const direct::Skies skies(s.scene);
+  const Rgb before = dimming_.skies;
+  dimming_ = Dimming::of(s.scene, skies);
+  if (skies.key() != s.memory->sky.skies) dimming_.skies = before;  // waits
+  if (particles) particles->apply(s.elements, scene::scalesOf(s.scene));
+  parallelFor(leaves_.size(), kMotionLeaves, [&](std::size_t i) {
+    if (!(s.memory->exchange->area(i) > 0)) return;
+    hierarchy::ElementLight& l = s.elements.radiometry[leaves_[i].index()];
+    direct_[i] = direct::dimmed(lamps_[i], dimming_.lights).E;
+    l.direct = direct_[i] + dimming_.skies * s.memory->sky.at[i].E;
+    light_.source[i] = l.direct + l.particle;
+  });
+}
+
+void LineMotion::note(Solution& s, const SceneUpdate& edits, const particles::ParticleTransfer* particles) {
+  if (!edits.dimmed.empty()) {
+    for (const hierarchy::ElementId e : hierarchy::elementsOf(s.elements, edits.dimmed))
+      hierarchy::setEmission(s.elements, s.scene, e);
+    dim(s, particles);
+  }
   hierarchy::reshape(s.elements, s.scene, hierarchy::elementsOf(s.elements, edits.primitives()));
   if (!edits.materials.empty()) {
     for (const hierarchy::ElementId e : paintedSurfaces(s.elements, s.scene, edits.materials))
@@ -97,12 +127,12 @@ void LineMotion::note(Solution& s, const SceneUpdate& edits) {
       light_.rho[i] = l.rho, light_.tau[i] = l.tau;
     }
   }
-  const direct::Lamps lamps(s.scene);
+  const direct::Lamps lamps(s.scene, scene::nominalScales(s.scene));
   for (const hierarchy::ElementId e : ShadowSearch(s, edits, lamps).find()) {
     const std::uint32_t i = leaves_.indexOf[e.index()];
     if (worth_[i] > 0 || !(s.memory->exchange->area(i) > 0)) continue;
     const hierarchy::ElementGeometry& g = s.elements.shape(e);
-    worth_[i] = static_cast<float>(g.area * std::max<double>(potentialOf(lamps, g), gray(lamps_[i])));
+    worth_[i] = static_cast<float>(g.area * std::max<double>(potentialOf(lamps, g), gray(direct_[i])));
     waiting_ += worth_[i] > 0;
   }
 }
@@ -125,15 +155,16 @@ void LineMotion::light(Solution& s, const direct::Lamps& lamps, std::span<const 
     const std::uint32_t i = leaves[n];
     const hierarchy::ElementId leaf = leaves_[i];
     const lines::LeafScale& scale = samples.scale[leaf.index()];
-    const Rgb E = sampler.at(leaf, {scale.covered, scale.known}, sightAbove(samples, s.elements, leaf)).E;
-    light_.source[i] += E - lamps_[i], s.elements.radiometry[leaf.index()].direct += E - lamps_[i];
-    lamps_[i] = E, worth_[i] = 0;
+    lamps_[i] = sampler.at(leaf, {scale.covered, scale.known}, sightAbove(samples, s.elements, leaf)).lamps;
+    const Rgb E = direct::dimmed(lamps_[i], dimming_.lights).E;
+    light_.source[i] += E - direct_[i], s.elements.radiometry[leaf.index()].direct += E - direct_[i];
+    direct_[i] = E, worth_[i] = 0;
   });
   waiting_ -= leaves.size();
 }
 
 void LineMotion::follow(Solution& s, const std::function<double()>& secondsLeft) {
-  const direct::Lamps lamps(s.scene);
+  const direct::Lamps lamps(s.scene, scene::nominalScales(s.scene));
   bool fewest = true;
   while (waiting_ > 0) {
     const Clock lighting;
@@ -162,7 +193,7 @@ void LineMotion::follow(Solution& s, const std::function<double()>& secondsLeft)
 double LineMotion::stale(const Solution& s) const {
   double sum = 0;
   for (std::size_t i = 0; i < worth_.size(); ++i)
-    if (worth_[i] > 0) sum += s.elements.shape(leaves_[i]).area * gray(lamps_[i]);
+    if (worth_[i] > 0) sum += s.elements.shape(leaves_[i]).area * gray(direct_[i]);
   return sum;
 }
 

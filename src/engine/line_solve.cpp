@@ -14,6 +14,7 @@
 #include "lines/tuning.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/particle_tracing.hpp"
+#include "scene/nominal_scale.hpp"
 
 namespace deltalux::engine {
 
@@ -46,18 +47,6 @@ std::vector<hierarchy::ElementId> receivingInputs(const hierarchy::Elements& ele
   return inputs;
 }
 
-/// Mean gray irradiance over all lit area [W/m2].
-double meanIrradiance(const hierarchy::Elements& elements) {
-  double light = 0, area = 0;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (!elements.isReceivingLeaf(hierarchy::ElementId(i))) continue;
-    const hierarchy::ElementLight& l = elements.radiometry[i];
-    const double A = elements.geometry[i].litArea();
-    light += A * gray(l.direct + l.indirect + l.particle), area += A;
-  }
-  return area > 0 ? light / area : 0;
-}
-
 /// What particles reach is not enclosed, whatever walks have found.
 void openToParticles(LineSolve& x) {
   const particles::Particles& p = x.s.particles;
@@ -86,7 +75,7 @@ void refineForParticles(LineSolve& x) {
   hierarchy::pull(s.elements);
   caustics::SurfaceSides shown(2 * s.scene.primitives.size(), false);
   if (s.settings.causticTextures)
-    shown = caustics::sidesWithTextures(s.scene, s.elements, particles::impacts(s.particles, s.elements, s.scene),
+    shown = caustics::sidesWithTextures(s.scene, s.elements, particles::impacts(s.particles, s.elements, s.scene, x.nominal),
                                         s.settings.error);
   const std::size_t before = s.elements.size();
   particles::subdivideForParticles(s.elements, s.scene, s.particles, shown);
@@ -97,6 +86,17 @@ void refineForParticles(LineSolve& x) {
 }
 
 }  // namespace
+
+double floorOf(const hierarchy::Elements& elements) {
+  double light = 0, area = 0;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (!elements.isReceivingLeaf(hierarchy::ElementId(i))) continue;
+    const hierarchy::ElementLight& l = elements.radiometry[i];
+    const double A = elements.geometry[i].litArea();
+    light += A * gray(l.direct + l.indirect + l.particle), area += A;
+  }
+  return area > 0 ? direct::tuning::kFloor * light / area : 0;
+}
 
 particles::ParticleSettings lineParticles(const Solution& s) {
   particles::ParticleSettings settings{particleCount(s.settings), s.settings.seed};
@@ -110,7 +110,8 @@ LineSolve::LineSolve(Solution& solution, KnownSolve* before)
       responses(s.scene, !s.settings.diffuseOnly),
       tracer(s.scene, *s.tracer, responses),
       cover(s.scene, *s.tracer),
-      lamps(s.scene),
+      nominal(scene::nominalScales(s.scene)),
+      lamps(s.scene, nominal),
       skies(s.scene) {}
 
 bool LineSolve::takesPart(hierarchy::ElementId patch) const {
@@ -131,7 +132,7 @@ std::shared_ptr<SolveMemory> memoryOf(LineSolve&& x) {
   memory->escaped = std::move(x.escaped), memory->bends = std::move(x.bends);
   memory->sky = std::move(x.sky), memory->dim = std::move(x.dim), memory->exchange = std::move(x.exchange);
   memory->plain = x.responses.plain();
-  for (const Light& light : x.s.scene.lights) memory->shining.push_back(!isBlack(light.scale));
+  memory->nominal = std::move(x.nominal);
   return memory;
 }
 
@@ -160,13 +161,14 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const T
   const std::vector<hierarchy::ElementId> inputs = receivingInputs(s.elements);
   samplePatches(*solve, inputs);
   lines::setMeanFreePaths(s.elements, solve->samples.scale);
-  particles::ParticleTransfer(s.particles, s.elements, s.scene).apply(s.elements, s.scene);
-  lightLeaves(*solve, traceLeaves(*solve, lines::tuning::kFirstLines), lines::tuning::kCoarseConverged);
+  particles::ParticleTransfer(s.particles, s.elements, s.scene).apply(s.elements, solve->nominal);
+  lightLeaves(*solve, traceLeaves(*solve, lines::tuning::kFirstLines), Dimming::none(s.scene),
+              lines::tuning::kCoarseConverged);
   for (const hierarchy::ElementId e : inputs) {
     hierarchy::ElementLight& l = s.elements.radiometry[e.index()];
     l.typical = gray(l.direct + l.indirect);
   }
-  solve->floor = direct::tuning::kFloor * meanIrradiance(s.elements);
+  solve->floor = floorOf(s.elements);
   hierarchy::pull(s.elements);
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.times.visibility += watch.lap();
@@ -184,8 +186,9 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
   });
   if (!budget.up()) refineForParticles(x);
   x.transfer.emplace(s.particles, s.elements, s.scene);
-  x.transfer->apply(s.elements, s.scene);
-  if (!x.known) x.transfer.reset();  // what follows takes more memory than making it again takes time
+  x.transfer->apply(s.elements, x.nominal);
+  const std::vector<Rgb> scales = scene::scalesOf(s.scene);
+  if (!x.known && scales == x.nominal) x.transfer.reset();  // what follows takes more memory than it takes time
   const double meshSeconds = watch.lap();
   s.report.times.refine += meshSeconds;
   if (progress) progress->report("mesh", 1.0);
@@ -203,10 +206,12 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
         std::clamp(affordable, double(lines::tuning::kFirstLines), static_cast<double>(wanted)));
   }
   lines::TracedLines traced = traceLeaves(x, base);
-  lightLeaves(x, std::move(traced), x.known ? lines::tuning::kConvergedAgain : lines::tuning::kConverged);
+  if (scales != x.nominal) x.transfer->apply(s.elements, scales);
+  lightLeaves(x, std::move(traced), Dimming::of(s.scene, x.skies),
+              x.known ? lines::tuning::kConvergedAgain : lines::tuning::kConverged);
   hierarchy::pull(s.elements);
   DELTALUX_VALIDATED(validate(s.elements));
-  s.report.error = estimateError(s, x.floor);
+  s.report.error = estimateError(s);
   s.report.times.gather += watch.lap();
   if (progress) progress->report("lines", 1.0);
   return meshed && base >= wanted && x.allParticles;

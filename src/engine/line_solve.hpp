@@ -14,6 +14,7 @@
 #include "direct/dim_direct.hpp"
 #include "direct/sky_light.hpp"
 #include "engine/known_solve.hpp"
+#include "engine/relight.hpp"
 #include "engine/time_budget.hpp"
 #include "lines/leaf_scale.hpp"
 #include "particles/particle_tracing.hpp"
@@ -32,7 +33,8 @@ struct LineSolve {
   lines::SurfaceResponses responses;
   lines::LineTracer tracer;
   lines::Cover cover;
-  direct::Lamps lamps;
+  std::vector<Rgb> nominal;  // by light: the scale that all is decided by
+  direct::Lamps lamps;       // at those
   direct::Skies skies;
   std::vector<lines::LightWalks> walks;  // by element of the input level
   std::vector<char> enclosed;            // the same: whether neither they nor particles find light
@@ -62,17 +64,17 @@ bool refineMesh(LineSolve&, std::vector<hierarchy::ElementId> patches, const std
 
 // The light.
 
-/// Direct light of leaves by suns and lamps.
-std::vector<direct::DimDirect> directOf(const PatchSamples&, std::span<const DimLeaf>, const hierarchy::LeafTable&);
 /// More lines, and shadow rays, of leaves in rooms where hardly any light arrives. dim_leaves.cpp.
 lines::TracedLines lookIntoTheDark(LineSolve&, const lines::LineScene&, lines::TracedLines);
 /// About `base` lines of each of the leaves there are.
 lines::TracedLines traceLeaves(LineSolve&, std::uint32_t base);
 /// Light of the leaves over those, from their direct light and particles: writes the elements' irradiance and
 /// radiosity, the solution's lines and their deviation.
-void lightLeaves(LineSolve&, lines::TracedLines, double converged);
+void lightLeaves(LineSolve&, lines::TracedLines, const Dimming&, double converged);
+/// Light that still matters, where there is as much as on these [W/m2, gray].
+double floorOf(const hierarchy::Elements&);
 /// What the solution's own samples say of its error, by area.
-ErrorEstimate estimateError(const Solution&, double floor);
+ErrorEstimate estimateError(const Solution&);
 
 // The rounds.
 

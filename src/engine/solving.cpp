@@ -17,6 +17,7 @@
 #include "particles/mesh_for_particles.hpp"
 #include "particles/reached_sides.hpp"
 #include "radiosity/direct_senders.hpp"
+#include "scene/nominal_scale.hpp"
 
 namespace deltalux {
 
@@ -231,7 +232,7 @@ bool Engine::State::settle(Progress* progress) {
   RgbSum emitted(0.0);
   for (int i = 0; i < kMaxIterations; ++i) {
     plan.gatherIndirect(s.elements);
-    onMesh.apply(s.elements, s.scene);
+    onMesh.apply(s.elements, scene::scalesOf(s.scene));
     unsettled = paper::pushPull(s.elements);
     ++s.report.counts.iterations;
     emitted = directPower();
@@ -286,7 +287,7 @@ bool Engine::State::settleRows(Progress* progress) {
   if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
   for (int i = 0; i < engine::kMaxRowIterations; ++i) {
     s.transfers.gatherIndirect(s.elements);
-    transfer->apply(s.elements, s.scene);
+    transfer->apply(s.elements, scene::scalesOf(s.scene));
     unsettled = hierarchy::pull(s.elements);
     ++s.report.counts.iterations;
     if (progress) progress->report("gather", gray(emitted) / std::max(gray(emitted) + gray(unsettled), 1e-30));

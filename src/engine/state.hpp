@@ -128,6 +128,10 @@ struct Engine::State {
   void takeIn(StepReport& step, bool inMotion = false);
   /// What the solve before knows that edits leave as it was, for the next.
   void recall(const engine::SceneUpdate& edits);
+  /// Whether edits have but dimmed lights, by less than would change what they count for.
+  bool onlyDims(const engine::SceneUpdate& edits) const;
+  /// The light over the lines there are, then: no ray is traced.
+  void relightOverLines(const engine::SceneUpdate& edits);
   /// Whether a light is so much brighter than when links were refined and rows sampled that it needs its own.
   bool outshines(const engine::SceneUpdate& edits) const;
   /// Retraces particles that edits have touched: `count` of those that wait. [GD01 4]

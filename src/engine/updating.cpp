@@ -8,7 +8,10 @@
 #include "engine/state.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
+#include "hierarchy/pull.hpp"
+#include "lines/tuning.hpp"
 #include "radiosity/direct_senders.hpp"
+#include "scene/nominal_scale.hpp"
 
 namespace deltalux {
 
@@ -27,9 +30,15 @@ StepReport Engine::State::update(Progress* progress) {
   updated = true;
   if (backlog.afresh) {
     lineMotion.reset(), counts = {};
-    recall(engine::endToEnd(std::exchange(lineEdits, {})));
-    const std::uint64_t before = known ? traced : 0;  // or by a tracer of its own
-    solveAfresh(progress);
+    const engine::SceneUpdate edits = engine::endToEnd(std::exchange(lineEdits, {}));
+    std::uint64_t before = traced;
+    if (onlyDims(edits)) {
+      relightOverLines(edits);
+    } else {
+      recall(edits);
+      if (!known) before = 0;  // by a tracer of its own
+      solveAfresh(progress);
+    }
     step.leavesChanged = counts.leavesChanged, step.texturesRebuilt = counts.texturesRebuilt;
     step.particlesRetraced = counts.particlesRetraced, step.particlesTotal = solution->particles.arrived();
     step.rays = tracer().traced() - before;
@@ -102,6 +111,35 @@ void Engine::State::takeIn(StepReport& step, bool inMotion) {
   step.times.particles += time.seconds();
 }
 
+bool Engine::State::onlyDims(const engine::SceneUpdate& edits) const {
+  const Solution& s = *solution;
+  return byLines() && finished && s.memory && edits.moved.empty() && edits.movedLights.empty() &&
+         edits.materials.empty() && s.memory->nominal == scene::nominalScales(s.scene) &&
+         s.memory->sky.skies == direct::Skies(s.scene).key();
+}
+
+void Engine::State::relightOverLines(const engine::SceneUpdate& edits) {
+  Solution& s = *solution;
+  const engine::Clock time;
+  backlog = {};
+  for (const hierarchy::ElementId e : hierarchy::elementsOf(s.elements, edits.dimmed))
+    hierarchy::setEmission(s.elements, s.scene, e);
+  newPaths.reset();
+  if (tracing) newPaths = tracing->follow(s.particles, edits.whole);
+  if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
+  transfer->apply(s.elements, scene::scalesOf(s.scene));
+  s.report.counts.iterations = 0;
+  engine::relight(s, *s.memory->exchange,
+                  engine::lampsOf(s.memory->samples, s.memory->dim, hierarchy::LeafTable(s.elements)), s.memory->sky,
+                  engine::Dimming::of(s.scene, direct::Skies(s.scene)), lines::tuning::kConvergedAgain);
+  hierarchy::pull(s.elements);
+  s.report.error = engine::estimateError(s);
+  s.report.times = {};
+  s.report.times.gather = time.seconds();
+  followTextures();
+  count();
+}
+
 void Engine::State::recall(const engine::SceneUpdate& edits) {
   Solution& s = *solution;
   known.reset(), newPaths.reset();
@@ -125,10 +163,11 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
     if (gapsAreMany()) closeGaps(), newPaths.reset();
   }
   engine::KnownSolve::Lights lights;
-  lights.stay = edits.movedLights.empty() && !lampMoves;
-  for (std::size_t i = 0; i < s.scene.lights.size(); ++i)
-    lights.stay = lights.stay && i < before->shining.size() && before->shining[i] == !isBlack(s.scene.lights[i].scale);
-  lights.same = lights.stay && edits.dimmed.empty();
+  const std::vector<Rgb> nominal = scene::nominalScales(s.scene);
+  lights.stay = edits.movedLights.empty() && !lampMoves &&
+                std::ranges::equal(nominal, before->nominal, {}, [](const Rgb& scale) { return isBlack(scale); },
+                                   [](const Rgb& scale) { return isBlack(scale); });
+  lights.same = lights.stay && nominal == before->nominal;
   known.emplace(std::move(*before), s, change::MovedSpace(s.scene, edits.moved), lights);
 }
 

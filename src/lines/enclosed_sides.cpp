@@ -9,6 +9,7 @@
 #include "scene/light_sampling.hpp"
 #include "scene/stops_light.hpp"
 #include "tracing/shadow_ray.hpp"
+#include "scene/nominal_scale.hpp"
 
 namespace deltalux::lines {
 
@@ -33,8 +34,9 @@ class LightSearch {
  public:
   LightSearch(const hierarchy::Elements& elements, const LineTracer& tracer)
       : elements_(elements), tracer_(tracer), scene_(tracer.scene()), lights_(scene_) {
+    const std::vector<Rgb> nominal = scene::nominalScales(scene_);
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-      if (isBlack(scene_.lights[i].scale)) continue;
+      if (isBlack(nominal[i])) continue;
       const bool dome = std::holds_alternative<DomeLight>(scene_.lights[i].emitter);
       if (!dome) asked_.emplace_back(i);
       outside_ = outside_ || dome || std::holds_alternative<SunLight>(scene_.lights[i].emitter);

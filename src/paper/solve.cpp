@@ -5,6 +5,7 @@
 #include "base/parallel.hpp"
 #include "paper/gather.hpp"
 #include "paper/push_pull.hpp"
+#include "scene/nominal_scale.hpp"
 
 namespace deltalux::paper {
 
@@ -45,7 +46,7 @@ Settled settle(const Parts& parts, const particles::ParticleTransfer& onMesh, do
   Settled s;
   while (s.iterations < kMaxIterations) {
     plan.gatherIndirect(parts.elements);
-    onMesh.apply(parts.elements, parts.scene);
+    onMesh.apply(parts.elements, scene::scalesOf(parts.scene));
     s.unsettled = pushPull(parts.elements);
     ++s.iterations;
     s.emitted = directPower(parts.elements);

@@ -20,5 +20,7 @@ struct Particles;
 /// Every impact with today's flux, that is, with the radiosity that its particle's sender has now; in the order of the
 /// particles, which does not depend on the number of threads.
 std::vector<Impact> impacts(const Particles&, const hierarchy::Elements&, const Scene&);
+/// The same at these scales of lights.
+std::vector<Impact> impacts(const Particles&, const hierarchy::Elements&, const Scene&, std::span<const Rgb> scales);
 
 }  // namespace deltalux::particles

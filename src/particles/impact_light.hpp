@@ -7,8 +7,8 @@ namespace deltalux::particles {
 
 Vec3 positionOf(const Impact&, const Scene&);
 
-/// What a path's throughput is multiplied by for its flux.
+/// What a path's throughput is multiplied by for its flux. `scales`: of lights.
 Rgb powerOf(const Particles&, std::size_t path, const hierarchy::Elements&, const hierarchy::SideLocator&,
-            const Scene&);
+            std::span<const Rgb> scales);
 
 }  // namespace deltalux::particles

@@ -234,7 +234,7 @@ Rgb ParticleTransfer::power(std::size_t path, const hierarchy::Elements& element
   return sender < lights_ ? scene.lights[sender].scale : elements.radiometry[sender - lights_].B;
 }
 
-void ParticleTransfer::apply(hierarchy::Elements& elements, const Scene& scene) const {
+void ParticleTransfer::apply(hierarchy::Elements& elements, std::span<const Rgb> scales) const {
   DELTALUX_CHECK(places_.size() == elements.size(), "the mesh that particles were placed on");
   std::vector<Rgb> B(elements.size());
   for (std::size_t i = 0; i < B.size(); ++i) {
@@ -242,7 +242,7 @@ void ParticleTransfer::apply(hierarchy::Elements& elements, const Scene& scene) 
     if (places_[i]) elements.radiometry[i].particle = Rgb(0.0f);
   }
   std::vector<char> marks;
-  apply(surfaces_, elements, {B, scene}, std::numeric_limits<float>::infinity(), marks);
+  apply(surfaces_, elements, {B, scales}, std::numeric_limits<float>::infinity(), marks);
 }
 
 void ParticleTransfer::apply(std::span<const hierarchy::ElementId> surfaces, hierarchy::Elements& elements,
@@ -268,7 +268,7 @@ void ParticleTransfer::apply(const PatchTree& tree, hierarchy::Elements& element
     RgbSum flux(0.0);
     for (std::size_t i = begin; i < end; ++i)
       for (const Entry& entry : entries_[tree.places[i].element.index()])
-        flux += entry.sender < lights_ ? entry.flux * RgbSum(sources.scene.lights[entry.sender].scale)
+        flux += entry.sender < lights_ ? entry.flux * RgbSum(sources.scales[entry.sender])
                                        : damping * entry.flux * RgbSum(sources.B[entry.sender - lights_]);
     const Rgb E(flux / std::max<double>(elements.shape(hierarchy::ElementId(level)).litArea(), 1e-30));
     for (std::size_t i = begin; i < end; ++i) {

@@ -36,12 +36,12 @@ class ParticleTransfer {
                                                   std::span<const hierarchy::ElementId> patches);
 
   /// Writes E of particles at every leaf from today's radiosities and the scale of lights.
-  void apply(hierarchy::Elements&, const Scene&) const;
+  void apply(hierarchy::Elements&, std::span<const Rgb> scales) const;
 
   /// Radiosity by element, and the scale of lights.
   struct Sources {
     const std::vector<Rgb>& B;
-    const Scene& scene;
+    std::span<const Rgb> scales;
   };
   /// Writes E of particles at every leaf of these surfaces; marks the leaves, in an array by element, whose E changes
   /// by more than `least`, relatively.

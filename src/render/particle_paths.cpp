@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "particles/impact_light.hpp"
 #include "solution/solution.hpp"
+#include "scene/nominal_scale.hpp"
 
 namespace deltalux::rendering {
 
@@ -77,6 +78,7 @@ std::vector<Contributions::Path> particlePathsAt(const Solution& s, const Surfac
   };
   const hierarchy::SideLocator locator(s.elements, s.scene);
   std::map<std::vector<PrimitiveId>, Group> groups;
+  const std::vector<Rgb> scales = scene::scalesOf(s.scene);
   RgbSum all(0.0);
   for (const Landed& landed : nearestImpacts(s, spot)) {
     const std::size_t corners = cornersUntil(s, landed);
@@ -87,7 +89,7 @@ std::vector<Contributions::Path> particlePathsAt(const Solution& s, const Surfac
       for (const Vec3f& v : vertices) group.corners.push_back(Vec3(v));
       group.corners.back() = spot.position;
     }
-    const RgbSum flux(particles::powerOf(s.particles, landed.path, s.elements, locator, s.scene) *
+    const RgbSum flux(particles::powerOf(s.particles, landed.path, s.elements, locator, scales) *
                       s.particles.throughput[landed.impact]);
     group.flux += flux, all += flux, ++group.particles;
   }

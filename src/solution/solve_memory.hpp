@@ -40,8 +40,9 @@ struct PatchSamples {
   }
 };
 
-/// Sky light of the receiving leaves in order, and its shadow rays.
+/// Sky light of the receiving leaves in order, undimmed, and its shadow rays.
 struct KnownSky {
+  std::uint64_t skies = 0;  // direct::Skies::key()
   std::vector<direct::SkyAtLeaf> at;
   std::vector<std::uint64_t> key;    // direct::skyKey()
   LargeArray<lines::LineCode> rays;  // kSkyRays of each leaf; of those that there were not, without reach
@@ -65,7 +66,7 @@ struct SolveMemory {
   std::vector<DimLeaf> dim;                   // ascending
   std::unique_ptr<lines::Exchange> exchange;  // over those lines
   std::vector<char> plain;                    // by material: SurfaceResponses::plain()
-  std::vector<char> shining;                  // by light: whether it was on
+  std::vector<Rgb> nominal;                   // by light: the scale that all was decided by
 };
 
 }  // namespace deltalux

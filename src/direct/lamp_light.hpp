@@ -1,0 +1,29 @@
+#pragma once
+// What single lamps bring to a patch, kept apart, so that dimming one needs no ray. Light is linear in the lamps.
+#include <deltalux/ids.hpp>
+#include <deltalux/units.hpp>
+#include <span>
+#include <vector>
+
+namespace deltalux::direct {
+
+/// Of one lamp or sun, at its nominal scale.
+struct LampLight {
+  LightId lamp;
+  Rgb E{0.0f};         // [W/m2]
+  float variance = 0;  // of its mean, gray
+};
+
+/// Of all of them, each times its dimming.
+struct DimmedLight {
+  Rgb E{0.0f};          // [W/m2]
+  float deviation = 0;  // standard error of it, gray
+};
+/// `dimming`: by light. [scene/nominal_scale.hpp]
+DimmedLight dimmed(std::span<const LampLight>, std::span<const Rgb> dimming);
+
+/// Adds what rays have found that each chose a lamp: `found` has the sums, a lamp as often as it was chosen; `samples`
+/// were all rays, and their mean has that variance, which is shared out by what each lamp has brought.
+void addDrawn(std::vector<LampLight>& to, std::vector<LampLight> found, int samples, double variance);
+
+}  // namespace deltalux::direct
