@@ -106,9 +106,9 @@ struct DirectSampler::Drawn {
     LampTree::Reaching lamp;
     Rgb lit;  // over its chance
   };
-  std::vector<Passed> passed;              // rays that did, those of the pilot first
-  std::size_t piloted = 0;                 // of these
-  std::vector<std::uint32_t> left;         // that are asked on their own instead, ascending
+  std::vector<Passed> passed;       // rays that did, those of the pilot first
+  std::size_t piloted = 0;          // of these
+  std::vector<std::uint32_t> left;  // that are asked on their own instead, ascending
   bool matter = false;
   Tally pilot, tally;
 
@@ -338,8 +338,8 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   const double light = gray(result.E);
   for (const Asked& a : asked)
     if (a.tally.passed > 0)
-      result.lamps.push_back({a.lamp->id, refined(a, light, g, points),
-                              a.tally.mixed() ? static_cast<float>(a.tally.variance()) : 0.0f});
+      result.lamps.push_back(
+          {a.lamp->id, refined(a, light, g, points), a.tally.mixed() ? static_cast<float>(a.tally.variance()) : 0.0f});
   std::vector<LampLight> passed;
   for (const Drawn::Passed& p : std::span(drawn.passed).subspan(drawn.piloted))
     passed.push_back({lamps_.all()[p.lamp.lamp].id, p.lit, 0});

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/morton.hpp"
-#include "tracing/shadow_ray.hpp"
 #include "scene/nominal_scale.hpp"
+#include "tracing/shadow_ray.hpp"
 
 namespace deltalux::direct {
 

@@ -37,7 +37,7 @@ class LineMotion {
   hierarchy::LeafTable leaves_;
   lines::LeafLight light_;
   std::vector<std::vector<direct::LampLight>> lamps_;  // by leaf: what it has of suns and lamps
-  std::vector<Rgb> direct_;   // by leaf: all of that, dimmed [W/m2]
+  std::vector<Rgb> direct_;                            // by leaf: all of that, dimmed [W/m2]
   Dimming dimming_;
   std::vector<float> worth_;  // by leaf: light that it may have [W]; 0: it does not wait
   std::size_t waiting_ = 0;

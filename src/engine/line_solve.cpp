@@ -75,8 +75,8 @@ void refineForParticles(LineSolve& x) {
   hierarchy::pull(s.elements);
   caustics::SurfaceSides shown(2 * s.scene.primitives.size(), false);
   if (s.settings.causticTextures)
-    shown = caustics::sidesWithTextures(s.scene, s.elements, particles::impacts(s.particles, s.elements, s.scene, x.nominal),
-                                        s.settings.error);
+    shown = caustics::sidesWithTextures(
+        s.scene, s.elements, particles::impacts(s.particles, s.elements, s.scene, x.nominal), s.settings.error);
   const std::size_t before = s.elements.size();
   particles::subdivideForParticles(s.elements, s.scene, s.particles, shown);
   std::vector<hierarchy::ElementId> parts;

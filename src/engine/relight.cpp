@@ -23,9 +23,7 @@ LampsOfLeaves lampsOf(const PatchSamples& samples, std::span<const DimLeaf> dimL
 
 Dimming Dimming::none(const Scene& scene) { return {std::vector<Rgb>(scene.lights.size(), Rgb(1.0f)), Rgb(1.0f)}; }
 
-Dimming Dimming::of(const Scene& scene, const direct::Skies& skies) {
-  return {scene::dimming(scene), skies.dimming()};
-}
+Dimming Dimming::of(const Scene& scene, const direct::Skies& skies) { return {scene::dimming(scene), skies.dimming()}; }
 
 void relight(Solution& s, lines::Exchange& exchange, const LampsOfLeaves& lamps, const KnownSky& sky,
              const Dimming& dimming, double converged) {

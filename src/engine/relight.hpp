@@ -1,6 +1,6 @@
 #pragma once
-// Light of the leaves over the lines there are: what lamps and skies bring, as they are dimmed, and particles, handed on
-// until it no longer changes. No ray is traced.
+// Light of the leaves over the lines there are: what lamps and skies bring, as they are dimmed, and particles, handed
+// on until it no longer changes. No ray is traced.
 #include "solution/solution.hpp"
 
 namespace deltalux::engine {

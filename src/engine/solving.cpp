@@ -311,13 +311,20 @@ EnergyLedger Engine::State::balance() {
   return engine::energyBalance(s, *transfer, unsettled);
 }
 
-void Engine::State::count() {
+void Engine::State::countLight() {
   Solution& s = *solution;
   if (finished && !updated) s.report.energy = balance();
   if (finished && updated) {
     if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
     s.report.energy = {engine::emittedPower(s, *transfer), {}, {}, {}};
   }
+  s.report.memory.peakRss = peakResidentBytes();
+  counted = true;
+}
+
+void Engine::State::count() {
+  Solution& s = *solution;
+  countLight();
   WorkCounts& c = s.report.counts;
   c.elements = s.elements.size();
   c.leafElements = 0;
@@ -329,8 +336,6 @@ void Engine::State::count() {
   s.report.memory.elements = s.elements.memoryBytes();
   s.report.memory.links = s.links.memoryBytes() + s.transfers.memoryBytes();
   s.report.memory.octree = tracing ? tracing->watchBytes() : 0;
-  s.report.memory.peakRss = peakResidentBytes();
-  counted = true;
 }
 
 }  // namespace deltalux

@@ -109,6 +109,8 @@ struct Engine::State {
   bool refineByNewLight(Progress* progress);
   /// Sums that take a walk over everything, for who looks at the report.
   void count();
+  /// Those of them that dimming changes.
+  void countLight();
   EnergyLedger balance();
   radiosity::LeafTransferSettings leafSettings() const {
     radiosity::LeafTransferSettings settings;

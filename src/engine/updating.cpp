@@ -137,7 +137,7 @@ void Engine::State::relightOverLines(const engine::SceneUpdate& edits) {
   s.report.times = {};
   s.report.times.gather = time.seconds();
   followTextures();
-  count();
+  countLight();
 }
 
 void Engine::State::recall(const engine::SceneUpdate& edits) {
@@ -165,8 +165,9 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
   engine::KnownSolve::Lights lights;
   const std::vector<Rgb> nominal = scene::nominalScales(s.scene);
   lights.stay = edits.movedLights.empty() && !lampMoves &&
-                std::ranges::equal(nominal, before->nominal, {}, [](const Rgb& scale) { return isBlack(scale); },
-                                   [](const Rgb& scale) { return isBlack(scale); });
+                std::ranges::equal(
+                    nominal, before->nominal, {}, [](const Rgb& scale) { return isBlack(scale); },
+                    [](const Rgb& scale) { return isBlack(scale); });
   lights.same = lights.stay && nominal == before->nominal;
   known.emplace(std::move(*before), s, change::MovedSpace(s.scene, edits.moved), lights);
 }

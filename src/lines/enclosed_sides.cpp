@@ -7,9 +7,9 @@
 #include "hierarchy/leaf_sequence.hpp"
 #include "lines/tuning.hpp"
 #include "scene/light_sampling.hpp"
+#include "scene/nominal_scale.hpp"
 #include "scene/stops_light.hpp"
 #include "tracing/shadow_ray.hpp"
-#include "scene/nominal_scale.hpp"
 
 namespace deltalux::lines {
 

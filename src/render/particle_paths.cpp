@@ -6,8 +6,8 @@
 
 #include "base/parallel.hpp"
 #include "particles/impact_light.hpp"
-#include "solution/solution.hpp"
 #include "scene/nominal_scale.hpp"
+#include "solution/solution.hpp"
 
 namespace deltalux::rendering {
 

@@ -7,6 +7,7 @@
 
 #include "base/random.hpp"
 #include "direct/lamps.hpp"
+#include "scene/nominal_scale.hpp"
 #include "support/rooms.hpp"
 
 namespace deltalux {
@@ -68,7 +69,7 @@ std::vector<double> potentials(const direct::Lamps& lamps, const hierarchy::Elem
 
 TEST(LampTree, WhatIsCutOffBringsNoMoreThanItsBound) {
   const Scene scene = lampsOfAllKinds(120);
-  const direct::Lamps lamps(scene);
+  const direct::Lamps lamps(scene, scene::scalesOf(scene));
   ASSERT_EQ(lamps.all().size(), 120u);
   Rng random(1);
   LampTree::Cut cut;
@@ -91,7 +92,7 @@ TEST(LampTree, WhatIsCutOffBringsNoMoreThanItsBound) {
 
 TEST(LampTree, ReachesAllThatMayShine) {
   const Scene scene = lampsOfAllKinds(120);
-  const direct::Lamps lamps(scene);
+  const direct::Lamps lamps(scene, scene::scalesOf(scene));
   Rng random(2);
   for (int i = 0; i < 400; ++i) {
     const hierarchy::ElementGeometry g = patchOf(random);
@@ -103,7 +104,7 @@ TEST(LampTree, ReachesAllThatMayShine) {
 
 TEST(LampTree, DrawsLampsByTheChanceItSays) {
   const Scene scene = lampsOfAllKinds(60);
-  const direct::Lamps lamps(scene);
+  const direct::Lamps lamps(scene, scene::scalesOf(scene));
   constexpr int kDraws = 20000;
   Rng random(3);
   LampTree::Cut cut;
@@ -132,7 +133,7 @@ TEST(LampTree, LooksAtFewOfManyLamps) {
   Scene scene;
   for (int i = 0; i < 40; ++i)
     for (int j = 0; j < 40; ++j) addLight(scene, PointLight{Vec3(10 * i, 10 * j, 3), Rgb(1.0f)});
-  const direct::Lamps lamps(scene);
+  const direct::Lamps lamps(scene, scene::scalesOf(scene));
   hierarchy::ElementGeometry g;
   g.center = Vec3f(201, 201, 0), g.normal = Vec3f(0, 0, 1), g.normalCone = 1, g.radius = 0.1f;
   g.lower = g.center - g.radius, g.upper = g.center + g.radius;

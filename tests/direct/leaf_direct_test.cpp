@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hierarchy/build.hpp"
+#include "scene/nominal_scale.hpp"
 #include "support/rooms.hpp"
 
 namespace deltalux {
@@ -18,7 +19,7 @@ struct Lit {
     addAreaLights(scene);
     tracer = tracing::makeEmbreeTracer(scene);
     elements = hierarchy::buildElements(scene, hierarchy::surfaceSides(scene));
-    lamps.emplace(scene);
+    lamps.emplace(scene, scene::scalesOf(scene));
   }
   direct::LeafDirect front(PrimitiveId p, const direct::LampSight& above = {}) const {
     const direct::DirectSampler sampler(elements, scene, *tracer, *lamps, 0.05);

@@ -7,6 +7,7 @@
 
 #include "engine/motion.hpp"
 #include "particles/transfer.hpp"
+#include "scene/nominal_scale.hpp"
 #include "support/solved.hpp"
 #include "support/update_checks.hpp"
 
@@ -43,7 +44,7 @@ void expectEachPathOnce(const Solution& s, const std::vector<Rgb>& B, double tol
   hierarchy::Elements elements = s.elements;
   ASSERT_EQ(B.size(), elements.size());
   for (std::size_t i = 0; i < B.size(); ++i) elements.radiometry[i].B = B[i];
-  particles::ParticleTransfer(s.particles, elements, s.scene).apply(elements, s.scene);
+  particles::ParticleTransfer(s.particles, elements, s.scene).apply(elements, scene::scalesOf(s.scene));
   double sum = 0, difference = 0;
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (elements.topology[i].childCount > 0) continue;

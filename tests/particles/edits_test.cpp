@@ -12,6 +12,7 @@
 #include "particles/particle_tracing.hpp"
 #include "particles/segment_box.hpp"
 #include "particles/transfer.hpp"
+#include "scene/nominal_scale.hpp"
 #include "support/rooms.hpp"
 
 namespace deltalux {
@@ -215,7 +216,7 @@ TEST(ParticleEdits, FromParticlesAlone) {
 }
 
 std::vector<Rgb> irradiances(const ParticleTransfer& transfer, hierarchy::Elements& elements, const Scene& scene) {
-  transfer.apply(elements, scene);
+  transfer.apply(elements, scene::scalesOf(scene));
   std::vector<Rgb> E;
   for (const hierarchy::ElementLight& l : elements.radiometry) E.push_back(l.particle);
   return E;
@@ -247,7 +248,7 @@ TEST(ParticleEdits, TransferFollows) {
     std::vector<Rgb> B;
     for (const hierarchy::ElementLight& l : named.radiometry) B.push_back(l.B);
     std::vector<char> marks(named.size(), 0);
-    transfer.apply(surfaces, named, {B, w.scene}, 1e-5f, marks);
+    transfer.apply(surfaces, named, {B, scene::scalesOf(w.scene)}, 1e-5f, marks);
     const std::vector<Rgb> E = irradiances(transfer, elements, w.scene);
     const std::vector<Rgb> fresh = irradiances(ParticleTransfer(w.particles, elements, w.scene), elements, w.scene);
     EXPECT_NE(E, before);

@@ -11,6 +11,7 @@
 #include "particles/count_paths.hpp"
 #include "particles/trace.hpp"
 #include "particles/transfer.hpp"
+#include "scene/nominal_scale.hpp"
 #include "support/rooms.hpp"
 
 namespace deltalux {
@@ -132,7 +133,7 @@ TEST(Particles, DepositKeepsTheirFlux) {
   hierarchy::Elements elements = hierarchy::buildElements(scene, hierarchy::surfaceSides(scene));
   for (std::size_t i = 0; i < elements.size(); ++i) elements.radiometry[i].B = Rgb(2.0f);
   const ParticleTransfer transfer(p, elements, scene);
-  transfer.apply(elements, scene);
+  transfer.apply(elements, scene::scalesOf(scene));
   RgbSum deposited(0.0), landed(0.0);
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (elements.isReceivingLeaf(hierarchy::ElementId(i)))

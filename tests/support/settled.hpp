@@ -6,6 +6,7 @@
 
 #include "hierarchy/pull.hpp"
 #include "particles/transfer.hpp"
+#include "scene/nominal_scale.hpp"
 #include "support/solved.hpp"
 
 namespace deltalux::test {
@@ -18,7 +19,7 @@ inline hierarchy::Elements settledOverAll(const Solution& s) {
   double first = 0;
   for (int i = 0; i < 200; ++i) {
     s.transfers.gatherIndirect(elements);
-    particles.apply(elements, s.scene);
+    particles.apply(elements, scene::scalesOf(s.scene));
     const double change = gray(hierarchy::pull(elements));
     first = std::max(first, change);
     if (change <= 1e-6 * first) break;
