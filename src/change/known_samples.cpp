@@ -57,8 +57,8 @@ bool mayShadow(const MovedSpace& space, const direct::Lamp& lamp, const BoxF& fr
                        static_cast<float>(std::tan(lamp.halfAngle)));
 }
 
-bool holdShadowRays(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::Elements& elements,
-                    hierarchy::ElementId patch) {
+bool holdAllShadowRays(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::Elements& elements,
+                       hierarchy::ElementId patch) {
   const hierarchy::ElementGeometry& g = elements.shape(patch);
   const BoxF box = boxOf(g);
   if (space.moved(elements.domain[patch.index()].primitive) || space.touches(box)) return false;
@@ -69,6 +69,30 @@ bool holdShadowRays(const MovedSpace& space, const direct::Lamps& lamps, const h
   bool holds = true;
   lamps.tree().reaching(g, [&](std::uint32_t i, double) { holds = holds && !mayShadow(space, lamps.all()[i], box); });
   return holds;
+}
+
+bool holdShadowRays(const MovedSpace& space, const direct::DirectSampler& sampler, const hierarchy::Elements& elements,
+                    hierarchy::ElementId patch, const direct::KnownPoints& known, const direct::LampSight& above,
+                    const direct::LeafDirect& before) {
+  if (space.moved(elements.domain[patch.index()].primitive)) return false;
+  const hierarchy::ElementGeometry& g = elements.shape(patch);
+  const BoxF box = boxOf(g);
+  const direct::Lamps& lamps = sampler.lamps();
+  const auto stops = [&](const tracing::Ray& ray) { return space.crosses(at(ray.origin), ray.direction, ray.tFar); };
+  bool holds = true, drawn = false;
+  const auto ask = [&](std::uint32_t i, double potential) {
+    const direct::Lamp& lamp = lamps.all()[i];
+    if (!holds || !(potential > 0) || !mayShadow(space, lamp, box)) return;
+    const auto asked = std::ranges::find_if(
+        before.lamps, [&](const direct::LampLight& l) { return l.lamp == lamp.id && l.points > 0; });
+    if (asked == before.lamps.end())
+      drawn = true;
+    else
+      holds = !sampler.anyRay(patch, known, *asked, stops);
+  };
+  for (const std::uint32_t i : lamps.suns()) ask(i, direct::potential(lamps.all()[i], g));
+  lamps.tree().reaching(g, ask);
+  return holds && !(drawn && before.drawn > 0 && sampler.anyDrawnRay(patch, known, above, before.drawn, stops));
 }
 
 bool holdSkyRays(const MovedSpace& space, const hierarchy::Elements& elements, hierarchy::ElementId patch,

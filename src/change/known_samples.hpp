@@ -2,7 +2,7 @@
 // What samples from before an edit are still worth: all that they have found is what they would find now, where none of
 // their rays starts or passes where something has moved.
 #include "change/moved_space.hpp"
-#include "direct/lamps.hpp"
+#include "direct/leaf_direct.hpp"
 #include "lines/enclosed_sides.hpp"
 #include "lines/first_lines.hpp"
 
@@ -15,8 +15,12 @@ bool holdFirstLines(const MovedSpace&, const hierarchy::Elements&, const Scene&,
 bool holdWalks(const MovedSpace&, const lines::LightWalks&);
 /// Whether a shadow ray from anywhere in a box to a sun or lamp may pass where something has moved.
 bool mayShadow(const MovedSpace&, const direct::Lamp&, const BoxF& from);
-/// Whether shadow rays of a patch to suns and lamps are, all of which shine as they did.
-bool holdShadowRays(const MovedSpace&, const direct::Lamps&, const hierarchy::Elements&, hierarchy::ElementId patch);
+/// Whether all shadow rays that points of a patch may shoot at suns and lamps are, which all count for what they did.
+bool holdAllShadowRays(const MovedSpace&, const direct::Lamps&, const hierarchy::Elements&, hierarchy::ElementId patch);
+/// The same of those that its light has come about by; `above`: what was known of lamps then.
+bool holdShadowRays(const MovedSpace&, const direct::DirectSampler&, const hierarchy::Elements&,
+                    hierarchy::ElementId patch, const direct::KnownPoints&, const direct::LampSight& above,
+                    const direct::LeafDirect&);
 
 /// Whether shadow rays of a patch to the sky are, by their codes in the order of its sequence.
 bool holdSkyRays(const MovedSpace&, const hierarchy::Elements&, hierarchy::ElementId patch,

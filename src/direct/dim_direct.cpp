@@ -35,7 +35,7 @@ DimDirect dimDirect(const hierarchy::Elements& elements, const Scene& scene, con
       ++result.rays;
       const Rgb E = light.E * tracer.transmittance(light.ray(x)) / static_cast<float>(chance);
       if (isBlack(E)) return;
-      passed.push_back({id, E, 0});
+      passed.push_back({id, E, 0, 0});
       found += gray(E);
     };
     for (const std::uint32_t i : lamps.suns())

@@ -27,7 +27,7 @@ void addDrawn(std::vector<LampLight>& to, std::vector<LampLight> found, int samp
   for (std::size_t begin = 0, end = 0; begin < found.size(); begin = end) {
     RgbSum sum(0.0);
     for (end = begin; end < found.size() && found[end].lamp == found[begin].lamp; ++end) sum += RgbSum(found[end].E);
-    to.push_back({found[begin].lamp, Rgb(sum / double(samples)), static_cast<float>(variance * gray(sum) / all)});
+    to.push_back({found[begin].lamp, Rgb(sum / double(samples)), static_cast<float>(variance * gray(sum) / all), 0});
   }
 }
 

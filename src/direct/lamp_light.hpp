@@ -10,8 +10,9 @@ namespace deltalux::direct {
 /// Of one lamp or sun, at its nominal scale.
 struct LampLight {
   LightId lamp;
-  Rgb E{0.0f};         // [W/m2]
-  float variance = 0;  // of its mean, gray
+  Rgb E{0.0f};               // [W/m2]
+  float variance = 0;        // of its mean, gray
+  std::uint32_t points = 0;  // of the patch, the first ones, that have asked it by rays of their own
 };
 
 /// Of all of them, each times its dimming.

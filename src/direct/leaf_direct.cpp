@@ -47,6 +47,11 @@ struct DirectSampler::Points {
     return true;
   }
 
+  /// By which a place on a lamp is chosen.
+  ScrambledSobol numbersOf(LightId lamp) const {
+    return ScrambledSobol(combineKeys(combineKeys(sequence.key(), kLampKey), lamp.value));
+  }
+
   hierarchy::LeafSequence sequence;
   KnownPoints known;
   std::array<hierarchy::PatchPoint, kMostPoints> at;
@@ -92,6 +97,7 @@ struct DirectSampler::Asked {
   bool missed;  // by the patch above
   Tally pilot, tally;
 
+  std::uint32_t points() const { return static_cast<std::uint32_t>(tally.first + tally.samples); }
   /// What it would bring, where no ray has seen it.
   double unseen() const {
     return pilot.passed + tally.passed > 0 ? 0.0 : gray(pilot.open + tally.open) / (pilot.samples + tally.samples);
@@ -143,6 +149,22 @@ double deviationOf(const std::array<double, 4>& values) {
   return std::sqrt(between);
 }
 
+/// The numbers by which points choose a lamp, and a place on it.
+struct Draws {
+  explicit Draws(std::uint64_t pointsKey)
+      : key(combineKeys(pointsKey, kDrawKey)), offset(toUnit(key)), numbers(combineKeys(key, 1)) {}
+  /// By the golden ratio [Roberts18], which has nothing in common with the places of the points.
+  double choice(std::size_t point) const {
+    constexpr double kGolden = 0.61803398874989485;
+    const double u = offset + kGolden * static_cast<double>(point);
+    return u - std::floor(u);
+  }
+
+  std::uint64_t key;
+  double offset;
+  ScrambledSobol numbers;
+};
+
 /// Whether a lamp is so near that its light varies much over the patch.
 bool nearBy(const Lamp& lamp, const hierarchy::ElementGeometry& g) {
   const Vec3f center = 0.5f * (lamp.lower + lamp.upper), half = 0.5f * (lamp.upper - lamp.lower);
@@ -152,7 +174,7 @@ bool nearBy(const Lamp& lamp, const hierarchy::ElementGeometry& g) {
 }  // namespace
 
 void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, Tally& t) const {
-  const ScrambledSobol numbers(combineKeys(combineKeys(points.sequence.key(), kLampKey), lamp.id.value));
+  const ScrambledSobol numbers = points.numbersOf(lamp.id);
   for (; t.samples < upTo && points.have(t.first + t.samples + 1); ++t.samples) {
     const auto k = static_cast<std::size_t>(t.first + t.samples);
     const hierarchy::PatchPoint& x = points.at[k];
@@ -164,22 +186,50 @@ void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, Tally& t) 
   }
 }
 
+LampTree::Cut DirectSampler::cutFor(const hierarchy::ElementGeometry& g, const LampSight& above) const {
+  LampTree::Cut cut;
+  lamps_.tree().cut(g, above.none() ? tuning::kFirstShare : tuning::kAskedShare, tuning::kLampsAsked, above.seen, cut);
+  return cut;
+}
+
+bool DirectSampler::anyRay(hierarchy::ElementId patch, const KnownPoints& known, const LampLight& asked,
+                           const Stops& stops) const {
+  Points points(elements_, scene_, patch, known);
+  const ScrambledSobol numbers = points.numbersOf(asked.lamp);
+  for (std::size_t k = 0; k < asked.points && points.have(static_cast<int>(k) + 1); ++k) {
+    const OpenLight light = openLight(lamps_.sampler(), asked.lamp, points.at[k], numbers(points.number[k]));
+    if (!isBlack(light.E) && stops(light.ray(points.at[k]))) return true;
+  }
+  return false;
+}
+
+bool DirectSampler::anyDrawnRay(hierarchy::ElementId patch, const KnownPoints& known, const LampSight& above,
+                                std::uint32_t count, const Stops& stops) const {
+  const hierarchy::ElementGeometry& g = elements_.shape(patch);
+  const LampTree::Cut cut = cutFor(g, above);
+  Points points(elements_, scene_, patch, known);
+  const Draws draws(points.sequence.key());
+  for (std::size_t k = 0; k < count && points.have(static_cast<int>(k) + 1); ++k) {
+    const auto choice = lamps_.tree().draw(cut, g, draws.choice(k));
+    if (!choice) continue;
+    const LightId id = lamps_.all()[choice->lamp].id;
+    const OpenLight light = openLight(lamps_.sampler(), id, points.at[k], draws.numbers(points.number[k]));
+    if (!isBlack(light.E) && stops(light.ray(points.at[k]))) return true;
+  }
+  return false;
+}
+
 /// A lamp a ray, over its chance.
 void DirectSampler::shootDrawn(Points& points, int upTo, Drawn& drawn, Tally& t) const {
-  const std::uint64_t key = combineKeys(points.sequence.key(), kDrawKey);
-  // By the golden ratio [Roberts18], which has nothing in common with the places of the points.
-  constexpr double kGolden = 0.61803398874989485;
-  const double offset = toUnit(key);
-  const ScrambledSobol numbers(combineKeys(key, 1));
+  const Draws draws(points.sequence.key());
   for (; t.samples < upTo && points.have(t.first + t.samples + 1); ++t.samples) {
     const auto k = static_cast<std::size_t>(t.first + t.samples);
     const hierarchy::PatchPoint& x = points.at[k];
     t.counts[points.quadrant[k]] += 1;
-    const double u = offset + kGolden * static_cast<double>(k);
-    const auto choice = lamps_.tree().draw(drawn.cut, drawn.patch, u - std::floor(u));
+    const auto choice = lamps_.tree().draw(drawn.cut, drawn.patch, draws.choice(k));
     if (!choice || std::binary_search(drawn.left.begin(), drawn.left.end(), choice->lamp)) continue;
     const LightId id = lamps_.all()[choice->lamp].id;
-    const OpenLight light = openLight(lamps_.sampler(), id, x, numbers(points.number[k]));
+    const OpenLight light = openLight(lamps_.sampler(), id, x, draws.numbers(points.number[k]));
     const Rgb open = light.E / static_cast<float>(choice->chance);
     if (isBlack(open)) continue;
     const Rgb lit = open * tracer_.transmittance(light.ray(x));
@@ -189,7 +239,7 @@ void DirectSampler::shootDrawn(Points& points, int upTo, Drawn& drawn, Tally& t)
 }
 
 Rgb DirectSampler::unshadowed(const Lamp& lamp, Points& points, int wanted) const {
-  const ScrambledSobol numbers(combineKeys(combineKeys(points.sequence.key(), kLampKey), lamp.id.value));
+  const ScrambledSobol numbers = points.numbersOf(lamp.id);
   RgbSum sum(0.0);
   points.have(wanted);
   const int n = std::min(points.count, wanted);
@@ -294,9 +344,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   Points points(elements_, scene_, patch, known);
   result.tooWideForBeam = lamps_.tooWideForBeam(g);
   if (!points.have(1)) return result;
-  Drawn drawn{g, {}, {}, 0, {}, false, {}, {}};
-  lamps_.tree().cut(g, above.none() ? tuning::kFirstShare : tuning::kAskedShare, tuning::kLampsAsked, above.seen,
-                    drawn.cut);
+  Drawn drawn{g, cutFor(g, above), {}, 0, {}, false, {}, {}};
   std::vector<Asked> asked;
   asked.reserve(lamps_.suns().size() + drawn.cut.lamps.size() + tuning::kDrawnPilots);
   for (const std::uint32_t i : lamps_.suns())
@@ -328,7 +376,11 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   result.variation = static_cast<float>(deviationOf(quadrants));
   result.deviation = static_cast<float>(std::sqrt(variance));
   const Choice choice = splits ? splits(result) : Choice::Whole;
-  if (choice == Choice::Split) return result;
+  result.drawn = static_cast<std::uint32_t>(drawn.tally.first + drawn.tally.samples);
+  if (choice == Choice::Split) {
+    for (const Asked& a : asked) result.lamps.push_back({a.lamp->id, Rgb(0.0f), 0, a.points()});
+    return result;
+  }
   if (choice == Choice::Keep) {
     double rest = found;  // and what unseen ones would bring
     for (const Asked& a : asked) rest += a.unseen();
@@ -336,13 +388,16 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   }
 
   const double light = gray(result.E);
-  for (const Asked& a : asked)
-    if (a.tally.passed > 0)
-      result.lamps.push_back(
-          {a.lamp->id, refined(a, light, g, points), a.tally.mixed() ? static_cast<float>(a.tally.variance()) : 0.0f});
+  for (const Asked& a : asked) {
+    result.lamps.push_back({a.lamp->id, Rgb(0.0f), 0, a.points()});
+    if (a.tally.passed == 0) continue;
+    LampLight& lamp = result.lamps.back();
+    lamp.E = refined(a, light, g, points);
+    if (a.tally.mixed()) lamp.variance = static_cast<float>(a.tally.variance());
+  }
   std::vector<LampLight> passed;
   for (const Drawn::Passed& p : std::span(drawn.passed).subspan(drawn.piloted))
-    passed.push_back({lamps_.all()[p.lamp.lamp].id, p.lit, 0});
+    passed.push_back({lamps_.all()[p.lamp.lamp].id, p.lit, 0, 0});
   addDrawn(result.lamps, std::move(passed), drawn.tally.samples, drawn.tally.variance());
   result.lamps.shrink_to_fit();
   RgbSum E(0.0);

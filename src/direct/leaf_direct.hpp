@@ -40,7 +40,8 @@ struct LeafDirect {
   bool tooWideForBeam = false;  // a narrow beam would fall between samples
   std::uint32_t rays = 0;
   LampSight sight;
-  std::vector<LampLight> lamps;  // of what is not split: what E comes from
+  std::uint32_t drawn = 0;       // points, the first ones, that have asked a lamp that was drawn
+  std::vector<LampLight> lamps;  // that were asked, or found; of what is not split: what E comes from
 };
 
 class DirectSampler {
@@ -58,6 +59,14 @@ class DirectSampler {
   LeafDirect at(hierarchy::ElementId patch, const KnownPoints&, const LampSight& above = {},
                 const Splits& splits = {}) const;
 
+  const Lamps& lamps() const { return lamps_; }
+  using Stops = std::function<bool(const tracing::Ray&)>;
+  /// Whether something stops one of the shadow rays that such points of a patch shoot at a lamp.
+  bool anyRay(hierarchy::ElementId patch, const KnownPoints&, const LampLight& asked, const Stops&) const;
+  /// The same of those at lamps that are drawn.
+  bool anyDrawnRay(hierarchy::ElementId patch, const KnownPoints&, const LampSight& above, std::uint32_t points,
+                   const Stops&) const;
+
  private:
   struct Points;
   struct Tally;
@@ -65,6 +74,7 @@ class DirectSampler {
   struct Drawn;
   void shoot(const Lamp&, Points&, int upTo, Tally&) const;
   void shootDrawn(Points&, int upTo, Drawn&, Tally&) const;
+  LampTree::Cut cutFor(const hierarchy::ElementGeometry&, const LampSight& above) const;
   void ask(const Lamp&, double potential, const LampSight& above, Points&, std::vector<Asked>&) const;
   void finish(double found, Points&, Asked&) const;
   std::uint32_t askAgain(double all, Points&, Asked&) const;

@@ -91,32 +91,36 @@ bool KnownSolve::takeScale(const hierarchy::Elements& elements, const Scene& sce
   return true;
 }
 
-std::uint32_t KnownSolve::findLit(const hierarchy::Elements& elements, const direct::Lamps& lamps,
-                                  hierarchy::ElementId e, const lines::LeafScale& scale) const {
+std::uint32_t KnownSolve::findLit(const hierarchy::Elements& elements, hierarchy::ElementId e,
+                                  const lines::LeafScale& scale) const {
   if (!lights_.same) return kNone;
   const std::uint32_t old = find(elements, e);
   if (old == kNone || old >= memory_.samples.direct.size()) return kNone;
   const lines::LeafScale& before = memory_.samples.scale[old];
-  if (before.covered != scale.covered || before.known != scale.known) return kNone;
-  return change::holdShadowRays(space_, lamps, elements, e) ? old : kNone;
+  return before.covered == scale.covered && before.known == scale.known ? old : kNone;
 }
 
-const direct::LeafDirect* KnownSolve::whole(const hierarchy::Elements& elements, const direct::Lamps& lamps,
+const direct::LeafDirect* KnownSolve::whole(const hierarchy::Elements& elements, const direct::DirectSampler& sampler,
                                             hierarchy::ElementId e, const lines::LeafScale& scale,
                                             const direct::LampSight& above) const {
-  const std::uint32_t old = findLit(elements, lamps, e, scale);
+  const std::uint32_t old = findLit(elements, e, scale);
   if (old == kNone) return nullptr;
   const WholeLight* whole = memory_.samples.whole[old].get();
-  return whole && sameSight(whole->above, above) ? &whole->light : nullptr;
+  if (!whole || !sameSight(whole->above, above)) return nullptr;
+  const bool holds =
+      change::holdShadowRays(space_, sampler, elements, e, {scale.covered, scale.known}, above, whole->light);
+  return holds ? &whole->light : nullptr;
 }
 
-KnownSolve::Evaluated KnownSolve::evaluated(const hierarchy::Elements& elements, const direct::Lamps& lamps,
+KnownSolve::Evaluated KnownSolve::evaluated(const hierarchy::Elements& elements, const direct::DirectSampler& sampler,
                                             hierarchy::ElementId e, const lines::LeafScale& scale,
                                             const direct::LampSight& above) const {
-  const std::uint32_t old = findLit(elements, lamps, e, scale);
+  const std::uint32_t old = findLit(elements, e, scale);
   if (old == kNone || !memory_.samples.evaluated[old] || !sameSight(memory_.samples.evaluated[old]->above, above))
     return {};
-  return {memory_.samples.evaluated[old].get(), &memory_.samples.direct[old]};
+  const direct::LeafDirect& light = memory_.samples.direct[old];
+  if (!change::holdShadowRays(space_, sampler, elements, e, {scale.covered, scale.known}, above, light)) return {};
+  return {memory_.samples.evaluated[old].get(), &light};
 }
 
 const direct::DimDirect* KnownSolve::dim(const hierarchy::Elements& elements, const direct::Lamps& lamps,
@@ -125,7 +129,7 @@ const direct::DimDirect* KnownSolve::dim(const hierarchy::Elements& elements, co
   if (old == kNone) return nullptr;
   const auto at = std::ranges::lower_bound(memory_.dim, hierarchy::ElementId(old), {}, &DimLeaf::leaf);
   if (at == memory_.dim.end() || at->leaf != hierarchy::ElementId(old) || at->points != points) return nullptr;
-  return change::holdShadowRays(space_, lamps, elements, leaf) ? &at->light : nullptr;
+  return change::holdAllShadowRays(space_, lamps, elements, leaf) ? &at->light : nullptr;
 }
 
 hierarchy::KnownParts* KnownSolve::parts(const hierarchy::Elements& elements,

@@ -28,15 +28,15 @@ class KnownSolve {
   /// Takes what is known of a patch's surroundings; false where that may have changed.
   bool takeScale(const hierarchy::Elements&, const Scene&, hierarchy::ElementId, PatchSamples& to);
   /// Direct light without a choice, likewise; nullptr.
-  const direct::LeafDirect* whole(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId,
+  const direct::LeafDirect* whole(const hierarchy::Elements&, const direct::DirectSampler&, hierarchy::ElementId,
                                   const lines::LeafScale&, const direct::LampSight& above) const;
   struct Evaluated {
     const EvaluatedLight* how = nullptr;
     const direct::LeafDirect* light = nullptr;
   };
   /// With one.
-  Evaluated evaluated(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId, const lines::LeafScale&,
-                      const direct::LampSight& above) const;
+  Evaluated evaluated(const hierarchy::Elements&, const direct::DirectSampler&, hierarchy::ElementId,
+                      const lines::LeafScale&, const direct::LampSight& above) const;
   /// Direct light from those points of a leaf, likewise; nullptr.
   const direct::DimDirect* dim(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId leaf,
                                std::uint64_t points) const;
@@ -57,8 +57,8 @@ class KnownSolve {
   /// By leaf: the number that it had where it stands, or kNone.
   std::vector<std::uint32_t> leavesBefore(const hierarchy::Elements&, const hierarchy::LeafTable&) const;
   std::uint32_t findPart(const hierarchy::Elements&, hierarchy::ElementId) const;
-  std::uint32_t findLit(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId,
-                        const lines::LeafScale&) const;
+  /// The same where its light was asked for from the same points.
+  std::uint32_t findLit(const hierarchy::Elements&, hierarchy::ElementId, const lines::LeafScale&) const;
 
   static constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone;
   SolveMemory memory_;

@@ -49,7 +49,7 @@ struct Samplers {
     const lines::LeafScale& scale = x.samples.scale[e];
     const direct::LampSight above = sightAbove(x.samples, x.s.elements, patch);
     x.samples.evaluated[e].reset();
-    const direct::LeafDirect* before = x.known ? x.known->whole(x.s.elements, x.lamps, patch, scale, above) : nullptr;
+    const direct::LeafDirect* before = x.known ? x.known->whole(x.s.elements, direct, patch, scale, above) : nullptr;
     x.samples.direct[e] = before ? *before : direct.at(patch, {scale.covered, scale.known}, above);
     x.samples.whole[e] = std::make_unique<WholeLight>(WholeLight{x.samples.direct[e], above});
     return before ? 0 : x.samples.direct[e].rays;
@@ -62,12 +62,13 @@ struct Samplers {
     auto evaluated =
         std::make_unique<EvaluatedLight>(EvaluatedLight{{}, sightAbove(x.samples, x.s.elements, patch), Whole});
     const KnownSolve::Evaluated before =
-        x.known ? x.known->evaluated(x.s.elements, x.lamps, patch, scale, evaluated->above) : KnownSolve::Evaluated{};
+        x.known ? x.known->evaluated(x.s.elements, direct, patch, scale, evaluated->above) : KnownSolve::Evaluated{};
     std::uint64_t rays = 0;
     const auto choice = before.how ? choose(before.how->found) : Whole;
     if (before.how && (choice == Split || choice == before.how->choice)) {
       *evaluated = *before.how, evaluated->choice = choice;
-      x.samples.direct[e] = choice == Split ? before.how->found : *before.light;
+      x.samples.direct[e] = choice == before.how->choice ? *before.light : before.how->found;
+      x.samples.direct[e].lamps = before.light->lamps, x.samples.direct[e].drawn = before.light->drawn;  // asked so far
     } else {
       x.samples.direct[e] =
           direct.at(patch, {scale.covered, scale.known}, evaluated->above, [&](const direct::LeafDirect& found) {

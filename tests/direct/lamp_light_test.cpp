@@ -10,7 +10,7 @@ namespace {
 using direct::LampLight;
 
 TEST(LampLight, DimmedIsTheWeightedSum) {
-  const std::vector<LampLight> lamps{{LightId(0), Rgb(1, 2, 3), 0.25f}, {LightId(2), Rgb(4.0f), 1.0f}};
+  const std::vector<LampLight> lamps{{LightId(0), Rgb(1, 2, 3), 0.25f, 0}, {LightId(2), Rgb(4.0f), 1.0f, 0}};
   const std::vector<Rgb> dimming{Rgb(0.5f, 0.25f, 1), Rgb(7.0f), Rgb(0.5f)};
   const direct::DimmedLight sum = direct::dimmed(lamps, dimming);
   EXPECT_EQ(sum.E, Rgb(2.5f, 2.5f, 5));
@@ -19,15 +19,16 @@ TEST(LampLight, DimmedIsTheWeightedSum) {
 }
 
 TEST(LampLight, OffBringsNothing) {
-  const std::vector<LampLight> lamps{{LightId(0), Rgb(1.0f), 0.25f}};
+  const std::vector<LampLight> lamps{{LightId(0), Rgb(1.0f), 0.25f, 0}};
   const std::vector<Rgb> off{Rgb(0.0f)};
   EXPECT_EQ(direct::dimmed(lamps, off).E, Rgb(0.0f));
   EXPECT_EQ(direct::dimmed(lamps, off).deviation, 0.0f);
 }
 
 TEST(LampLight, DrawnIsTheMeanOfEachLamp) {
-  std::vector<LampLight> all{{LightId(9), Rgb(1.0f), 0}};
-  direct::addDrawn(all, {{LightId(4), Rgb(2.0f), 0}, {LightId(1), Rgb(1.0f), 0}, {LightId(4), Rgb(5.0f), 0}}, 4, 0.8);
+  std::vector<LampLight> all{{LightId(9), Rgb(1.0f), 0, 0}};
+  direct::addDrawn(all, {{LightId(4), Rgb(2.0f), 0, 0}, {LightId(1), Rgb(1.0f), 0, 0}, {LightId(4), Rgb(5.0f), 0, 0}},
+                   4, 0.8);
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[1].lamp, LightId(1));
   EXPECT_EQ(all[1].E, Rgb(0.25f));
