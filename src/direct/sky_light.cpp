@@ -125,12 +125,20 @@ void Openness::setShares(std::size_t guide, const Counts& counts) {
 
 std::uint64_t skyKey(const Skies& skies, const Openness& openness, const SkyLeaf& s) {
   std::uint64_t key = combineKeys(combineKeys(skies.key(), openness.key(s.leaf)), s.lines);
+  const auto both = [](float a, float b) {
+    return std::uint64_t(std::bit_cast<std::uint32_t>(a)) << 32 | std::bit_cast<std::uint32_t>(b);
+  };
   for (const EscapedView& e : s.escaped) {
-    add(key, Rgb(e.direction)), add(key, e.weight);
-    key = combineKeys(key, std::bit_cast<std::uint32_t>(e.chance));
+    key = combineKeys(combineKeys(key, both(e.direction.x, e.direction.y)), both(e.direction.z, e.chance));
+    key = combineKeys(combineKeys(key, both(e.weight.r, e.weight.g)), both(e.weight.b, 0));
   }
-  for (const std::uint32_t point : s.points) key = combineKeys(key, point);
-  return key;
+  // In words of bits: points ascend, and nearly all are among the first.
+  std::uint64_t word = 0, bits = 0;
+  for (const std::uint32_t point : s.points) {
+    if (point / 64 != word) key = combineKeys(combineKeys(key, word), bits), word = point / 64, bits = 0;
+    bits |= std::uint64_t(1) << (point % 64);
+  }
+  return combineKeys(combineKeys(key, word), bits);
 }
 
 SkyAtLeaf skyLight(const Skies& skies, const Openness& openness, const hierarchy::Elements& elements,

@@ -7,6 +7,7 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "base/per_thread.hpp"
 #include "engine/line_solve.hpp"
 #include "engine/relight.hpp"
 #include "lines/line_counts.hpp"
@@ -44,19 +45,24 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
   sky.key.resize(leaves.size()), sky.rays.resize(leaves.size() * kEach);
   const direct::Openness open = skyOpenness(x.s.elements, leaves, traced.lines);
   const std::vector<std::uint32_t> first = lines::firstOf(traced.escaped, leaves.size());
+  struct Scratch {
+    std::vector<direct::EscapedView> escaped;
+    std::vector<std::uint32_t> points;
+  };
+  PerThread<Scratch> scratch;
   x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(leaves.size(), kSkyLeaves, [&](std::size_t i) {
     lines::LineCode* codes = sky.rays.data() + i * kEach;
     std::fill_n(codes, kEach, lines::LineCode{});
     const std::uint32_t count = traced.lines.countOf(i);
     if (count == traced.covered[i]) return std::uint64_t(0);
-    std::vector<direct::EscapedView> escaped;
+    auto& [escaped, points] = scratch.local();
+    escaped.clear(), points.clear();
     for (std::uint32_t k = first[i]; k < first[i + 1]; ++k) {
       const lines::EscapedLine& e = traced.escaped[k];
       escaped.push_back({e.direction, e.cosine, e.weight, e.chance});
     }
     // Where lines are so many that they would be their own guides, what they have found by chance would count less.
     const std::size_t rays = count < direct::tuning::kGuideLines ? kEach : 0;
-    std::vector<std::uint32_t> points;
     for (std::uint32_t k = 0; k < count && points.size() < rays; ++k)
       if (traced.lines.end[traced.lines.first[i] + k] != lines::kCovered) points.push_back(k);
     const direct::SkyLeaf leaf{static_cast<std::uint32_t>(i), leaves[i], count - traced.covered[i], escaped, points};

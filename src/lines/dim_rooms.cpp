@@ -44,13 +44,20 @@ constexpr auto kEscapedLines = [](const TracedLines& t) -> const auto& { return 
 /// Lines that lead out of the dark, by the leaf in the dark.
 std::vector<std::uint32_t> waysOut(const Lots& lots, std::span<const Place> place, bool skies) {
   std::vector<std::atomic<std::uint32_t>> ways(place.size());
-  const auto count = [&](std::uint32_t i, std::uint32_t j) {
-    if (place[i] == kDim && place[j] == kLit) ways[i].fetch_add(1, std::memory_order_relaxed);
-    if (place[j] == kDim && place[i] == kLit) ways[j].fetch_add(1, std::memory_order_relaxed);
+  const auto countEnd = [&](std::uint32_t, std::uint32_t j) {
+    if (place[j] == kDim) ways[j].fetch_add(1, std::memory_order_relaxed);
   };
-  parallelFor(place.size(), kRoomLeaves,
-              [&](std::size_t i) { lots.forEachLine(static_cast<std::uint32_t>(i), count); });
-  lots.forEachListed(kExceptions, [&](const ExceptionalLine& e) { count(e.leaf, e.end); });
+  parallelFor(place.size(), kRoomLeaves, [&](std::size_t i) {
+    if (place[i] == kLit) lots.forEachLine(static_cast<std::uint32_t>(i), countEnd);
+    if (place[i] != kDim) return;
+    std::uint32_t lit = 0;
+    lots.forEachLine(static_cast<std::uint32_t>(i), [&](std::uint32_t, std::uint32_t j) { lit += place[j] == kLit; });
+    ways[i].fetch_add(lit, std::memory_order_relaxed);
+  });
+  lots.forEachListed(kExceptions, [&](const ExceptionalLine& e) {
+    if (place[e.leaf] == kLit) countEnd(e.leaf, e.end);
+    if (place[e.leaf] == kDim && place[e.end] == kLit) ways[e.leaf].fetch_add(1, std::memory_order_relaxed);
+  });
   if (skies)
     lots.forEachListed(kEscapedLines, [&](const EscapedLine& e) {
       if (place[e.leaf] == kDim) ways[e.leaf].fetch_add(1, std::memory_order_relaxed);

@@ -14,6 +14,20 @@ namespace {
 constexpr std::size_t kLeaves = 512;  // of a task
 constexpr float kLeastEnd = 1e-6f;    // in place of a chance of 0
 constexpr std::uint32_t kMostCount = 0xffff;
+constexpr std::size_t kLanes = 8;
+
+template <class T>
+T sumOf(const std::array<T, kLanes>& lanes) {
+  return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) + ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
+}
+
+/// body(entry, lane) of the entries from `begin` to `end`.
+template <class Body>
+void inLanes(std::uint64_t begin, std::uint64_t end, const Body& body) {
+  for (; begin + kLanes <= end; begin += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) body(begin + lane, lane);
+  for (std::size_t lane = 0; begin < end; ++begin, ++lane) body(begin, lane);
+}
 
 struct RowEntry {
   std::uint32_t id;
@@ -223,10 +237,27 @@ void Exchange::forEachExchange(std::size_t i, const Visit& visit) const {
     if (!specials_[k].rough) visit(specials_[k].other, gray(specials_[k].x));
 }
 
+float Exchange::exchangeWith(std::size_t i, std::span<const float> value, std::span<const float> valueOverE) const {
+  std::array<float, kLanes> sum{};
+  const float m = m_[i];
+  const float *q = valueOverE.data(), *ms = m_.data();
+  const std::uint32_t* id = id_.data();
+  const std::uint16_t* count = count_.data();
+  inLanes(begin_[i], begin_[i + 1], [&](std::uint64_t k, std::size_t lane) {
+    sum[lane] += static_cast<float>(count[k]) * q[id[k]] / (m + ms[id[k]]);
+  });
+  float all = sumOf(sum) / e_[i];
+  for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k)
+    if (!specials_[k].rough) all += value[specials_[k].other] * gray(specials_[k].x);
+  return all;
+}
+
 /// What the symmetric part of a row shall sum to: the share of the leaf's own lines, where few of them escape; what
 /// lines of both ends say where many do.
 void Exchange::setTargets(const Lines& lines, std::span<const std::uint32_t> covered) {
   std::vector<float> rough(lines.leaves(), 0.0f), other(lines.leaves(), 0.0f), beyond(lines.leaves(), 0.0f);
+  std::vector<float> one(lines.leaves(), 1.0f), overE(lines.leaves());
+  for (std::size_t i = 0; i < overE.size(); ++i) overE[i] = 1 / e_[i];
   for (const ExceptionalLine& e : lines.exceptions) {
     (e.rough ? rough : other)[e.leaf] += gray(e.weight) / e_[e.end];
     if (e.beyond) beyond[e.leaf] += 1;
@@ -239,13 +270,11 @@ void Exchange::setTargets(const Lines& lines, std::span<const std::uint32_t> cov
     float met = beyond[i], ended = 0;
     for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k) {
       const std::uint32_t end = lines.end[k];
-      if (end < kFirstMark) met += 1, ended += 1 / e_[end];
+      if (end < kFirstMark) met += 1, ended += overE[end];
       if (end == kLostBeyond) met += 1;
     }
     const float f = (std::min(met, tuning::kMostMissed * ended) + other[i]) / count;
-    float g = 0;
-    forEachExchange(i, [&](std::uint32_t, float x) { g += x; });
-    g /= area_[i];
+    const float g = exchangeWith(i, one, overE) / area_[i];
     const float sure = std::min(f, 1.0f);
     target_[i] = std::min(sure * f + (1 - sure) * g, std::max(f, 1.0f));
     closed_[i] = target_[i] + rough[i] / count;
@@ -254,13 +283,14 @@ void Exchange::setTargets(const Lines& lines, std::span<const std::uint32_t> cov
 
 /// [SK67], symmetric: each factor takes half of what its row is off by.
 void Exchange::scale() {
-  std::vector<float> next(leaves());
+  std::vector<float> next(leaves()), overE(leaves());
+  const auto sumOfRow = [&](std::size_t i) { return scale_[i] * exchangeWith(i, scale_, overE); };
+  const auto setOverE = [&] { parallelFor(leaves(), kLeaves, [&](std::size_t i) { overE[i] = scale_[i] / e_[i]; }); };
   for (int pass = 0; pass < tuning::kScalingPasses; ++pass) {
+    setOverE();
     parallelFor(leaves(), kLeaves, [&](std::size_t i) {
       next[i] = scale_[i];
-      float sum = 0;
-      forEachExchange(i, [&](std::uint32_t j, float x) { sum += scale_[j] * x; });
-      sum *= scale_[i];
+      const float sum = sumOfRow(i);
       if (sum > 0 && area_[i] > 0)
         next[i] =
             std::clamp(scale_[i] * std::sqrt(target_[i] * area_[i] / sum), 1 / tuning::kMostScale, tuning::kMostScale);
@@ -268,17 +298,40 @@ void Exchange::scale() {
     scale_.swap(next);
   }
   // What scaling has not reached must not make rows exceed one.
+  setOverE();
   parallelFor(leaves(), kLeaves, [&](std::size_t i) {
-    float sum = 0;
-    forEachExchange(i, [&](std::uint32_t j, float x) { sum += scale_[j] * x; });
-    sum *= scale_[i];
+    const float sum = sumOfRow(i);
     next[i] = sum > target_[i] * area_[i] ? target_[i] * area_[i] / sum : 1.0f;
   });
   target_.swap(next);
 }
 
 void Exchange::fill(std::span<const Rgb> B) {
-  parallelFor(leaves(), kLeaves, [&](std::size_t i) { records_[i] = {B[i] * (scale_[i] / e_[i]), m_[i]}; });
+  parallelFor(leaves(), kLeaves, [&](std::size_t i) {
+    const Rgb sent = B[i] * (scale_[i] / e_[i]);
+    records_[i].B = {sent.r, sent.g, sent.b, 0};
+  });
+}
+
+/// Sum over a row's straight lines of what the records send by them.
+Rgb Exchange::sentOver(std::size_t i) const {
+  const float m = m_[i];
+  const float* ms = m_.data();
+  const std::uint32_t* id = id_.data();
+  const std::uint16_t* count = count_.data();
+  std::array<float, kLanes> weight;
+  std::array<LeafRecord, 2> sums{};
+  std::uint64_t k = begin_[i];
+  for (const std::uint64_t end = begin_[i + 1]; k < end; k += kLanes) {
+    const std::size_t n = std::min<std::uint64_t>(kLanes, end - k);
+    if (n == kLanes)
+      for (std::size_t l = 0; l < kLanes; ++l) weight[l] = static_cast<float>(count[k + l]) / (m + ms[id[k + l]]);
+    else
+      for (std::size_t l = 0; l < n; ++l) weight[l] = static_cast<float>(count[k + l]) / (m + ms[id[k + l]]);
+    for (std::size_t l = 0; l < n; ++l)
+      for (std::size_t c = 0; c < 4; ++c) sums[l % 2].B[c] += weight[l] * records_[id[k + l]].B[c];
+  }
+  return {sums[0].B[0] + sums[1].B[0], sums[0].B[1] + sums[1].B[1], sums[0].B[2] + sums[1].B[2]};
 }
 
 void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E) {
@@ -288,13 +341,7 @@ void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E) {
       E[i] = Rgb(0.0f);
       return;
     }
-    const float m = m_[i];
-    Rgb sum(0.0f);
-    for (std::uint64_t k = begin_[i]; k < begin_[i + 1]; ++k) {
-      const LeafRecord& other = records_[id_[k]];
-      sum += static_cast<float>(count_[k]) / (m + other.m) * other.B;
-    }
-    sum /= e_[i];
+    Rgb sum = sentOver(i) / e_[i];
     Rgb oneWay(0.0f);
     for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k) {
       const Special& s = specials_[k];
@@ -308,16 +355,20 @@ void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E) {
 }
 
 void Exchange::deviation(std::span<const Rgb> B, std::span<float> sigma) {
+  std::vector<float> sent(leaves());
+  parallelFor(leaves(), kLeaves, [&](std::size_t i) { sent[i] = scale_[i] / e_[i] * gray(B[i]); });
   parallelFor(leaves(), kLeaves, [&](std::size_t i) {
-    double sum = 0, squares = 0, lines = 0;
+    std::array<double, kLanes> sums{}, squared{}, counts{};
+    const float own = target_[i] * scale_[i] / e_[i], m = m_[i];
+    inLanes(begin_[i], begin_[i + 1], [&](std::uint64_t k, std::size_t lane) {
+      const auto count = static_cast<float>(count_[k]);
+      const double each = own * sent[id_[k]] / (m + m_[id_[k]]);
+      sums[lane] += count * each, squared[lane] += count * each * each, counts[lane] += count;
+    });
+    double sum = sumOf(sums), squares = sumOf(squared), lines = sumOf(counts);
     const auto add = [&](double count, double each) {
       sum += count * each, squares += count * each * each, lines += count;
     };
-    const double own = target_[i] * scale_[i] / e_[i];
-    for (std::uint64_t k = begin_[i]; k < begin_[i + 1]; ++k) {
-      const std::uint32_t j = id_[k];
-      add(count_[k], own * scale_[j] / (e_[j] * (m_[i] + m_[j])) * gray(B[j]));
-    }
     for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k) {
       const Special& s = specials_[k];
       add(1, gray(s.x * B[s.other]) * (s.rough ? 1.0f : target_[i] * scale_[i] * scale_[s.other]));

@@ -16,13 +16,17 @@
 // leaves. [lines.md]
 //
 // Lines of one pair are one entry: leaf, count. Cost: 6 bytes an entry, half a nanosecond a pass on two threads.
+// Sums over a row run in lanes, of every eighth entry each, so that processors do eight at once; the order is the same
+// everywhere.
+#include <array>
+
 #include "lines/lines.hpp"
 
 namespace deltalux::lines {
 
-struct LeafRecord {
-  Rgb B{0.0f};  // s / e times radiosity
-  float m = 0;  // n / e
+/// s / e times radiosity, and nothing, as wide as registers.
+struct alignas(16) LeafRecord {
+  std::array<float, 4> B{};
 };
 
 class Exchange {
@@ -64,11 +68,14 @@ class Exchange {
   void setTargets(const Lines&, std::span<const std::uint32_t> covered);
   void scale();
   void fill(std::span<const Rgb> B);
+  Rgb sentOver(std::size_t leaf) const;
   /// visit(other, x) of all symmetric exchange of a leaf, unscaled, gray.
   template <class Visit>
   void forEachExchange(std::size_t leaf, const Visit&) const;
+  /// Sum of all symmetric exchange of a leaf, unscaled, gray, times a value of the other over its chance of ends.
+  float exchangeWith(std::size_t leaf, std::span<const float> value, std::span<const float> valueOverE) const;
 
-  std::vector<float> area_, m_, e_, closed_, target_, scale_;  // by leaf
+  std::vector<float> area_, m_, e_, closed_, target_, scale_;  // by leaf; m: n / e
   LargeArray<std::uint64_t> begin_;                            // of the entries of a leaf
   LargeArray<std::uint32_t> id_;
   LargeArray<std::uint16_t> count_;

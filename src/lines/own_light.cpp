@@ -22,16 +22,19 @@ std::vector<float> ownIndirect(const TracedLines& traced, std::span<const float>
       B[i] = rho[i] * (source[i] + indirect[i]);
       indirect[i] = brightest[i] = 0;
     });
-    const auto add = [&](std::size_t i, float light) {
-      indirect[i] += light, brightest[i] = std::max(brightest[i], light);
-    };
-    for (const ExceptionalLine& e : lines.exceptions) add(e.leaf, gray(e.weight) * B[e.end]);
+    for (const ExceptionalLine& e : lines.exceptions) {
+      const float light = gray(e.weight) * B[e.end];
+      indirect[e.leaf] += light, brightest[e.leaf] = std::max(brightest[e.leaf], light);
+    }
     parallelFor(n, kOwnLeaves, [&](std::size_t i) {
       const auto count = static_cast<float>(lines.countOf(i) - traced.covered[i]);
       if (!(count > 0)) return;
-      for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k)
-        if (lines.end[k] < kFirstMark) add(i, B[lines.end[k]]);
-      indirect[i] /= count, brightest[i] /= count;
+      float sum = indirect[i], most = brightest[i];
+      for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k) {
+        const float light = lines.end[k] < kFirstMark ? B[lines.end[k]] : 0.0f;
+        sum += light, most = std::max(most, light);
+      }
+      indirect[i] = sum / count, brightest[i] = most / count;
     });
   }
   for (std::size_t i = 0; i < n; ++i) indirect[i] -= brightest[i];
