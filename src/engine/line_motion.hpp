@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "direct/lamps.hpp"
-#include "engine/motion.hpp"
+#include "engine/scene_update.hpp"
 #include "lines/iterate.hpp"
 #include "solution/solution.hpp"
 
@@ -14,6 +14,22 @@ namespace deltalux::engine {
 
 /// Lights that shine otherwise, or from elsewhere, by these edits: by light.
 std::vector<char> otherLights(const Scene&, const SceneUpdate&);
+
+/// Seconds that a kind of work takes, by what it took before.
+class LearnedCost {
+ public:
+  explicit LearnedCost(double guess) : seconds_(guess) {}
+
+  double seconds() const { return seconds_; }
+  /// `count` pieces took so long.
+  void learn(double seconds, double count = 1) {
+    if (count > 0) seconds_ += kNew * (seconds / count - seconds_);
+  }
+
+ private:
+  static constexpr double kNew = 0.5;
+  double seconds_;
+};
 
 class LineMotion {
  public:

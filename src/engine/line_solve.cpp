@@ -6,7 +6,7 @@
 #include "base/check.hpp"
 #include "caustics/choice.hpp"
 #include "engine/clock.hpp"
-#include "engine/particle_count.hpp"
+#include "engine/particle_settings.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/patch.hpp"
 #include "hierarchy/pull.hpp"
@@ -71,7 +71,7 @@ void openToParticles(LineSolve& x) {
 
 bool traceParticles(Solution& s, const TimeBudget& budget) {
   if (s.settings.diffuseOnly) return true;
-  const particles::ParticleSettings settings = lineParticles(s);
+  const particles::ParticleSettings settings = particleSettings(s.settings);
   const std::uint64_t wanted = settings.count;
   particles::ParticleTracing tracing(s.scene, *s.tracer, settings);
   s.particles = budget.limited() ? tracing.traceWithin(kParticleTime * budget.seconds()) : tracing.trace();
@@ -97,12 +97,6 @@ void refineForParticles(LineSolve& x) {
 }
 
 }  // namespace
-
-particles::ParticleSettings lineParticles(const Solution& s) {
-  particles::ParticleSettings settings{particleCount(s.settings), s.settings.seed};
-  settings.ofSurfaces = false;
-  return settings;
-}
 
 LineSolve::LineSolve(Solution& solution, KnownSolve* before)
     : s(solution),

@@ -148,7 +148,7 @@ void EyePaths::survey(Way w, const EyeRay& eye, Sights& sights) const {
 }
 
 bool EyePaths::metByShadowRays(LightId id, const Lobe& lobe) const {
-  const scene::LightSampler& lights = reconstruction_.direct.lights();
+  const scene::LightSampler& lights = reconstruction_.lights();
   if (lights.isPointLike(id)) return true;
   const double width = kPi * double(lobe.roughness) * double(lobe.roughness);  // [sr]
   if (const auto* sun = std::get_if<SunLight>(&scene_[id].emitter)) return solidAngle(*sun) < width;
@@ -160,7 +160,7 @@ bool EyePaths::metByShadowRays(LightId id, const Lobe& lobe) const {
 }
 
 Rgb EyePaths::background(const Way& w) const {
-  const scene::LightSampler& lights = reconstruction_.direct.lights();
+  const scene::LightSampler& lights = reconstruction_.lights();
   const Vec3 towards(w.ray.direction);
   Rgb L(0.0f);
   for (const LightId id : lights.atInfinity())
@@ -171,7 +171,7 @@ Rgb EyePaths::background(const Way& w) const {
 }
 
 Rgb EyePaths::emitted(const Way& w, const Vertex& v) const {
-  const scene::LightSampler& lights = reconstruction_.direct.lights();
+  const scene::LightSampler& lights = reconstruction_.lights();
   const LightId id = lights.lightOf(v.hit.primitive);
   if (!id.valid())
     return w.clear ? scene::seenRadiance(scene_.materialOf(v.hit.primitive), -v.direction, v.hit.t, v.hit.front)
@@ -208,7 +208,7 @@ Rgb EyePaths::irradiance(const Vertex& v, bool front, const scene::Bsdf* lobes, 
     E += *caustic;
   if (settings_.shadowRays == 0) return E + reconstruction_.field.direct(at, Vec3f(v.position));
 
-  const radiosity::Receiver receiver{v.position, v.sideNormal(front)};
+  const direct::Receiver receiver{v.position, v.sideNormal(front)};
   const std::uint64_t key = combineKeys(eye.key, (front == v.hit.front ? kShadowKey : kOtherSideKey) + depth);
   const Frame frame(v.normal);
   const Vec3 wo = frame.toLocal(-v.direction);
