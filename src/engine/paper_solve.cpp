@@ -1,4 +1,4 @@
-// Solves over links alone (paper/solve.hpp): its stages in order. Links are refined, light settles over them, until
+// Solves over links (paper/solve.hpp): its stages in order. Links are refined, light settles over them, until
 // they are as fine as the target error asks.
 #include <algorithm>
 #include <deltalux/error.hpp>
@@ -73,10 +73,7 @@ void Engine::State::prepare(Progress* progress) {
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.counts.raysVisibility += coarse.rays;
   s.report.times.hierarchy += time.seconds() - s.report.times.particles;
-  nextError = linksJudged().error * kFirstError *
-              (previewed          ? kPreview
-               : budget.limited() ? kHasty
-                                  : 1.0);
+  nextError = linksJudged().error * kFirstError * (previewed ? kPreview : budget.limited() ? kHasty : 1.0);
   if (progress) progress->report("hierarchy", 1.0);
 }
 
@@ -106,8 +103,6 @@ paper::RefineReport Engine::State::refineLinks(const paper::OracleSettings& orac
   budget.learn(time.seconds(), predicted, static_cast<double>(refined.created));
   s.report.times.refine += time.seconds();
   s.report.counts.raysVisibility += refined.rays;
-  s.report.provenClear += refined.provenClear;
-  s.report.provenBlocked += refined.provenBlocked;
   return refined;
 }
 

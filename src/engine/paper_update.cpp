@@ -1,4 +1,4 @@
-// Updates over links alone (paper/update.hpp): their stages in order. [GD01 4, 5]
+// Updates over links (paper/update.hpp): their stages in order. [GD01 4, 5]
 #include <algorithm>
 #include <utility>
 

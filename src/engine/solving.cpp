@@ -118,8 +118,6 @@ void Engine::State::count() {
   for (std::size_t i = 0; i < s.elements.size(); ++i)
     c.leafElements += solution->elements.isReceivingLeaf(hierarchy::ElementId(i));
   c.links = s.links.size();
-  s.report.activeLinks = 0;
-  for (const hierarchy::Link& l : s.links.all) s.report.activeLinks += l.state == hierarchy::LinkState::Active;
   s.report.memory.elements = s.elements.memoryBytes();
   s.report.memory.links = s.links.memoryBytes();
   s.report.memory.octree = tracing ? tracing->watchBytes() : 0;

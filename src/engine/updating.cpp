@@ -58,7 +58,7 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
   known.reset(), newPaths.reset();
   const std::shared_ptr<SolveMemory> before = std::exchange(s.memory, {});
   if (before.use_count() != 1 || !finished) return;  // what others hold too is theirs
-  if (!tracing && !s.settings.diffuseOnly) return;   // nobody has newPaths the particles from the start
+  if (!tracing && !s.settings.diffuseOnly) return;   // nobody has followed the particles from the start
   const std::vector<char> plain = lines::SurfaceResponses(s.scene, !s.settings.diffuseOnly).plain();
   for (const MaterialId m : edits.materials)  // lines go on as others say
     if (m.index() >= before->plain.size() || !before->plain[m.index()] || !plain[m.index()]) return;

@@ -36,10 +36,7 @@ bool sameTransfer(const hierarchy::Link& before, const hierarchy::Link& after) {
          (before.state == hierarchy::LinkState::Averted) == (after.state == hierarchy::LinkState::Averted);
 }
 
-void add(const RefineReport& more, RefineReport& report) {
-  report.judged += more.judged, report.changed += more.changed, report.rays += more.rays;
-  report.provenClear += more.provenClear, report.provenBlocked += more.provenBlocked;
-}
+void add(const RefineReport& more, RefineReport& report) { report.changed += more.changed, report.rays += more.rays; }
 
 }  // namespace
 
@@ -80,7 +77,6 @@ RefineReport LinkDescent::run() {
 void LinkDescent::judgeBlock(const LinkJudge& judge, std::span<const Task> tasks, std::uint32_t index, Block& block) {
   block.blockers.clear(), block.next.clear(), block.pending.clear();
   block.report = {};
-  block.report.judged = tasks.size();
   for (Task task : tasks) {
     const hierarchy::ElementId* const candidates = above_[task.block].blockers.data() + task.candidates.begin;
     const Verdict v = verdictOf(judge, task, {candidates, task.candidates.count, block.blockers});
@@ -131,24 +127,15 @@ bool LinkDescent::settle(const Task& task, const Verdict& v, Block& block) {
   }
   if (same) return true;
   if (interior || v.split != Split::None) return false;
-  accept(task.link, v.link, block.report);
+  links_.judged(task.link, v.link);
   return true;
-}
-
-void LinkDescent::accept(hierarchy::LinkId id, const hierarchy::Link& as, RefineReport& report) {
-  links_.judged(id, as);
-  report.provenClear += as.visibility == hierarchy::Visibility::Clear;
-  report.provenBlocked += as.visibility == hierarchy::Visibility::Blocked;
 }
 
 void LinkDescent::commit(const Pending& p, bool stopping, std::vector<Task>& next) {
   const hierarchy::LinkId id = p.task.link;
   const Verdict& v = p.verdict;
-  if (links_[id].state == hierarchy::LinkState::Interior) {
-    links_.collapse(id);
-    ++report_.collapsed;
-  }
-  accept(id, v.link, report_);
+  if (links_[id].state == hierarchy::LinkState::Interior) links_.collapse(id);
+  links_.judged(id, v.link);
   if (v.split == Split::None) return;
   const bool optional =
       v.link.receiver != v.link.sender && v.link.K >= 0 && v.link.visibility != hierarchy::Visibility::Unknown;
@@ -157,7 +144,6 @@ void LinkDescent::commit(const Pending& p, bool stopping, std::vector<Task>& nex
     return;
   }
   if (!splitLink(links_, elements_, scene_, id, v.split)) return;
-  ++report_.split;
   report_.created += links_[id].childCount;
   descend(p.task, v, next, true);
 }

@@ -70,7 +70,6 @@ class LinkDescent {
   Verdict judged(const LinkJudge&, const hierarchy::Link&, const Task&, const Candidates&) const;
   std::uint32_t raysOf(hierarchy::LinkId) const;
   bool settle(const Task&, const Verdict&, Block&);
-  void accept(hierarchy::LinkId, const hierarchy::Link& as, RefineReport&);
   void commit(const Pending&, bool stopping, std::vector<Task>& next);
   void descend(const Task&, const Verdict&, std::vector<Task>& next, bool fresh) const;
 

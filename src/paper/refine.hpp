@@ -16,7 +16,7 @@
 namespace deltalux::paper {
 
 struct RefineReport {
-  std::uint64_t judged = 0, created = 0, split = 0, collapsed = 0, rays = 0, provenClear = 0, provenBlocked = 0;
+  std::uint64_t created = 0, rays = 0;
   std::uint64_t changed = 0;  // of those that were there: carry light otherwise
   bool stopped = false;       // ended early; the tree is consistent, some links err by more than their budget
 };

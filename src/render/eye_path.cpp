@@ -43,9 +43,7 @@ EyePaths::EyePaths(const Solution& s, const Reconstruction& reconstruction, EyeS
   }
 }
 
-Rgb EyePaths::radiance(const EyeRay& eye, Sights& sights) const {
-  return follow({eye.ray, Rgb(1.0f), eye.emitters, eye.emitters}, eye, sights);
-}
+Rgb EyePaths::radiance(const EyeRay& eye, Sights& sights) const { return follow({eye.ray}, eye, sights); }
 
 Rgb EyePaths::diffuse(const tracing::Hit& hit) const {
   const Vec3 position(hit.position);
@@ -70,10 +68,10 @@ Rgb EyePaths::follow(Way w, const EyeRay& eye, Sights& sights) const {
   while (w.depth <= settings_.maxDepth) {
     const tracing::Hit hit = tracer_.closestHit(w.ray);
     if (eye.trail) w.corner = eye.trail->add(w.ray, hit, w.corner);
-    if (!hit) return w.emitters ? L + w.beta * background(w) : L;
+    if (!hit) return L + w.beta * background(w);
     const Vec3 n = hit.front ? Vec3(hit.normal) : -Vec3(hit.normal);
     const Vertex v{hit, Vec3(hit.position), Vec3(w.ray.direction), n};
-    if (w.emitters) L += w.beta * emitted(w, v);
+    L += w.beta * emitted(w, v);
     const scene::Bsdf& scattering = bsdf(hit.primitive, hit.front);
     if (scattering.pane && !panesReflect_) {
       w.beta *= scene::passageTransmittance(scattering, -glm::dot(v.direction, n));
@@ -99,7 +97,6 @@ bool EyePaths::go(Way& w, const Vertex& v, const scene::Bsdf& scattering, const 
   const bool glossy = !scene::isDirac(s.event);
   w.lobe = glossy && lightsMet ? std::optional(Lobe{v.position, shape.roughness}) : std::nullopt;
   w.clear = w.clear && !glossy;
-  w.emitters = w.emitters || s.event != scene::ScatterEvent::Passage;
   w.ray.direction = Vec3f(glm::normalize(Frame(v.normal).toWorld(s.direction)));
   w.ray.origin = tracing::offsetOrigin(Vec3f(v.position), v.hit.normal, w.ray.direction);
   ++w.depth;

@@ -25,9 +25,8 @@ void members(auto& archive, Is<ErrorEstimate> auto& e) {
   transferAll(archive, asked, median, p95);
 }
 void members(auto& archive, Is<SolveReport> auto& r) {
-  auto& [times, counts, memory, error, energy, activeLinks, provenClear, provenBlocked, cutParticles, converged] = r;
-  transferAll(archive, times, counts, memory, error, energy, activeLinks, provenClear, provenBlocked, cutParticles,
-              converged);
+  auto& [times, counts, memory, error, energy, cutParticles, converged] = r;
+  transferAll(archive, times, counts, memory, error, energy, cutParticles, converged);
 }
 
 void members(auto& archive, Is<hierarchy::Elements> auto& e) {
