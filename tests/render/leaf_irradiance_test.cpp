@@ -29,7 +29,9 @@ TEST(LeafIrradiance, NoiseIsWhatLeavesVaryBy) {
   const std::vector<LeafIrradiance> values = meshIrradiance(s.elements, s.caustics, s.deviation);
   double area = 0, sum = 0, squares = 0, predicted = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!s.elements.isReceivingLeaf(hierarchy::ElementId(i)) || s.elements.geometry[i].exposed < 1) continue;
+    if (!s.elements.isReceivingLeaf(hierarchy::ElementId(i)) || s.elements.geometry[i].exposed < 1 ||
+        !s.elements.topology[i].front)
+      continue;
     const double A = s.elements.geometry[i].area, E = gray(values[i].direct + values[i].indirect);
     area += A, sum += A * E, squares += A * E * E, predicted += A * values[i].noise * values[i].noise;
   }
