@@ -125,7 +125,7 @@ bool Engine::State::settleOverLinks(bool well, Progress* progress) {
                     [&](const paper::Settled& now) {
                       const double emitted = gray(now.emitted), left = gray(now.unsettled);
                       if (progress) progress->report("gather", emitted / std::max(emitted + left, 1e-30));
-                      return !budget.up();
+                      return !budget.up() || (well && left > paper::kSettled * emitted);
                     });
   unsettled = settled.unsettled;
   s.report.counts.iterations += settled.iterations;
