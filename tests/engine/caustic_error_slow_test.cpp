@@ -159,10 +159,10 @@ TEST(CausticError, OfATextureIsBelowHalfOfAMeshsOnTheSameParticles) {
   const Scene scene = loadScene({std::string(DELTALUX_SOURCE_DIR) + "/scenes/ring/ring.rad"}).scene;
   const PrimitiveId table = primitivesOf(scene, findObjects(scene, "table").at(0)).at(0);
   const Pixels pixels(scene, table, 0.4, 0.2);
-  SolveSettings withTextures{.method = SolveMethod::Paper}, onMesh = withTextures, many = withTextures;
+  SolveSettings onMesh, many;
   onMesh.causticTextures = many.causticTextures = false;
   many.seed = 2;
-  Engine engine(scene, withTextures), meshed(scene, onMesh);
+  Engine engine(scene), meshed(scene, onMesh);
   engine.solve(), meshed.solve();
   const Solution &s = engine.solution().get(), &m = meshed.solution().get();
   ASSERT_EQ(s.particles.hash(), m.particles.hash());
