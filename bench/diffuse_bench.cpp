@@ -47,11 +47,9 @@ Engine solved(Scene scene, const SolveSettings& settings, const Table& table) {
   table.row("solve processor time", processorSeconds() - before, "s");
   table.row("peak memory", static_cast<double>(peakResidentBytes()) / 1048576.0, "MiB");
   table.row("memory of elements", static_cast<double>(report.memory.elements) / 1048576.0, "MiB");
-  table.row("memory of links", static_cast<double>(report.memory.links) / 1048576.0, "MiB");
   table.row("elements", static_cast<double>(report.counts.elements), "");
   table.row("leaf elements", static_cast<double>(report.counts.leafElements), "");
-  table.row("links", static_cast<double>(report.counts.links), "");
-  table.row("active links", static_cast<double>(report.activeLinks), "");
+  table.row("lines", static_cast<double>(report.counts.lines), "");
   table.row("visibility rays", static_cast<double>(report.counts.raysVisibility), "");
   return engine;
 }

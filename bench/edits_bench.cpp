@@ -15,8 +15,7 @@
 //   the edit that takes so long.
 //
 // leaves_changed may exceed leaves_of_solve where moved shadows split leaves: old and new ones are counted.
-// Options: metres=M (of a scene unit), error=E, method=links (not lines), first=N (of each kind, not all), once,
-// unchecked.
+// Options: metres=M (of a scene unit), error=E, first=N (of each kind, not all), once, unchecked.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +41,7 @@ constexpr const char* kColumns =
 
 struct Options {
   ImportSettings import;
-  SolveSettings solve{.method = SolveMethod::Lines};
+  SolveSettings solve;
   std::size_t first = std::numeric_limits<std::size_t>::max();
   bool checked = true, once = false;
 
@@ -55,8 +54,6 @@ struct Options {
         o.solve.error = std::stod(word.substr(6));
       else if (word.starts_with("first="))
         o.first = std::stoul(word.substr(6));
-      else if (word == "method=links")
-        o.solve.method = SolveMethod::Links;
       else if (word == "once")
         o.once = true;
       else if (word == "unchecked")

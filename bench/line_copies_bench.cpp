@@ -22,7 +22,6 @@ int run(const std::vector<std::string>& a) {
   Scene scene = sideBySide(loadScene({a[1]}).scene, copies);
   const std::size_t lamps = scene.lights.size();
   SolveSettings settings;
-  settings.method = SolveMethod::Lines;
   const double before = processorSeconds();
   Engine engine(std::move(scene), settings);
   const SolveReport report = engine.solve();

@@ -91,7 +91,7 @@ int run(const std::vector<std::string>& a) {
   if (a.size() < 3) throw std::runtime_error("usage: NAME SCENE ERROR...");
   for (std::size_t i = 2; i < a.size(); ++i) {
     SolveSettings settings;
-    settings.method = SolveMethod::Lines, settings.error = std::atof(a[i].c_str());
+    settings.error = std::atof(a[i].c_str());
     Engine engine(loadScene({a[1]}).scene, settings);
     const SolveReport report = engine.solve();
     const std::vector<double> errors = errorsOf(engine.solution());

@@ -94,7 +94,6 @@ void compare(const std::string& name, double seconds, const Rays& rays, double r
 
 void ofSolve(const std::string& name, Scene scene, bool raw) {
   SolveSettings settings;
-  settings.method = SolveMethod::Lines;
   const Stopwatch time;
   Engine engine(std::move(scene), settings);
   const SolveReport report = engine.solve();

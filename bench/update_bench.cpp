@@ -32,10 +32,9 @@ namespace deltalux::bench {
 namespace {
 
 constexpr const char* kColumns =
-    "scene,edits,light,error,step,op,object,solve_s,update_s,solve_over_update,solve_cpu_s,update_cpu_s,links_visited,"
-    "links_total,links_changed,leaves_examined,leaves_changed,leaves_total,particles_retraced,particles_total,"
-    "textures_rebuilt,links_s,rows_s,particles_s,textures_s,peak_mib,median_percent,p95_percent,max_percent,"
-    "particles_identical,select_s";
+    "scene,edits,light,error,step,op,object,solve_s,update_s,solve_over_update,solve_cpu_s,update_cpu_s,"
+    "leaves_changed,leaves_total,particles_retraced,particles_total,textures_rebuilt,mesh_s,light_s,particles_s,"
+    "textures_s,peak_mib,median_percent,p95_percent,max_percent,particles_identical,select_s";
 
 constexpr const char* kTableColumns = "scene,measure,paper,ours,unit";
 
@@ -100,8 +99,7 @@ void printRow(const Heading& h, std::size_t index, const StepReport& step, const
              h.settings.error, index, step.op, quoted(step.object));
   fmt::print("{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},", solved.wall, update.wall, solved.wall / update.wall,
              solved.processor, update.processor);
-  fmt::print("{},{},{},{},{},{},", step.linksVisited, now.counts.links, step.linksChanged, step.leavesExamined,
-             step.leavesChanged, now.counts.leafElements);
+  fmt::print("{},{},", step.leavesChanged, now.counts.leafElements);
   fmt::print("{},{},{},", step.particlesRetraced, step.particlesTotal, step.texturesRebuilt);
   fmt::print("{:.4g},{:.4g},{:.4g},{:.4g},{:.0f},", step.times.visibility + step.times.refine, step.times.gather,
              step.times.particles, step.times.textures, static_cast<double>(peakResidentBytes()) / 1048576.0);

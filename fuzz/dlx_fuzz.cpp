@@ -18,6 +18,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view input(reinterpret_cast<const char*>(data), size);
   read(input);
   read(deltalux::fuzz::dlxOf(input));
-  read(deltalux::fuzz::dlxOf(input, deltalux::SolveMethod::Lines));
+  read(deltalux::fuzz::dlxOf(input, deltalux::SolveMethod::Paper));
   return 0;
 }

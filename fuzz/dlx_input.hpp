@@ -33,7 +33,7 @@ inline Scene smallRoom() {
   return scene;
 }
 
-inline const std::vector<StoredSection>& smallSolution(SolveMethod method = SolveMethod::Links) {
+inline const std::vector<StoredSection>& smallSolution(SolveMethod method = SolveMethod::Lines) {
   const auto solve = [](SolveMethod by) {
     SolveSettings settings;
     settings.error = 0.9, settings.method = by;
@@ -50,8 +50,8 @@ inline const std::vector<StoredSection>& smallSolution(SolveMethod method = Solv
     }
     return stored;
   };
-  static const std::vector<StoredSection> links = solve(SolveMethod::Links), lines = solve(SolveMethod::Lines);
-  return method == SolveMethod::Links ? links : lines;
+  static const std::vector<StoredSection> lines = solve(SolveMethod::Lines), paper = solve(SolveMethod::Paper);
+  return method == SolveMethod::Lines ? lines : paper;
 }
 
 inline std::vector<StoredSection> packed(std::vector<StoredSection> sections) {
@@ -91,14 +91,14 @@ inline void change(std::vector<StoredSection>& sections, std::string_view input,
   }
 }
 
-inline std::string dlxOf(std::string_view input, SolveMethod method = SolveMethod::Links) {
-  static const std::vector<StoredSection> links = packed(smallSolution(SolveMethod::Links)),
-                                          lines = packed(smallSolution(SolveMethod::Lines));
+inline std::string dlxOf(std::string_view input, SolveMethod method = SolveMethod::Lines) {
+  static const std::vector<StoredSection> lines = packed(smallSolution(SolveMethod::Lines)),
+                                          paper = packed(smallSolution(SolveMethod::Paper));
   const std::vector<StoredSection>& before = smallSolution(method);
   std::vector<StoredSection> sections = before;
   change(sections, input, false);
   for (std::size_t i = 0; i < sections.size(); ++i)
-    sections[i] = sections[i].payload == before[i].payload ? (method == SolveMethod::Links ? links : lines)[i]
+    sections[i] = sections[i].payload == before[i].payload ? (method == SolveMethod::Lines ? lines : paper)[i]
                                                            : packed({sections[i]}).front();
   change(sections, input, true);
   return sealed(sections);

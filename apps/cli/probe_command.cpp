@@ -31,11 +31,9 @@ void runProbe(const ProbeOptions& options) {
   {
     ProgressPrinter progress(options.run.progressStyle());
     const SolutionView solution = options.source.load(run, options.run, progress);
-    const bool lines = solution.settings().method == SolveMethod::Lines;
-    if (lines) settings.error = kShareOfError * solution.settings().error, settings.maxSamples = kMostSamples;
+    settings.error = kShareOfError * solution.settings().error, settings.maxSamples = kMostSamples;
     const std::vector<ProbeResult> results = probe(solution, pointsIn(solution.scene(), table), settings, &progress);
-    writeProbeResults(options.output, table, results, lines ? ProbeColumns::ValuesAndErrors : ProbeColumns::Values,
-                      solution.scene().luminousEfficacy);
+    writeProbeResults(options.output, table, results, solution.scene().luminousEfficacy);
   }
   run.say(fmt::format("{}: {} points", options.output, table.points.size()));
   run.finish();
@@ -49,9 +47,7 @@ void addProbeCommand(CLI::App& app) {
   command->add_option("--points", options->points, "Points to measure: columns x,y,z,nx,ny,nz")
       ->type_name("P.csv")
       ->required();
-  command
-      ->add_option("-o", options->output,
-                   "Where the rows with E_r, E_g, E_b, lux and, for solutions over lines, se_r, se_g, se_b go")
+  command->add_option("-o", options->output, "Where the rows with E_r, E_g, E_b, lux and se_r, se_g, se_b go")
       ->type_name("OUT.csv")
       ->required();
   command->add_flag("--mesh", options->mesh, "The mesh's own values: nothing reconstructed, no shadow rays");

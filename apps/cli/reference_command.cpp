@@ -48,7 +48,7 @@ double relativeError(const std::vector<ProbeResult>& results) {
 void probePoints(const ReferenceOptions& options, const Scene& scene, const PointTable& table,
                  ReferenceIntegrator& integrator, Progress& progress, const Run& run) {
   const std::vector<ProbeResult> results = integrator.probe(pointsIn(scene, table), &progress);
-  writeProbeResults(options.output, table, results, ProbeColumns::ValuesAndErrors, scene.luminousEfficacy);
+  writeProbeResults(options.output, table, results, scene.luminousEfficacy);
   run.say(fmt::format("{}: {} points, standard error {:.2g} % of their mean", options.output, results.size(),
                       100 * relativeError(results)));
 }

@@ -147,7 +147,9 @@ void addRenderCommand(CLI::App& app) {
                                               "Direct light from the mesh, smoothed: faster, softer shadows");
   CLI::Option* mesh = command->add_flag("--mesh", options->mesh, "The bare mesh with outlined patches, for debugging");
   mesh->excludes(samples)->excludes(meshDirect);
-  command->add_option("--links-of", options->linksOf, "With --mesh: draw the links of the patch at a pixel")
+  command
+      ->add_option("--links-of", options->linksOf,
+                   "With --mesh, by --method paper: draw the links of the patch at a pixel")
       ->type_name("X,Y")
       ->check(checkPixel)
       ->needs(mesh);

@@ -19,12 +19,14 @@ void SolveOptions::add(CLI::App& app) {
                  "About how many particles carry light over mirrors, gloss and glass; without it as --error wants")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 28));
-  app.add_option(
-         "--method", settings.method,
-         "How diffuse light is exchanged: over stored lines, over links resolved to leaves, or over links alone")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, SolveMethod>{
-          {"lines", SolveMethod::Lines}, {"links", SolveMethod::Links}, {"paper", SolveMethod::Paper}}))
-      ->type_name("lines|links|paper");
+  app.add_option_function<std::string>(
+         "--method",
+         [this](const std::string& name) {
+           settings.method = name == "paper" ? SolveMethod::Paper : SolveMethod::Lines;
+         },
+         "How diffuse light is exchanged: over stored lines, or over links of clusters")
+      ->check(CLI::IsMember({"lines", "paper"}))
+      ->type_name("lines|paper");
   app.add_flag("--diffuse-only", settings.diffuseOnly,
                "Drop specular lobes and mirrors; thin glass still passes light");
   app.add_flag("!--no-caustic-textures", settings.causticTextures,

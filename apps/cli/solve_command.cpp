@@ -30,8 +30,10 @@ void runSolve(const SolveCommandOptions& options) {
     saveSolution(options.output, solution);
     if (!solution.report().converged) run.say("warning: the time was up before the target error was met everywhere");
   }
-  run.say(fmt::format("{}: {} elements, {} links, {:.1f} s", options.output, run.report.counts.elements,
-                      run.report.counts.links, run.elapsed()));
+  const WorkCounts& counts = run.report.counts;
+  const auto exchange =
+      counts.links > 0 ? fmt::format("{} links", counts.links) : fmt::format("{} lines", counts.lines);
+  run.say(fmt::format("{}: {} elements, {}, {:.1f} s", options.output, counts.elements, exchange, run.elapsed()));
   run.finish();
 }
 }  // namespace

@@ -12,7 +12,7 @@ struct CheckSettings {
 
 /// Irradiance as probe() gives it in both, at points of surfaces. Differences are relative to that of `fresh`, or to a
 /// thousandth of the mean where that is more: so dark, solving itself does not look. Measuring has noise of its own,
-/// not the same in both where their links differ: on a cabin it is most of the 95th percentile at an error of 0.01.
+/// not the same in both where they differ: on a cabin it is most of the 95th percentile at an error of 0.01.
 /// Leaves CheckReport::solveS alone. Throws Interrupted.
 CheckReport compareSolutions(const SolutionView& updated, const SolutionView& fresh, const CheckSettings& = {},
                              Progress* progress = nullptr);

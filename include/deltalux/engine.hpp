@@ -1,7 +1,6 @@
 #pragma once
-// The engine orders the passes: coarse solution, hierarchy, and then rounds of refinement and gathering with a falling
-// error, each round a consistent, converged solution. Edits of the scene then cost what they change: updates of a
-// solved scene follow the links that what moved can touch. [GD01 5]
+// The engine orders the passes of a solve: a coarse solution first, then one as fine as the error asks, each of them
+// consistent. Edits of the scene then cost what they change: what they leave as it was is not found again. [GD01 5]
 #include <deltalux/edit.hpp>
 #include <deltalux/progress.hpp>
 #include <deltalux/solution.hpp>
@@ -19,7 +18,7 @@ class Engine {
   Engine(Engine&&) noexcept;
   Engine& operator=(Engine&&) noexcept;
 
-  /// One round: refines to the next error of the schedule and settles the light. The report's `converged` says whether
+  /// One round: a finer solution, whose light has settled. The report's `converged` says whether
   /// the target is met. Throws Interrupted (the last round's solution stands) when `progress` asks to stop.
   SolveReport step(Progress* progress = nullptr);
   /// In place of the first step: a coarser round, for something to look at soon. Steps after it lead to the same error.
@@ -30,9 +29,9 @@ class Engine {
   /// Takes an edit in, for the next update, and returns what undoes it exactly. Throws InputError (applyEdit) and is as
   /// before.
   Restore apply(const Edit&);
-  /// Brings the solution to what all edits since have made of the scene: what a fresh solve would give, within the
-  /// error target's own noise. Solves first what is not solved. Lights that were added, or that are many times brighter
-  /// than when they were solved for, make it solve the scene afresh.
+  /// Brings the solution to what all edits since have made of the scene: over lines what a fresh solve gives, in mesh,
+  /// lines and particles to the last bit; over links that within the error target's own noise. Solves first what is not
+  /// solved.
   StepReport update(Progress* progress = nullptr);
 
   // Motion: an object that is dragged, shown many times a second.
@@ -40,10 +39,10 @@ class Engine {
   /// Prepares for edits that move an object: the first of them would take that time otherwise. Unknown names do
   /// nothing.
   void select(const std::string& object);
-  /// As much of an update as fits into so much time, the light that most is deposited of first. What it could not do
-  /// waits: the report says how much, and how much light is not yet where it would be. Light is nowhere twice. Frames
-  /// to come go on with it, and update() ends it: the solution is then what one update() after all edits had made of
-  /// it.
+  /// As much of an update as fits into so much time: over lines shadows follow, those first where most light comes or
+  /// goes, over links nothing. What it could not do waits: the report says how much, and how much light is not yet
+  /// where it would be. Frames to come go on with it, and update() ends it: the solution is then what one update()
+  /// after all edits had made of it.
   StepReport frame(double milliseconds, Progress* progress = nullptr);
 
   /// Gives back what is kept for updates to ask, where none will come: a third of all memory, over lines. An update

@@ -24,17 +24,13 @@ PointTable parsePoints(std::string_view text, const std::string& fileName);
 /// The table's points in the coordinates of a scene.
 std::vector<ProbePoint> pointsIn(const Scene&, const PointTable&);
 
-enum class ProbeColumns {
-  Values,          // E_r,E_g,E_b [W/m2], lux
-  ValuesAndErrors  // the same and se_r,se_g,se_b: standard errors of E
-};
-
-/// The table's rows plus the results' columns; a column of the table that has a result's name is replaced by it.
-/// results.size() == table.rows.size(); the efficacy is the scene's.
-std::string formatProbeResults(const PointTable& table, std::span<const ProbeResult> results, ProbeColumns,
+/// The table's rows plus the results' columns: E_r,E_g,E_b [W/m2], lux, and the standard errors of E, se_r,se_g,se_b; a
+/// column of the table that has a result's name is replaced by it. results.size() == table.rows.size(); the efficacy is
+/// the scene's.
+std::string formatProbeResults(const PointTable& table, std::span<const ProbeResult> results,
                                double luminousEfficacy = kLuminousEfficacy);
 /// formatProbeResults into a file, atomically. Throws OutputError.
 void writeProbeResults(const std::filesystem::path&, const PointTable& table, std::span<const ProbeResult> results,
-                       ProbeColumns, double luminousEfficacy);
+                       double luminousEfficacy);
 
 }  // namespace deltalux

@@ -15,12 +15,12 @@ namespace deltalux {
 struct ProbeSettings {
   bool mesh = false;         // the mesh's own value at points of surfaces: no reconstruction, no shadow rays
   double error = 0.01;       // relative standard error at which sampling stops, in (0, 1)
-  int maxSamples = 1 << 14;  // shadow rays, and in free space gathering rays, of a point at most
+  int maxSamples = 1 << 14;  // lines, shadow rays, and in free space paths, of a point at most
   std::uint64_t seed = 1;
 };
 
 /// Irradiance at every point, in their order [W/m2]. A point on a surface whose side faces the normal (within 1 mm, or
-/// some steps of single precision there) reads the solution there (indirect light by the links at that very point); any
+/// some steps of single precision there) reads the solution there (indirect light by lines of that very point); any
 /// other point gathers what it sees. Standard errors are those of the sampling, not of the solution. Does not depend on
 /// the number of threads. Throws Interrupted.
 std::vector<ProbeResult> probe(const SolutionView&, std::span<const ProbePoint>, const ProbeSettings& = {},
@@ -54,7 +54,7 @@ DisplayImage contactSheet(const std::vector<TextureImage>&, int size = 160);
 
 struct MeshViewSettings {
   int width = 640, height = 480;
-  std::optional<glm::ivec2> linksOf;  // a pixel: draws the links that bring light to the element seen there
+  std::optional<glm::ivec2> linksOf;  // a pixel: draws the links that bring light to the element seen there, if any do
 };
 
 /// The mesh as it is, for debugging: radiance of the leaf patches without any reconstruction, their outlines, and the

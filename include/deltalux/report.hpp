@@ -48,11 +48,10 @@ struct StepReport {
   std::string op, object;
   PhaseTimes times;
   std::uint64_t linksVisited = 0, linksChanged = 0;
-  std::uint64_t leavesExamined = 0;  // whose lines were looked at
-  std::uint64_t leavesChanged = 0;   // whose lines are others, new or gone: each counted once
+  std::uint64_t leavesChanged = 0;  // whose lines are others, new or gone: each counted once
   std::uint64_t particlesRetraced = 0, particlesTotal = 0, texturesRebuilt = 0;
   std::uint64_t rays = 0;        // all that were traced, for whatever purpose
-  std::uint64_t deferred = 0;    // in motion: particles, surfaces and lights that wait
+  std::uint64_t deferred = 0;    // in motion: leaves, surfaces and lights that wait
   std::optional<double> staleW;  // in motion: light that is not yet where it would be [W]; absent in JSON otherwise
 };
 

@@ -6,9 +6,8 @@ namespace deltalux {
 
 /// How diffuse light is exchanged.
 enum class SolveMethod : std::uint8_t {
-  Links,  // hierarchical links, resolved to rows of transfers
   Lines,  // stored lines that count at both ends
-  Paper,  // hierarchical links alone, refined to the error
+  Paper,  // hierarchical links, refined to the error
 };
 
 struct SolveSettings {
@@ -18,7 +17,7 @@ struct SolveSettings {
   bool diffuseOnly = false;     // no specular lobes, no mirrors; thin glass passes light straight on
   bool causticTextures = true;  // off: the mesh shows the light of particles everywhere, refined for it
   std::uint64_t seed = 1;
-  SolveMethod method = SolveMethod::Links;
+  SolveMethod method = SolveMethod::Lines;
 };
 
 }  // namespace deltalux

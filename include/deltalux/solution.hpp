@@ -15,9 +15,8 @@ struct SolveReport {
   MemoryBytes memory;
   ErrorEstimate error;
   EnergyLedger energy;
-  std::uint64_t activeLinks = 0, provenClear = 0, provenBlocked = 0;  // links that carry light; known without a ray
-  std::uint64_t cutParticles = 0;                                     // by the limit of 64 events
-  bool converged = false;  // the error target is met everywhere and the light has settled
+  std::uint64_t cutParticles = 0;  // by the limit of 64 events
+  bool converged = false;          // the error target is met everywhere and the light has settled
 };
 
 struct Solution;  // all state; src/solution/solution.hpp

@@ -38,18 +38,6 @@ void parallelFor(std::size_t count, std::size_t block, const Body& body) {
   });
 }
 
-/// The indices of [0, count) of which holds(i), ascending.
-template <class Holds>
-std::vector<std::size_t> parallelWhere(std::size_t count, std::size_t block, const Holds& holds) {
-  std::vector<std::vector<std::size_t>> found((count + block - 1) / block);
-  parallelFor(count, block, [&](std::size_t i) {
-    if (holds(i)) found[i / block].push_back(i);
-  });
-  std::vector<std::size_t> all;
-  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-  return all;
-}
-
 /// Sum of term(i) over [0, count), added in index order within blocks and block order across: deterministic.
 template <class Sum, class Term>
 Sum parallelSum(std::size_t count, std::size_t block, const Term& term) {

@@ -46,9 +46,8 @@ Engine::Engine(SolutionView view) : state_(std::make_unique<State>()) {
     state_->solution = std::make_shared<Solution>(*held);
     state_->solution->tracer = tracing::makeEmbreeTracer(state_->solution->scene);
   }
-  state_->finished = !state_->solution->transfers.empty() || state_->solution->lines.leaves() > 0 ||
-                     (state_->byPaper() && state_->solution->links.size() > 0) ||
-                     state_->solution->elements.size() == 0;
+  const Solution& s = *state_->solution;
+  state_->finished = s.lines.leaves() > 0 || s.links.size() > 0 || s.elements.size() == 0;
   state_->prepareToFollow();
 }
 

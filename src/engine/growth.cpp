@@ -68,7 +68,7 @@ Growth growInLight(Solution& s, const SceneUpdate& edits, const particles::Parti
   if (!growth.asleep.empty()) hierarchy::setAsleep(s.elements, s.scene, growth.asleep, true);
   if (!growth.woken.empty()) hierarchy::setAsleep(s.elements, s.scene, growth.woken, false);
   if (!fresh.empty()) growth.root = hierarchy::growElements(s.elements, s.scene, fresh);
-  if (!growth.empty()) hierarchy::pull(s.elements, leavesBelow(s.elements, growth));
+  if (!growth.empty()) hierarchy::pull(s.elements);
   return growth;
 }
 

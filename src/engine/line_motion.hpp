@@ -7,13 +7,29 @@
 #include <functional>
 
 #include "direct/lamps.hpp"
-#include "engine/motion.hpp"
 #include "engine/relight.hpp"
+#include "engine/scene_update.hpp"
 #include "lines/iterate.hpp"
 #include "particles/transfer.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::engine {
+
+/// Seconds that a kind of work takes, by what it took before.
+class LearnedCost {
+ public:
+  explicit LearnedCost(double guess) : seconds_(guess) {}
+
+  double seconds() const { return seconds_; }
+  /// `count` pieces took so long.
+  void learn(double seconds, double count = 1) {
+    if (count > 0) seconds_ += kNew * (seconds / count - seconds_);
+  }
+
+ private:
+  static constexpr double kNew = 0.5;
+  double seconds_;
+};
 
 class LineMotion {
  public:

@@ -6,7 +6,7 @@
 #include "base/check.hpp"
 #include "caustics/choice.hpp"
 #include "engine/clock.hpp"
-#include "engine/particle_count.hpp"
+#include "engine/particle_settings.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/patch.hpp"
 #include "hierarchy/pull.hpp"
@@ -60,7 +60,7 @@ void openToParticles(LineSolve& x) {
 
 bool traceParticles(Solution& s, const TimeBudget& budget) {
   if (s.settings.diffuseOnly) return true;
-  const particles::ParticleSettings settings = lineParticles(s);
+  const particles::ParticleSettings settings = particleSettings(s.settings);
   const std::uint64_t wanted = settings.count;
   particles::ParticleTracing tracing(s.scene, *s.tracer, settings);
   s.particles = budget.limited() ? tracing.traceWithin(kParticleTime * budget.seconds()) : tracing.trace();
@@ -96,12 +96,6 @@ double floorOf(const hierarchy::Elements& elements) {
     light += A * gray(l.direct + l.indirect + l.particle), area += A;
   }
   return area > 0 ? direct::tuning::kFloor * light / area : 0;
-}
-
-particles::ParticleSettings lineParticles(const Solution& s) {
-  particles::ParticleSettings settings{particleCount(s.settings), s.settings.seed};
-  settings.ofSurfaces = false;
-  return settings;
 }
 
 LineSolve::LineSolve(Solution& solution, KnownSolve* before)

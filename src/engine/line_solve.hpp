@@ -83,9 +83,6 @@ std::size_t changedLeaves(const LineSolve&);
 /// What the next solve may ask of one that is done.
 std::shared_ptr<SolveMemory> memoryOf(LineSolve&&);
 
-/// Of particles that start at lights alone.
-particles::ParticleSettings lineParticles(const Solution&);
-
 /// The coarse solution; what is known of one before may be none. Throws Interrupted.
 std::unique_ptr<LineSolve> solveCoarsely(Solution&, KnownSolve*, const TimeBudget&, Progress*);
 /// From that to the error that was asked for, as far as the time goes. Returns whether that was all of it. Throws

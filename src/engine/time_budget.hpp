@@ -1,16 +1,14 @@
 #pragma once
-// How far a solve goes when time is limited. Particles are as many as their share of it allows. What rounds have cost
-// so far says which error the next can aim at, so that it and the last round over the leaves still fit. Each state
-// between rounds is consistent and can be the last but for that round, whose rays shrink to what time is left.
+// How far a solve goes when time is limited. Particles are as many as their share of it allows. Over links, what rounds
+// have cost so far says which error the next can aim at: each state between rounds is consistent and can be the last.
 #include <chrono>
 
 #include "paper/link_errors.hpp"
-#include "radiosity/leaf_transfers.hpp"
 
 namespace deltalux::engine {
 
 constexpr double kParticleTime = 0.3;  // share of all time that particles may take
-constexpr double kEndingTime = 0.15;   // the same of what comes after the leaves' round: light over rows, textures
+constexpr double kEndingTime = 0.15;   // the same of what comes after the last round over links: light, textures
 
 class TimeBudget {
  public:
@@ -38,12 +36,5 @@ class TimeBudget {
   double secondsPerLink_ = 0;  // made
   double trust_ = 1;           // links made to links predicted
 };
-
-/// Time for the leaves' round [s], measured on a few of them.
-double leafRoundSeconds(const hierarchy::Elements&, const hierarchy::Links&, const Scene&, const tracing::RayTracer&,
-                        const radiosity::LeafTransferSettings&);
-
-/// The same round with as few rays as fit into `seconds`, when all take `needed`.
-radiosity::LeafTransferSettings shrunk(radiosity::LeafTransferSettings, double needed, double seconds);
 
 }  // namespace deltalux::engine

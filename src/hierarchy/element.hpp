@@ -79,8 +79,7 @@ struct PlaneFrame {
 };
 
 /// Radiometry of one element. One writer per field: B and tolerance by push-pull, *Gathered by gather, direct and
-/// indirect by push-pull from those, or at leaves by rows of transfers once there are any; particle by deposit, rho and
-/// tau by the builder.
+/// indirect by push-pull from those, or at leaves by lines; particle by deposit, rho and tau by the builder.
 struct ElementLight {
   Rgb B{0.0f};                                       // radiosity; for senders only: emission in their transfer's unit
   Rgb directGathered{0.0f}, indirectGathered{0.0f};  // over this element's own links
@@ -89,7 +88,7 @@ struct ElementLight {
   Rgb rho{0.0f};                                     // diffuse reflectance of this side
   Rgb tau{0.0f};                                     // diffuse transmittance to the other side
   float tolerance = 0.0f;                            // gray irradiance that errors are measured against
-  float typical = 0.0f;  // first estimate of it (builder); bounds later ones. Emitters: what rows credit them with
+  float typical = 0.0f;                              // first estimate of it (builder); bounds later ones
 };
 
 /// What a cluster sends and receives as functions of direction.

@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/paged_array.hpp"
-#include "base/parallel.hpp"
-#include "hierarchy/below.hpp"
 #include "hierarchy/patch.hpp"
 
 namespace deltalux::hierarchy {
 
 namespace {
 
-constexpr std::size_t kElementBlock = 256;
 constexpr float kDarkest = 0.1f, kBrightest = 2.0f;  // tolerance of a leaf relative to its surface's first estimate
 constexpr float kLeast = 1e-12f;
 
@@ -132,40 +128,6 @@ RgbSum pull(Elements& elements) {
   RgbSum change(0.0);
   for (std::size_t i = elements.size(); i-- > 0;) pullExposure(elements, i), pullIrradiance(elements, i);
   for (std::size_t i = elements.size(); i-- > 0;) reflectAndPull(elements, i, change);
-  return change;
-}
-
-void addOtherSides(const Elements& elements, std::vector<ElementId>& leaves) {
-  const std::size_t given = leaves.size();
-  for (std::size_t i = 0; i < given; ++i) {
-    if (isBlack(elements.radiometry[leaves[i].index()].tau)) continue;
-    const ElementId other = otherSide(elements, leaves[i]);
-    if (other.valid()) forEachLeafBelow(elements, other, [&](ElementId leaf) { leaves.push_back(leaf); });
-  }
-}
-
-RgbSum pull(Elements& elements, std::span<const ElementId> leaves) {
-  PagedArray<char> marked(elements.size());
-  const auto mark = [&](ElementId e) {
-    for (; e.valid() && !marked[e.index()]; e = elements.at(e).parent) marked.at(e.index()) = 1;
-  };
-  std::vector<ElementId> lit(leaves.begin(), leaves.end());
-  addOtherSides(elements, lit);
-  for (const ElementId leaf : lit) mark(leaf);
-  // Leaves apart from what is above them, which takes a small part of the time.
-  std::vector<std::uint32_t> below, above;
-  marked.forEach([&](std::size_t i, char) {
-    (elements.topology[i].childCount == 0 ? below : above).push_back(static_cast<std::uint32_t>(i));
-  });
-  std::reverse(above.begin(), above.end());
-  parallelFor(below.size(), kElementBlock, [&](std::size_t k) { pullIrradiance(elements, below[k]); });
-  for (const std::uint32_t i : above) pullExposure(elements, i), pullIrradiance(elements, i);
-  RgbSum change = parallelSum<RgbSum>(below.size(), kElementBlock, [&](std::size_t k) {
-    RgbSum own(0.0);
-    reflectAndPull(elements, below[k], own);
-    return own;
-  });
-  for (const std::uint32_t i : above) reflectAndPull(elements, i, change);
   return change;
 }
 

@@ -114,17 +114,12 @@ class Parser {
   std::array<std::size_t, 6> needed_{};
 };
 
-std::vector<std::string> resultColumns(ProbeColumns columns) {
-  std::vector<std::string> names{"E_r", "E_g", "E_b", "lux"};
-  if (columns == ProbeColumns::ValuesAndErrors) names.insert(names.end(), {"se_r", "se_g", "se_b"});
-  return names;
-}
+const std::vector<std::string> kResultColumns{"E_r", "E_g", "E_b", "lux", "se_r", "se_g", "se_b"};
 
-std::string resultFields(const ProbeResult& result, ProbeColumns columns, double luminousEfficacy) {
+std::string resultFields(const ProbeResult& result, double luminousEfficacy) {
   const glm::dvec3 E = result.irradiance, se = result.standardError;
-  std::string text = fmt::format("{:.7g},{:.7g},{:.7g},{:.7g}", E.r, E.g, E.b, photometric(E, luminousEfficacy));
-  if (columns == ProbeColumns::ValuesAndErrors) text += fmt::format(",{:.4g},{:.4g},{:.4g}", se.r, se.g, se.b);
-  return text;
+  return fmt::format("{:.7g},{:.7g},{:.7g},{:.7g},{:.4g},{:.4g},{:.4g}", E.r, E.g, E.b,
+                     photometric(E, luminousEfficacy), se.r, se.g, se.b);
 }
 }  // namespace
 
@@ -147,27 +142,25 @@ std::vector<ProbePoint> pointsIn(const Scene& scene, const PointTable& table) {
   return points;
 }
 
-std::string formatProbeResults(const PointTable& table, std::span<const ProbeResult> results, ProbeColumns columns,
-                               double luminousEfficacy) {
+std::string formatProbeResults(const PointTable& table, std::span<const ProbeResult> results, double luminousEfficacy) {
   DELTALUX_CHECK(results.size() == table.rows.size(), "one result per point");
-  const std::vector<std::string> added = resultColumns(columns);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < table.columns.size(); ++i)
-    if (std::find(added.begin(), added.end(), table.columns[i]) == added.end()) kept.push_back(i);
+    if (std::ranges::find(kResultColumns, table.columns[i]) == kResultColumns.end()) kept.push_back(i);
 
   std::string text;
   for (const std::size_t i : kept) text += table.columns[i] + ",";
-  text += fmt::format("{}\n", fmt::join(added, ","));
+  text += fmt::format("{}\n", fmt::join(kResultColumns, ","));
   for (std::size_t row = 0; row < results.size(); ++row) {
     for (const std::size_t i : kept) text += table.rows[row][i] + ",";
-    text += resultFields(results[row], columns, luminousEfficacy) + "\n";
+    text += resultFields(results[row], luminousEfficacy) + "\n";
   }
   return text;
 }
 
 void writeProbeResults(const std::filesystem::path& path, const PointTable& table, std::span<const ProbeResult> results,
-                       ProbeColumns columns, double luminousEfficacy) {
-  io::writeFile(path, formatProbeResults(table, results, columns, luminousEfficacy));
+                       double luminousEfficacy) {
+  io::writeFile(path, formatProbeResults(table, results, luminousEfficacy));
 }
 
 }  // namespace deltalux

@@ -62,7 +62,6 @@ Json json(const StepReport& s) {
             {"time_s", json(s.times)},
             {"links_visited", s.linksVisited},
             {"links_changed", s.linksChanged},
-            {"leaves_examined", s.leavesExamined},
             {"leaves_changed", s.leavesChanged},
             {"particles_retraced", s.particlesRetraced},
             {"particles_total", s.particlesTotal},

@@ -23,7 +23,6 @@ void forEachSection(auto& solution, const auto& visit) {
   visit("ELEM", solution.elements);
   visit("LINK", solution.links);
   visit("PART", solution.particles);
-  visit("TRAN", solution.transfers);
   visit("LINE", solution.lines);
   visit("DEVI", solution.deviation);
   visit("SCAL", solution.sampledScale);
@@ -98,8 +97,6 @@ SolutionView readSolution(std::string_view bytes, const std::string& file) {
   solution->elements.listInputs();
   solution->elements.contacts = hierarchy::ContactLines(solution->elements, solution->scene);
   lines::setDirections(solution->lines, solution->elements, hierarchy::LeafTable(solution->elements), solution->scene);
-  solution->links.listArriving();
-  solution->transfers.listRows(solution->elements, solution->scene);
   solution->tracer = tracing::makeEmbreeTracer(solution->scene);
   return SolutionView(std::move(solution));
 }

@@ -29,9 +29,6 @@ class BoxGroups {
       levels_[level][at].extend(part);
     }
   }
-  void add(const BoxGroups& more) {
-    for (const Part& p : more.parts()) add(p);
-  }
 
   bool empty() const { return parts().empty(); }
   const std::vector<Part>& parts() const { return levels_[0]; }

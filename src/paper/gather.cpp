@@ -35,11 +35,6 @@ GatherPlan::GatherPlan(const hierarchy::Links& links, const hierarchy::Elements&
   }
 }
 
-std::size_t GatherPlan::memoryBytes() const {
-  return receivers_.capacity() * sizeof(hierarchy::ElementId) + (begin_.capacity() + split_.capacity()) * 4 +
-         transfers_.capacity() * sizeof(Transfer);
-}
-
 void GatherPlan::gatherDirect(hierarchy::Elements& elements) const { gather(elements, true); }
 void GatherPlan::gatherIndirect(hierarchy::Elements& elements) const { gather(elements, false); }
 

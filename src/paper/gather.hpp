@@ -11,9 +11,6 @@ class GatherPlan {
  public:
   GatherPlan(const hierarchy::Links&, const hierarchy::Elements&);
 
-  std::size_t size() const { return transfers_.size(); }
-  std::size_t memoryBytes() const;
-
   /// Fills directGathered of every element (and of clusters their directional fields).
   void gatherDirect(hierarchy::Elements&) const;
   /// Fills indirectGathered from the present B and intensities.

@@ -158,8 +158,7 @@ double toDistantFlat(const hierarchy::Elements& elements, const Scene& scene, co
   if (whole) mean += (mean - pointKernel(elements, scene, x, n, sender, g.center, g.normal)) / 3;
   return std::max(0.0, mean) * g.area;
 }
-}  // namespace
-
+/// The transfer between a point (unit normal; zero for a point of a cluster, which has no cosine) and a whole sender.
 double kernelAtPoint(const hierarchy::Elements& elements, const Scene& scene, const Vec3f& x, const Vec3f& n,
                      hierarchy::ElementId sender) {
   const hierarchy::ElementGeometry& g = elements.shape(sender);
@@ -195,7 +194,6 @@ double kernelAtPoint(const hierarchy::Elements& elements, const Scene& scene, co
   return sum;
 }
 
-namespace {
 /// A hollow patch lights itself: mean over pairs of its nodes, of which little is certain.
 void selfKernel(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId e, Kernel& result) {
   const hierarchy::ElementNodes& nodes = elements.nodes[e.index()];

@@ -24,12 +24,8 @@ struct Kernel {
 
 Kernel kernel(const hierarchy::Elements&, const Scene&, hierarchy::ElementId receiver, hierarchy::ElementId sender);
 
-/// The transfer between a point (unit normal; zero for a point of a cluster, which has no cosine) and a whole sender.
-double kernelAtPoint(const hierarchy::Elements&, const Scene&, const Vec3f& x, const Vec3f& n,
-                     hierarchy::ElementId sender);
-
-/// Kernel between two surface points, per sender area (patch), or as kernelAtPoint for point senders; for distant
-/// senders `y` is the direction towards them. Weights of visibility samples.
+/// Kernel between two surface points, per sender area (patch), or whole for point senders; for distant senders `y` is
+/// the direction towards them. Weights of visibility samples.
 double pointKernel(const hierarchy::Elements&, const Scene&, const Vec3f& x, const Vec3f& n,
                    hierarchy::ElementId sender, const Vec3f& y, const Vec3f& m);
 

@@ -18,19 +18,18 @@ constexpr float kBesideCell = 1.05f;  // of the angle of a sky's cell: no direct
 }  // namespace
 
 struct LineSpace::Finding {
-  bool met = false, touched = false, moved = false, anew = false, lit = false;
+  bool met = false, moved = false, anew = false;
   std::uint32_t rays = 0;  // that sampled it and may fare otherwise
 };
 
 LineSpace::LineSpace(const hierarchy::Links& links, const hierarchy::Elements& elements, const Scene& scene,
-                     const SpaceChange& change, const SpaceChange& before, const SpaceChange& after, int trusted)
+                     const SpaceChange& change, const SpaceChange& before, const SpaceChange& after)
     : links_(links),
       elements_(elements),
       scene_(scene),
       change_(change),
       before_(before),
       after_(after),
-      trusted_(trusted),
       above_(elements.size(), 0) {
   for (const hierarchy::ElementId e : change.inputs()) {
     if (elements.isPatch(e) && !elements.at(e).emitter) blockers_.push_back(e);
@@ -61,9 +60,8 @@ LineSpace::Finding LineSpace::examine(hierarchy::LinkId id) const {
   }
   f.met = f.moved || left || arrives;
   if (!f.met) return f;
-  // What samples tell stands as long as no ray of theirs meets what moved. Where few were taken, little comes over the
-  // link or it was split for its kernel: that may do for who only shares out rays by it.
-  if (!f.moved && l.visibility == hierarchy::Visibility::Sampled && l.samples > trusted_ && (left || l.sampleMask != 0))
+  // What samples tell stands as long as no ray of theirs meets what moved.
+  if (!f.moved && l.visibility == hierarchy::Visibility::Sampled && (left || l.sampleMask != 0))
     f.rays = LinkSamples(elements_, scene_, l.receiver, l.sender).meeting(l.samples, l.sampleMask, change_, before_);
   switch (l.state) {
     case hierarchy::LinkState::Free:
@@ -72,14 +70,11 @@ LineSpace::Finding LineSpace::examine(hierarchy::LinkId id) const {
     case hierarchy::LinkState::Averted:
       break;
     case hierarchy::LinkState::Interior:
-      f.touched = true;  // rows may sample over it since before it was split
       // One that was refined for its shadow may no longer need to be; clusters with what moved stay refined.
       f.anew = f.rays != 0;
       f.moved = f.moved && (change_.moved(l.receiver) || change_.moved(l.sender));
       break;
     case hierarchy::LinkState::Active:
-      f.touched = l.visibility != hierarchy::Visibility::Blocked;
-      f.lit = elements_.at(l.sender).emitter && involved(l.sender);
       f.anew = (l.visibility == hierarchy::Visibility::Clear && arrives) ||
                (l.visibility == hierarchy::Visibility::Blocked && left && heldBack(l)) || f.rays != 0;
       break;
@@ -89,20 +84,18 @@ LineSpace::Finding LineSpace::examine(hierarchy::LinkId id) const {
 
 /// What there is among some links of a level.
 struct LineSpace::Block {
-  std::vector<hierarchy::LinkId> next, touched, moved, lit;
-  std::vector<DisturbedLink> anew;
+  std::vector<hierarchy::LinkId> next, moved;
+  std::vector<DisturbedLink> between;
 };
 
 void LineSpace::examine(std::span<const hierarchy::LinkId> links, Block& found) const {
   for (const hierarchy::LinkId id : links) {
     const Finding f = examine(id);
     if (!f.met) continue;
-    if (f.touched) found.touched.push_back(id);
     if (f.moved)
       found.moved.push_back(id);
     else if (f.anew)
-      found.anew.push_back({id, f.rays});
-    if (f.lit && (f.moved || f.anew)) found.lit.push_back(id);
+      found.between.push_back({id, f.rays});
     for (std::size_t c = 0; c < links_[id].childCount; ++c) found.next.push_back(links_.child(id, c));
   }
 }
@@ -110,7 +103,6 @@ void LineSpace::examine(std::span<const hierarchy::LinkId> links, Block& found) 
 LinkMarks LineSpace::visit() const {
   constexpr std::size_t kBlock = 256;
   LinkMarks marks;
-  marks.changes = LinkChanges(links_.size(), LinkChange::None);
   std::vector<hierarchy::LinkId> level = links_.roots, next;
   while (!level.empty()) {
     std::vector<Block> blocks((level.size() + kBlock - 1) / kBlock);
@@ -119,20 +111,14 @@ LinkMarks LineSpace::visit() const {
     });
     marks.visited += level.size();
     next.clear();
-    for (const Block& b : blocks) {
-      append(b.next, next), append(b.moved, marks.moved), append(b.anew, marks.anew), append(b.lit, marks.lit);
-      for (const hierarchy::LinkId id : b.touched) marks.changes.at(id.index()) = LinkChange::Touched;
-    }
+    for (const Block& b : blocks) append(b.next, next), append(b.moved, marks.moved), append(b.between, marks.between);
     std::swap(level, next);
   }
   return marks;
 }
 
 void add(const LinkMarks& more, LinkMarks& marks) {
-  if (marks.changes.empty()) marks.changes = LinkChanges(more.changes.size(), LinkChange::None);
-  more.changes.forEach(
-      [&](std::size_t i, LinkChange change) { marks.changes.at(i) = std::max(marks.changes[i], change); });
-  append(more.anew, marks.anew), append(more.moved, marks.moved), append(more.lit, marks.lit);
+  append(more.between, marks.between), append(more.moved, marks.moved);
   marks.visited += more.visited;
 }
 

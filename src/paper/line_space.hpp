@@ -21,11 +21,11 @@ struct DisturbedLink {
   std::uint32_t rays = 0;  // which of those that sampled it may fare otherwise, by bits
 };
 
+/// Links that are to be judged anew.
 struct LinkMarks {
-  LinkChanges changes;                   // by link: Touched so far, active and interior ones: rows may sample over both
-  std::vector<DisturbedLink> anew;       // to be judged anew
-  std::vector<hierarchy::LinkId> moved;  // to be judged anew: an end of theirs moved, or holds what moved
-  std::vector<hierarchy::LinkId> lit;    // from lights of which some moved: Changed in any case
+  std::vector<DisturbedLink> between;
+  std::vector<hierarchy::LinkId> moved;  // an end of theirs moved, or holds what moved
+  std::vector<hierarchy::LinkId> made;   // root links that were made since
   std::uint64_t visited = 0;
 };
 
@@ -34,10 +34,9 @@ void add(const LinkMarks&, LinkMarks& marks);
 
 class LineSpace {
  public:
-  /// `change` says which elements move, `before` and `after` the bounds of those where they are and will be. `trusted`:
-  /// sample rays; what so few have told of a link stands.
+  /// `change` says which elements move, `before` and `after` the bounds of those where they are and will be.
   LineSpace(const hierarchy::Links&, const hierarchy::Elements&, const Scene&, const SpaceChange& change,
-            const SpaceChange& before, const SpaceChange& after, int trusted);
+            const SpaceChange& before, const SpaceChange& after);
 
   LinkMarks visit() const;
 
@@ -54,7 +53,6 @@ class LineSpace {
   const hierarchy::Elements& elements_;
   const Scene& scene_;
   const SpaceChange &change_, &before_, &after_;
-  int trusted_;
   PagedArray<char> above_;                      // by element: a cluster with some of what moves
   std::vector<hierarchy::ElementId> blockers_;  // input-level patches of what moved
 };

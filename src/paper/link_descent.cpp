@@ -4,8 +4,6 @@
 
 #include "base/parallel.hpp"
 #include "hierarchy/patch.hpp"
-#include "paper/link_news.hpp"
-#include "paper/links_below.hpp"
 
 namespace deltalux::paper {
 
@@ -32,10 +30,13 @@ bool splitLink(hierarchy::Links& links, hierarchy::Elements& elements, const Sce
   return true;
 }
 
-void add(const RefineReport& more, RefineReport& report) {
-  report.judged += more.judged, report.rays += more.rays;
-  report.provenClear += more.provenClear, report.provenBlocked += more.provenBlocked;
+/// Whether a second look has found what the first did.
+bool sameTransfer(const hierarchy::Link& before, const hierarchy::Link& after) {
+  return before.K == after.K && before.V == after.V && before.visibility == after.visibility &&
+         (before.state == hierarchy::LinkState::Averted) == (after.state == hierarchy::LinkState::Averted);
 }
+
+void add(const RefineReport& more, RefineReport& report) { report.changed += more.changed, report.rays += more.rays; }
 
 }  // namespace
 
@@ -76,7 +77,6 @@ RefineReport LinkDescent::run() {
 void LinkDescent::judgeBlock(const LinkJudge& judge, std::span<const Task> tasks, std::uint32_t index, Block& block) {
   block.blockers.clear(), block.next.clear(), block.pending.clear();
   block.report = {};
-  block.report.judged = tasks.size();
   for (Task task : tasks) {
     const hierarchy::ElementId* const candidates = above_[task.block].blockers.data() + task.candidates.begin;
     const Verdict v = verdictOf(judge, task, {candidates, task.candidates.count, block.blockers});
@@ -89,15 +89,8 @@ void LinkDescent::judgeBlock(const LinkJudge& judge, std::span<const Task> tasks
 Verdict LinkDescent::verdictOf(const LinkJudge& judge, const Task& t, const Candidates& candidates) const {
   const hierarchy::Link& link = links_[t.link];
   Verdict v = judged(judge, link, t, candidates);
-  if (v.split == Split::None && tooWide(judge, v.link)) {
-    const std::uint16_t rays = v.rays;
-    v = judge.pass(v.link, candidates);
-    v.split = Split::Receiver, v.rays = rays;
-  }
   v.refined = t.mark > LinkMark::Path && link.state == hierarchy::LinkState::Interior && v.split == Split::None &&
               judge.splits(link);
-  v.news = !samePlan(link, v.link) && isNews(judge, link, v.link);
-  v.link.hidden = hiddenAsBefore(link, v.link) ? hierarchy::Link::kHidden : links_.hiddenAbove(t.link);
   return v;
 }
 
@@ -112,19 +105,6 @@ Verdict LinkDescent::judged(const LinkJudge& judge, const hierarchy::Link& link,
   return judge.judge(link, above.visibility == hierarchy::Visibility::Sampled && !isBlack(above.V), candidates);
 }
 
-/// Whether a link from what has grown is better taken apart, although light asks for no more: all leaves below its
-/// receiver would look for rays to what has grown, and walls may hide it from most.
-bool LinkDescent::tooWide(const LinkJudge& judge, const hierarchy::Link& link) const {
-  if (!grown.valid() || !link.carries() || !elements_.isCluster(link.receiver)) return false;
-  return holds(elements_, grown, link.sender) && !holds(elements_, grown, link.receiver) &&
-         judge.brings(link, kNewsToRows);
-}
-
-bool LinkDescent::isNews(const LinkJudge& judge, const hierarchy::Link& before, const hierarchy::Link& after) {
-  if (!before.carries()) return !hiddenAsBefore(before, after) && judge.brings(after, kNewsToRows);
-  return before.visibility != after.visibility || judge.brings(before, kNews) || judge.brings(after, kNews);
-}
-
 std::uint32_t LinkDescent::raysOf(hierarchy::LinkId id) const {
   return std::lower_bound(disturbed_.begin(), disturbed_.end(), id,
                           [](const DisturbedLink& d, hierarchy::LinkId link) { return d.link < link; })
@@ -136,7 +116,8 @@ std::uint32_t LinkDescent::raysOf(hierarchy::LinkId id) const {
 bool LinkDescent::settle(const Task& task, const Verdict& v, Block& block) {
   const hierarchy::Link& link = links_[task.link];
   const bool anew = task.mark > LinkMark::Path, interior = link.state == hierarchy::LinkState::Interior;
-  const bool same = anew && sameTransfer(link, v.link, settings_.sameKernel);
+  const bool same = anew && sameTransfer(link, v.link);
+  block.report.changed += anew && !same;
   // A link collapses for what a move has changed, not for light that has settled since it was refined. One that shows
   // nothing any more stays refined for when what hides it moves on: until then that costs no more than its place.
   if (interior && (!anew || same || v.split != Split::None || !v.refined || v.link.unseen())) {
@@ -145,28 +126,16 @@ bool LinkDescent::settle(const Task& task, const Verdict& v, Block& block) {
     return true;
   }
   if (same) return true;
-  if (interior || v.news || v.split != Split::None || v.link.carries() != link.listed) return false;
-  accept(task.link, v.link, block.report);
+  if (interior || v.split != Split::None) return false;
+  links_.judged(task.link, v.link);
   return true;
-}
-
-void LinkDescent::accept(hierarchy::LinkId id, const hierarchy::Link& as, RefineReport& report) {
-  links_.judged(id, as);
-  report.provenClear += as.visibility == hierarchy::Visibility::Clear;
-  report.provenBlocked += as.visibility == hierarchy::Visibility::Blocked;
 }
 
 void LinkDescent::commit(const Pending& p, bool stopping, std::vector<Task>& next) {
   const hierarchy::LinkId id = p.task.link;
   const Verdict& v = p.verdict;
-  if (links_[id].state == hierarchy::LinkState::Interior) {
-    links_.collapse(id, renewed);
-    ++report_.collapsed;
-    changed(id);
-  } else if (v.news) {
-    changed(id);
-  }
-  accept(id, v.link, report_);
+  if (links_[id].state == hierarchy::LinkState::Interior) links_.collapse(id);
+  links_.judged(id, v.link);
   if (v.split == Split::None) return;
   const bool optional =
       v.link.receiver != v.link.sender && v.link.K >= 0 && v.link.visibility != hierarchy::Visibility::Unknown;
@@ -174,9 +143,7 @@ void LinkDescent::commit(const Pending& p, bool stopping, std::vector<Task>& nex
     report_.stopped = true;
     return;
   }
-  // Rows go on to sample over the link: it covers all that they did, and they find their way to leaves themselves.
   if (!splitLink(links_, elements_, scene_, id, v.split)) return;
-  ++report_.split;
   report_.created += links_[id].childCount;
   descend(p.task, v, next, true);
 }
@@ -185,7 +152,6 @@ void LinkDescent::descend(const Task& task, const Verdict& v, std::vector<Task>&
   const hierarchy::Link& link = links_[task.link];
   for (std::size_t c = 0; c < link.childCount; ++c) {
     const hierarchy::LinkId child = links_.child(task.link, c);
-    if (fresh) renewed(child);
     const LinkMark mark = fresh ? LinkMark::Path : marks_[child.index()];
     if (mark != LinkMark::None) next.push_back({child, v.blockers, task.block, mark});
   }

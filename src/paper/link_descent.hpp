@@ -3,8 +3,8 @@
 // collapsed. refine.hpp says what it is for.
 //
 // Links of a level are judged side by side, from elements and links above that stand still; those that keep their place
-// in the tree take what they were judged to be at once. What changes the tree, its elements or rows follows in the
-// order of the level, so the result does not depend on the number of threads.
+// in the tree take what they were judged to be at once. What changes the tree or its elements follows in the order of
+// the level, so the result does not depend on the number of threads.
 #include <functional>
 #include <span>
 #include <vector>
@@ -40,11 +40,7 @@ class LinkDescent {
         marks_(std::move(marks)),
         disturbed_(disturbed) {}
 
-  /// Told of every link that is freed or made, and of every one over which rows have to be dealt anew.
-  std::function<void(hierarchy::LinkId)> renewed = [](hierarchy::LinkId) {}, changed = [](hierarchy::LinkId) {};
   std::function<bool()> stop;
-  /// What has grown since the marks were made, if anything: all below the receivers of its links are told of it.
-  hierarchy::ElementId grown;
 
   RefineReport run();
 
@@ -72,11 +68,8 @@ class LinkDescent {
   void judgeBlock(const LinkJudge&, std::span<const Task>, std::uint32_t index, Block&);
   Verdict verdictOf(const LinkJudge&, const Task&, const Candidates&) const;
   Verdict judged(const LinkJudge&, const hierarchy::Link&, const Task&, const Candidates&) const;
-  bool tooWide(const LinkJudge&, const hierarchy::Link&) const;
-  static bool isNews(const LinkJudge&, const hierarchy::Link& before, const hierarchy::Link& after);
   std::uint32_t raysOf(hierarchy::LinkId) const;
   bool settle(const Task&, const Verdict&, Block&);
-  void accept(hierarchy::LinkId, const hierarchy::Link& as, RefineReport&);
   void commit(const Pending&, bool stopping, std::vector<Task>& next);
   void descend(const Task&, const Verdict&, std::vector<Task>& next, bool fresh) const;
 

@@ -1,7 +1,6 @@
 #include "paper/link_judge.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <utility>
 
@@ -107,22 +106,10 @@ Verdict LinkJudge::judge(const hierarchy::Link& before, bool parentSaw, const Ca
 Verdict LinkJudge::judgeMoved(const hierarchy::Link& before, const Candidates& candidates) const {
   Verdict v;
   v.link = forgotten(before);
-  if (!couple(v.link, candidates, v) || sawEnough(before, v.link)) return v;
+  if (!couple(v.link, candidates, v)) return v;
   const bool saw = before.visibility == hierarchy::Visibility::Sampled && !isBlack(before.V);
   see(v.link, before.samples, saw, candidates, v);
   return v;
-}
-
-/// Whether what few rays told of a link before may stand: as little comes over it.
-bool LinkJudge::sawEnough(const hierarchy::Link& before, hierarchy::Link& after) const {
-  if (before.visibility != hierarchy::Visibility::Sampled || before.samples > trusted_ || before.childCount > 0)
-    return false;
-  hierarchy::Link same = after;
-  same.visibility = before.visibility, same.samples = before.samples, same.sampleMask = before.sampleMask;
-  same.V = before.V, same.visibilitySpread = before.visibilitySpread;
-  if (wantedSamples(same, oracle_.judge(same)) > kFewSamples || choose(same) != Split::None) return false;
-  after = same;
-  return true;
 }
 
 Verdict LinkJudge::judgeBetween(const hierarchy::Link& before, std::uint32_t rays, const Candidates& candidates) const {
@@ -167,10 +154,6 @@ Verdict LinkJudge::passUnseen(const hierarchy::Link& link, const Candidates& can
 bool LinkJudge::splits(hierarchy::Link link) const {
   link.state = hierarchy::LinkState::Active;
   return link.receiver == link.sender || choose(link) != Split::None;
-}
-
-bool LinkJudge::brings(const hierarchy::Link& link, double least) const {
-  return link.carries() && oracle_.most(link) * std::sqrt(openness(link)) > least * oracle_.budget(link.receiver);
 }
 
 bool LinkJudge::unsettled(const hierarchy::Link& link) const {

@@ -24,7 +24,6 @@ struct Verdict {
   Split split = Split::None;
   BlockerRange blockers;  // of the link, where they were asked for
   bool refined = false;   // as the link was before, it would be refined today
-  bool news = false;      // rows that sample it as it was have to be dealt anew
   std::uint16_t rays = 0;
 };
 
@@ -40,11 +39,11 @@ class LinkJudge {
   /// All must outlive this.
   LinkJudge(const hierarchy::Elements& elements, const Scene& scene, const tracing::RayTracer& tracer,
             const OracleSettings& settings)
-      : elements_(elements), scene_(scene), tracer_(tracer), oracle_(elements, settings), trusted_(settings.trusted) {}
+      : elements_(elements), scene_(scene), tracer_(tracer), oracle_(elements, settings) {}
 
   /// A link as the tree has it. `parentSaw`: some ray between the parent's ends passed.
   Verdict judge(const hierarchy::Link&, bool parentSaw, const Candidates&) const;
-  /// One of which an end has moved, or holds what has. What few rays told of it stands where as little comes over it.
+  /// One of which an end has moved, or holds what has.
   Verdict judgeMoved(const hierarchy::Link& before, const Candidates&) const;
   /// One between whose ends something has moved: its kernel stands, and so do its samples but for `rays`, by bits.
   Verdict judgeBetween(const hierarchy::Link& before, std::uint32_t rays, const Candidates&) const;
@@ -55,8 +54,6 @@ class LinkJudge {
 
   /// Whether the link, as it stands, would be split.
   bool splits(hierarchy::Link) const;
-  /// Whether more may come over a link, as far as it is open, than `least` times what it may err by.
-  bool brings(const hierarchy::Link&, double least) const;
   /// Whether an active link, as it stands, would be worth another look.
   bool unsettled(const hierarchy::Link&) const;
 
@@ -67,7 +64,6 @@ class LinkJudge {
   bool couple(hierarchy::Link&, const Candidates&, Verdict&) const;
   /// Visibility by proof and by rays, `least` at least, and what follows from it.
   void see(hierarchy::Link&, int least, bool saw, const Candidates&, Verdict&) const;
-  bool sawEnough(const hierarchy::Link& before, hierarchy::Link& after) const;
   bool solidEnds(const hierarchy::Link&) const;
   void proveBlocked(hierarchy::Link&, OwnBlockers&) const;
   bool sends(hierarchy::ElementId sender) const;
@@ -84,7 +80,6 @@ class LinkJudge {
   const Scene& scene_;
   const tracing::RayTracer& tracer_;
   Oracle oracle_;
-  int trusted_;
 };
 
 }  // namespace deltalux::paper

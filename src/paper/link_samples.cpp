@@ -10,6 +10,42 @@
 
 namespace deltalux::paper {
 
+namespace {
+
+/// Of what is not negative.
+double fraction(double x) { return x - static_cast<double>(static_cast<std::int64_t>(x)); }
+
+/// The child that holds the share `a` of the area, in [0,1); `a` is used up in part. Invalid when nothing has area.
+hierarchy::ElementId childByArea(const hierarchy::Elements& elements, hierarchy::ElementId e, double& a) {
+  double rest = a * elements.shape(e).area;
+  hierarchy::ElementId picked;
+  double part = 0;
+  for (std::size_t i = 0; i < elements.at(e).childCount; ++i) {
+    const hierarchy::ElementId c = elements.child(e, i);
+    const double area = elements.at(c).blocker ? 0.0 : double(elements.shape(c).area);
+    if (area <= 0) continue;
+    picked = c, part = area;
+    if (rest < area) break;
+    rest -= area;
+  }
+  if (picked.valid()) a = std::clamp(rest / part, 0.0, 0x1.fffffep-1);
+  return picked;
+}
+
+}  // namespace
+
+Stratified4::Stratified4(std::uint64_t key) {
+  for (std::size_t k = 0; k < 4; ++k) start_[k] = toUnit(mix64(key + k));
+}
+
+std::array<double, 4> Stratified4::operator[](int i) const {
+  static constexpr std::array<double, 4> step = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
+                                                 0.5385972572236101};
+  std::array<double, 4> u;
+  for (std::size_t k = 0; k < 4; ++k) u[k] = fraction(start_[k] + (i + 1) * step[k]);
+  return u;
+}
+
 ElementPoints::ElementPoints(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId e)
     : elements_(elements), scene_(scene), element_(e), domain_(&elements.domain[e.index()]) {
   const hierarchy::ElementTopology& t = elements.at(e);
@@ -18,6 +54,18 @@ ElementPoints::ElementPoints(const hierarchy::Elements& elements, const Scene& s
   if (!hierarchy::outlineFills(elements.outline(e), du_ * dv_)) return;
   frame_ = &elements.frames[domain_->frame];
   normal_ = Vec3f(t.front ? frame_->normal : -frame_->normal);
+}
+
+hierarchy::PatchPoint ElementPoints::onAny(double a, double b) const {
+  hierarchy::ElementId e = element_;
+  while (elements_.isCluster(e)) {
+    const hierarchy::ElementId next = childByArea(elements_, e, a);
+    if (!next.valid()) break;
+    e = next;
+  }
+  // What was removed keeps its elements, but has no surface.
+  if (elements_.isPatch(e) && elements_.shape(e).area > 0) return hierarchy::samplePatch(elements_, scene_, e, a, b);
+  return {elements_.shape(e).center, Vec3f(0.0f)};
 }
 
 LinkSamples::LinkSamples(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId receiver,

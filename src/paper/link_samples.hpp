@@ -2,25 +2,42 @@
 // The rays by which the visibility of a link is sampled: between points of its ends, weighted by the kernel. Points of
 // clusters are points of their surfaces, so that what a cluster hides of itself counts. They depend on the link's
 // stable key alone, and more of them extend the same sequence.
-#include "paper/sender_sampling.hpp"
+#include <array>
+
+#include "hierarchy/patch.hpp"
 #include "paper/space_change.hpp"
+#include "tracing/ray.hpp"
 
 namespace deltalux::paper {
 
-/// Points of an element by two numbers in [0,1), as samplePoint() gives them; what all have in common is looked up
-/// once.
+/// A four-dimensional sequence shifted by the key: stratified for any prefix (additive recurrence with the powers of
+/// the generalised golden ratio [Roberts18]).
+class Stratified4 {
+ public:
+  explicit Stratified4(std::uint64_t key);
+  /// Sample i, from 0.
+  std::array<double, 4> operator[](int i) const;
+
+ private:
+  std::array<double, 4> start_;
+};
+
+/// Points of an element by two numbers in [0,1), uniform by area; clusters pick surfaces by area. What all have in
+/// common is looked up once.
 class ElementPoints {
  public:
   /// Elements and scene must outlive this.
   ElementPoints(const hierarchy::Elements&, const Scene&, hierarchy::ElementId);
 
   hierarchy::PatchPoint at(double a, double b) const {
-    if (!frame_) return samplePoint(elements_, scene_, element_, a, b);
+    if (!frame_) return onAny(a, b);
     const double u = domain_->u0 + a * du_, v = domain_->v0 + b * dv_;
     return {Vec3f(frame_->at({u, v})), normal_};
   }
 
  private:
+  hierarchy::PatchPoint onAny(double a, double b) const;
+
   const hierarchy::Elements& elements_;
   const Scene& scene_;
   hierarchy::ElementId element_;

@@ -62,15 +62,6 @@ double Oracle::budget(hierarchy::ElementId receiver) const {
   return settings_.share * settings_.error * tolerance(receiver) * area;
 }
 
-double Oracle::most(const hierarchy::Link& link) const {
-  double strength = senderStrength(elements_, link.sender, link.receiver);
-  if (!elements_.at(link.sender).emitter) {
-    const double faint = kFaintLight * tolerance(link.receiver);
-    strength += elements_.isCluster(link.sender) ? faint * elements_.shape(link.sender).area / (4 * kPi) : faint;
-  }
-  return strength * (double(link.K) + link.receiverSpread) * facingArea(elements_, link.receiver);
-}
-
 bool Oracle::divisible(hierarchy::ElementId e) const {
   if (!elements_.isPatch(e)) return !elements_.isPoint(e);
   return elements_.shape(e).area > settings_.finest * settings_.error * referenceArea(e);

@@ -8,23 +8,19 @@
 // so an error on less than A_0 weighs only as much as its share of A_0. Nothing here depends on the scene's size, and
 // shadow edges end at patches of about error * A_0.
 //
-// Which error is asked of links that carry the light: judgedFor() (solve.hpp).
+// Which error is asked of links for one of irradiance: judgedFor() (solve.hpp).
 #include "hierarchy/link.hpp"
 
 namespace deltalux::paper {
 
 /// Calibrated against reference values (docs/calibration.md); not meant to be set by users.
 struct OracleSettings {
-  double error = 0.05;  // target relative error of irradiance
+  double error = 0.2;   // target relative error of irradiance
   double share = 0.1;   // of the target that one link may take
-  double scale = 0.15;  // of the mean free path, gives the side of A_0
+  double scale = 0.3;   // of the mean free path, gives the side of A_0
   double doubt = 4.0;   // weight of what sample rays leave unknown, against kernel variation (which is a bound)
   double finest = 0.6;  // least area of a patch that is still split: finest * error * A_0
-  double direct = 20;   // budget of direct light against indirect: it is sampled anew where it is shown, so that only
-                        // what it sends on matters, spread over all that its receiver sees
-  // After a move; where links carry the light themselves, nothing of this kind may stand.
-  int trusted = 4;           // sample rays: what so few have told of a link is not asked again
-  float sameKernel = 0.05f;  // relative difference of kernels that is none
+  double direct = 4;    // budget of direct light against indirect: one link brings most of it
 };
 
 /// What the oracle finds about one link, all in watts (gray).
@@ -38,19 +34,12 @@ struct LinkError {
   double total() const { return receiver + sender + visibility; }
 };
 
-/// Of the light at a receiver: radiosity that senders are credited with, so that what may light up later counts.
-inline constexpr double kFaintLight = 0.1;
-
 class Oracle {
  public:
   Oracle(const hierarchy::Elements&, const OracleSettings&);
 
   /// The error of a link whose K and spreads are set; visibility counts as far as it is known.
   LinkError judge(const hierarchy::Link&) const;
-  /// Power that would come over a link were nothing in its way and were all of its receiver where most comes, from a
-  /// sender that lights up as rows of leaves allow for (indirect_sampler.hpp): to kFaintLight of the light there at
-  /// least.
-  double most(const hierarchy::Link&) const;
   /// Power that links to `receiver` may err by [W].
   double budget(hierarchy::ElementId receiver) const;
   /// Side of the area that matters around an element, squared: A_0.

@@ -8,24 +8,19 @@ OutOfSight::OutOfSight(const hierarchy::Elements& elements, const Scene& scene, 
     : elements_(elements),
       region_(region),
       size_(elements.size()),
-      state_(std::make_unique<std::atomic<std::uint32_t>[]>(elements.size())) {
+      state_(std::make_unique<std::atomic<std::uint8_t>[]>(elements.size())) {
   for (const HiddenElement& h : hiddenElements(elements, scene, region))
-    state_[h.element.index()].store(kFirst + h.occluder.value, std::memory_order_relaxed);
+    state_[h.element.index()].store(kHidden, std::memory_order_relaxed);
 }
 
-hierarchy::ElementId OutOfSight::occluder(hierarchy::ElementId e) const {
-  const std::uint32_t found = state(e);
-  return found < kFirst ? hierarchy::ElementId() : hierarchy::ElementId(found - kFirst);
-}
-
-std::uint32_t OutOfSight::state(hierarchy::ElementId e) const {
+std::uint8_t OutOfSight::state(hierarchy::ElementId e) const {
   while (e.index() >= size_) e = elements_.at(e).parent;  // it was split since
-  std::atomic<std::uint32_t>& known = state_[e.index()];
-  std::uint32_t state = known.load(std::memory_order_relaxed);
+  std::atomic<std::uint8_t>& known = state_[e.index()];
+  std::uint8_t state = known.load(std::memory_order_relaxed);
   if (state != kUnknown) return state;
   const hierarchy::ElementId parent = elements_.at(e).parent;
   state = parent.valid() ? this->state(parent) : kSeen;
-  if (state == kSeen && behind(e)) state = kBehind;
+  if (state == kSeen && behind(e)) state = kHidden;
   known.store(state, std::memory_order_relaxed);  // whoever finds it finds the same
   return state;
 }

@@ -3,7 +3,7 @@
 // between it and anything else is kept back or let through. Told by one opaque polygon that hides all of it
 // (hidden_elements.hpp), or by the plane of a flat patch that all lies behind. Asked down the tree: what hides a
 // cluster hides all in it. In a house, most of what is in other rooms is out of sight.
-// Cost: that of what is hidden, and some nanoseconds for an element whose parent is not, once; four bytes an element.
+// Cost: that of what is hidden, and some nanoseconds for an element whose parent is not, once; a byte an element.
 #include <atomic>
 #include <memory>
 
@@ -17,20 +17,18 @@ class OutOfSight {
   OutOfSight(const hierarchy::Elements&, const Scene&, const Box& region);
 
   /// Whether an element is known to see nothing of what moves. From any thread.
-  bool holds(hierarchy::ElementId e) const { return state(e) != kSeen; }
-  /// The flat patch that hides all that moves from it; none where it may be seen, or lies behind.
-  hierarchy::ElementId occluder(hierarchy::ElementId) const;
+  bool holds(hierarchy::ElementId e) const { return state(e) == kHidden; }
 
  private:
-  static constexpr std::uint32_t kUnknown = 0, kSeen = 1, kBehind = 2, kFirst = 3;  // of occluders, by element
+  static constexpr std::uint8_t kUnknown = 0, kSeen = 1, kHidden = 2;
 
-  std::uint32_t state(hierarchy::ElementId) const;
+  std::uint8_t state(hierarchy::ElementId) const;
   bool behind(hierarchy::ElementId) const;
 
   const hierarchy::Elements& elements_;
   Box region_;
   std::size_t size_;  // elements there were
-  std::unique_ptr<std::atomic<std::uint32_t>[]> state_;
+  std::unique_ptr<std::atomic<std::uint8_t>[]> state_;
 };
 
 }  // namespace deltalux::paper

@@ -16,8 +16,9 @@
 namespace deltalux::paper {
 
 struct RefineReport {
-  std::uint64_t judged = 0, created = 0, split = 0, collapsed = 0, rays = 0, provenClear = 0, provenBlocked = 0;
-  bool stopped = false;  // ended early; the tree is consistent, some links err by more than their budget
+  std::uint64_t created = 0, rays = 0;
+  std::uint64_t changed = 0;  // of those that were there: carry light otherwise
+  bool stopped = false;       // ended early; the tree is consistent, some links err by more than their budget
 };
 
 /// Makes the root links of `elements` if there are none yet.
@@ -26,10 +27,9 @@ void makeRootLinks(hierarchy::Links&, const hierarchy::Elements&);
 void addRootLinks(hierarchy::Links&, const hierarchy::Elements&, hierarchy::ElementId grown);
 
 /// Judges the marked links anew after a move: active ones whose ends or visibility changed, interior ones that may no
-/// longer need to be refined, which collapse; and refines root links that were made since the marks were. Sets
-/// `marks.changes` to Changed where a link is another than before, and returns the topmost of those in `changed`.
+/// longer need to be refined, which collapse; and refines root links that were made since the marks were.
 RefineReport rejudge(hierarchy::Links&, hierarchy::Elements&, const Scene&, const tracing::RayTracer&,
-                     const OracleSettings&, LinkMarks& marks, std::vector<hierarchy::LinkId>& changed);
+                     const OracleSettings&, LinkMarks& marks);
 
 /// `stop` is asked between levels; true ends refinement with a consistent tree.
 RefineReport refine(hierarchy::Links&, hierarchy::Elements&, const Scene&, const tracing::RayTracer&,

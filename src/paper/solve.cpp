@@ -14,9 +14,6 @@ namespace {
 // What links may err by, for an error of irradiance (docs/paper.md): errors of links add up to less, as they differ in
 // sign. Smaller ones cost memory first: half the error, two thirds more links.
 constexpr double kLinkError = 4;
-constexpr double kDirect = 4;   // what direct light may, against indirect: one link brings most of it
-constexpr double kScale = 0.3;  // of the mean free path, gives the side of the area that matters (oracle.hpp)
-
 constexpr double kFactor = 0.35;      // from round to round
 constexpr int kMaxIterations = 1024;  // halls of white plaster settle in some fifty
 
@@ -32,8 +29,7 @@ RgbSum directPower(const hierarchy::Elements& e) {
 
 OracleSettings judgedFor(double error) {
   OracleSettings settings;
-  settings.error = kLinkError * error, settings.scale = kScale, settings.direct = kDirect;
-  settings.trusted = 0, settings.sameKernel = 0;
+  settings.error = kLinkError * error;
   return settings;
 }
 

@@ -66,62 +66,24 @@ void SpaceChange::add(const Box& box) {
   hidden_.reset();
 }
 
-void SpaceChange::addMoved(std::span<const hierarchy::ElementId> inputs, const hierarchy::Elements& elements,
-                           const Scene& scene) {
+void SpaceChange::addMoved(std::span<const hierarchy::ElementId> inputs, const hierarchy::Elements& elements) {
   moved_.grow(elements.size());
-  for (const hierarchy::ElementId input : inputs) {
-    if (elements.isPatch(input)) addMoved(elements.domain[input.index()].primitive, scene);
+  for (const hierarchy::ElementId input : inputs)
     hierarchy::forEachBelow(elements, input, [&](hierarchy::ElementId e) { return moved_.at(e.index()) = 1; });
-  }
-  addInputs(inputs);
-}
-
-void SpaceChange::addInputs(std::span<const hierarchy::ElementId> inputs) {
   inputs_.insert(inputs_.end(), inputs.begin(), inputs.end());
   hidden_.reset();
   sortUnique(inputs_);
 }
 
-void SpaceChange::addMoved(PrimitiveId primitive, const Scene& scene) { addObject(ObjectSet::top(scene, primitive)); }
-
-void SpaceChange::addObject(ObjectId top) {
-  const auto at = std::lower_bound(tops_.begin(), tops_.end(), top);
-  if (at != tops_.end() && *at == top) return;
-  tops_.insert(at, top);
-  objects_.emplace_back().add(top);
-}
-
-void SpaceChange::add(const SpaceChange& more) {
-  for (const ObjectId top : more.tops_) addObject(top);
-  parts_.add(more.parts_);
-  moved_.grow(more.moved_.size());
-  more.moved_.forEach([&](std::size_t i, char moved) { moved_.at(i) |= moved; });
-  addInputs(more.inputs_);
-}
-
-void SpaceChange::findHidden(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId grown) {
+void SpaceChange::findHidden(const hierarchy::Elements& elements, const Scene& scene) {
   hidden_.reset();
   Box region{Vec3(parts_.all().lower), Vec3(parts_.all().upper)};
-  const auto add = [&](hierarchy::ElementId e) {
-    const hierarchy::ElementGeometry& g = elements.shape(e);
-    if (g.area > 0) region.extend(Box{Vec3(g.lower), Vec3(g.upper)});
-  };
   for (const hierarchy::ElementId input : inputs_) {
     if (elements.isDistant(input)) return;
-    add(input);
+    const hierarchy::ElementGeometry& g = elements.shape(input);
+    if (g.area > 0) region.extend(Box{Vec3(g.lower), Vec3(g.upper)});
   }
-  if (grown.valid()) add(grown);
   if (!parts_.empty()) hidden_ = std::make_shared<OutOfSight>(elements, scene, region);
-}
-
-float SpaceChange::nearness(const Vec3f& center, float radius) const {
-  float most = 0;
-  for (const BoxGroups::Part& p : parts_.parts()) {
-    const Vec3f d = center - 0.5f * (p.lower + p.upper), half = 0.5f * (p.upper - p.lower) + radius;
-    const float size = glm::dot(half, half);
-    most = std::max(most, size / std::max(glm::dot(d, d), size));
-  }
-  return most;
 }
 
 bool SpaceChange::meets(const Shaft& shaft) const {
@@ -132,18 +94,10 @@ bool SpaceChange::meets(const tracing::Ray& ray) const {
   return parts_.any([&](const Vec3f& lower, const Vec3f& upper) { return segmentMeets(lower, upper, ray); });
 }
 
-bool SpaceChange::meets(const Vec3f& lower, const Vec3f& upper) const {
-  return parts_.any([&](const Vec3f& low, const Vec3f& high) {
-    return glm::all(glm::lessThanEqual(low, upper)) && glm::all(glm::lessThanEqual(lower, high));
-  });
-}
-
 bool SpaceChange::meets(const Vec3f& a, float radiusA, const Vec3f& b, float radiusB) const {
-  return meets(tracing::Ray{a, 0.0f, b - a, 1.0f}, radiusA, radiusB);
-}
-
-bool SpaceChange::meets(const tracing::Ray& axis, float from, float to) const {
-  return parts_.any([&](const Vec3f& lower, const Vec3f& upper) { return ballsMeet(lower, upper, axis, from, to); });
+  const tracing::Ray axis{a, 0.0f, b - a, 1.0f};
+  return parts_.any(
+      [&](const Vec3f& lower, const Vec3f& upper) { return ballsMeet(lower, upper, axis, radiusA, radiusB); });
 }
 
 std::optional<double> SpaceChange::seenFrom(const Vec3f& center, float radius, Vec3& axis) const {
@@ -154,25 +108,6 @@ std::optional<double> SpaceChange::seenFrom(const Vec3f& center, float radius, V
   if (empty() || !(size < kWide * distance)) return std::nullopt;
   axis = d / distance;
   return std::asin(size / distance);
-}
-
-bool SpaceChange::within(const Box& box) const {
-  return glm::all(glm::lessThanEqual(Vec3f(box.lower), parts_.all().lower)) &&
-         glm::all(glm::lessThanEqual(parts_.all().upper, Vec3f(box.upper)));
-}
-
-bool SpaceChange::behind(const Vec3f& point, const Vec3f& normal) const {
-  if (empty()) return false;
-  const Vec3f middle = 0.5f * (parts_.all().lower + parts_.all().upper),
-              half = 0.5f * (parts_.all().upper - parts_.all().lower);
-  return glm::dot(middle - point, normal) + glm::dot(half, glm::abs(normal)) < 0;
-}
-
-bool SpaceChange::meetsBeam(const Vec3f& center, float radius, const Vec3f& direction, float angle) const {
-  if (empty()) return false;
-  if (angle > kWidest) return true;
-  const float end = furthest(center) + radius;
-  return meets(tracing::Ray{center, 0.0f, direction, end}, radius, radius + end * tangent(angle));
 }
 
 bool SpaceChange::meetsBeam(const hierarchy::ElementGeometry& from, const Vec3f& direction, float angle) const {

@@ -11,15 +11,9 @@
 
 namespace deltalux::paper {
 
-struct Motion {
-  SpaceChange all;                           // bounds before and after
-  std::vector<hierarchy::ElementId> inputs;  // of what moves
-  LinkMarks marks;                           // what it touches
-};
-
 /// What moves leaves its place: the links that it touches there and where it goes, and the shapes of its elements. The
 /// scene has it in its new place, elements in the old one.
-Motion leave(const Parts&, std::span<const SceneChange::Moved>, std::span<const LightId>, const OracleSettings&);
+LinkMarks leave(const Parts&, std::span<const SceneChange::Moved>, std::span<const LightId>);
 
 /// What has come into the light since: elements of their own (a root, or none), and others that slept or were black.
 struct Newcomers {
@@ -28,9 +22,9 @@ struct Newcomers {
 };
 
 /// It comes to its new place, and newcomers with it: adds the links of these to the marks.
-void arrive(const Parts&, Motion&, const Newcomers&, const OracleSettings&);
+void arrive(const Parts&, LinkMarks&, const Newcomers&);
 
-/// Judges the marked links anew. `changed`: the topmost of those that are others now.
-RefineReport follow(const Parts&, Motion&, const OracleSettings&, std::vector<hierarchy::LinkId>& changed);
+/// Judges the marked links anew.
+RefineReport follow(const Parts&, LinkMarks&, const OracleSettings&);
 
 }  // namespace deltalux::paper

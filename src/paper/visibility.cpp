@@ -8,25 +8,6 @@ namespace deltalux::paper {
 
 namespace {
 
-constexpr int kMostHidden = 6;  // links above that are counted: there may be a narrow gap
-
-}  // namespace
-
-float openness(const hierarchy::Link& l) {
-  if (l.visibility == hierarchy::Visibility::Clear) return 1.0f;
-  const auto n = static_cast<float>(l.samples);
-  // Many links are blocked for good. Measured in a cabin of wooden walls and furniture and in a house: where none of 4,
-  // 8, 16 rays passed, 0.19, 0.09, 0.029 of all others do, and where no sampled points faced each other, a half. Each
-  // link above that saw nothing either takes two fifths off.
-  if (n > 0 && l.sampleMask == 0) {
-    const float unseen = isBlack(l.V) ? 25.0f / (n * (n + 30.0f)) : 0.5f;
-    return unseen * std::pow(0.6f, static_cast<float>(std::min<int>(l.hidden, kMostHidden)));
-  }
-  return (maxChannel(l.V) * n + 0.5f) / (n + 1.0f);
-}
-
-namespace {
-
 /// Of rays of which these shares of light pass.
 VisibilityEstimate estimate(std::span<const LinkSample> samples, const Rgb* through, bool clusterReceiver) {
   VisibilityEstimate result;

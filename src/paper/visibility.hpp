@@ -42,7 +42,4 @@ class VisibilitySamples {
   std::array<Rgb, kMaxSamples> through_;
 };
 
-/// Chance that light passes a link, as its rays leave it: where none passed it may still be open. 1: it surely passes.
-float openness(const hierarchy::Link&);
-
 }  // namespace deltalux::paper

@@ -195,63 +195,41 @@ void ParticleTracing::expectMotion(const Particles& p, const Box& ofObject) {
   if (!ofObject.empty() && !(watch_ && watch_->covers(ofObject))) watchAround(p, ofObject);
 }
 
-void ParticleTracing::addTouched(const Particles& p, std::span<const SceneChange::Moved> moved, const Worth& worth) {
+std::vector<std::uint32_t> ParticleTracing::touched(const Particles& p, std::span<const SceneChange::Moved> moved) {
   watch(p, moved);
-  if (!watch_) return;
+  if (!watch_) return {};
   std::vector<PrimitiveId> primitives;
   for (const SceneChange::Moved& m : moved) primitives.push_back(m.primitive);
   const std::vector<char> senderMoved = ends_->senders.follow(primitives);
   const std::vector<Receivers::Motion> nodes = ends_->receivers.follow(primitives);
   const Motions motions(scene_, moved, p, nodes, senderMoved);
-  waits_.resize(p.paths(), 0);
-  const auto wait = [&](std::size_t path, std::vector<Waiting>& found) {
-    waits_[path] = 1;
-    found.push_back({static_cast<std::uint32_t>(path), worth ? static_cast<float>(worth(path)) : 0.0f});
-  };
+  std::vector<std::uint32_t> paths;
   if (std::find(nodes.begin(), nodes.end(), Receivers::Motion::Bound) != nodes.end())
     for (const ParticleLink& l : p.links)
       if (motions.touchesAll(l))
-        for (std::uint32_t path = l.firstPath; path < l.firstPath + l.paths; ++path)
-          if (!waits_[path]) wait(path, waiting_);
+        for (std::uint32_t path = l.firstPath; path < l.firstPath + l.paths; ++path) paths.push_back(path);
 
   const std::vector<std::uint64_t>& words = watch_->words();
   constexpr std::size_t kBlock = 128;
-  std::vector<std::vector<Waiting>> found((words.size() + kBlock - 1) / kBlock);
+  std::vector<std::vector<std::uint32_t>> found((words.size() + kBlock - 1) / kBlock);
   parallelFor(words.size(), kBlock, [&](std::size_t w) {
     for (std::uint64_t rest = words[w]; rest; rest &= rest - 1) {
       const std::size_t path = w * PathWatch::kPathsOfWord + static_cast<std::size_t>(std::countr_zero(rest));
-      if (!waits_[path] && motions.touch(path)) wait(path, found[w / kBlock]);
+      if (motions.touch(path)) found[w / kBlock].push_back(static_cast<std::uint32_t>(path));
     }
   });
-  for (const auto& block : found) waiting_.insert(waiting_.end(), block.begin(), block.end());
+  for (const auto& block : found) paths.insert(paths.end(), block.begin(), block.end());
+  sortUnique(paths);
+  return paths;
 }
 
-void ParticleTracing::note(const Particles& p, const SceneChange& change, const Worth& worth) {
-  all_ = all_ || !looksAsBefore(change);
-  if (all_ || p.paths() == 0 || change.moved.empty()) return;
-  if (!weighed_) weigh(p);
-  addTouched(p, change.moved, worth);
-}
-
-ParticleUpdate ParticleTracing::retrace(Particles& p, std::size_t count) {
-  if (count < waiting_.size()) {
-    const auto worthier = [](const Waiting& a, const Waiting& b) {
-      return a.worth != b.worth ? a.worth > b.worth : a.path < b.path;
-    };
-    std::nth_element(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count), waiting_.end(), worthier);
-  }
-  const auto last = waiting_.begin() + static_cast<std::ptrdiff_t>(std::min(count, waiting_.size()));
-  std::vector<std::uint32_t> paths;
-  for (auto w = waiting_.begin(); w != last; ++w) paths.push_back(w->path);
-  waiting_.erase(waiting_.begin(), last);
-  std::sort(paths.begin(), paths.end());
+ParticleUpdate ParticleTracing::retrace(Particles& p, const std::vector<std::uint32_t>& paths) {
   ParticleUpdate update;
   update.paths.reserve(paths.size());
   std::vector<std::uint8_t> arrived;
   for (const std::uint32_t path : paths) {
     update.paths.push_back({path, p.sender[path], p.originTriangle[path], p.range[path]});
     arrived.push_back(p.fate[path] & kArrived);
-    waits_[path] = 0;
   }
   const std::uint64_t before = p.rays;
   retracePaths(scene_, tracer_, ends_->emission, settings_.maxDepth, p, paths);
@@ -262,10 +240,10 @@ ParticleUpdate ParticleTracing::retrace(Particles& p, std::size_t count) {
   return update;
 }
 
-ParticleUpdate ParticleTracing::retraceAll(Particles& p) {
+ParticleUpdate ParticleTracing::traceAnew(Particles& p) {
   ends_ = std::make_unique<Ends>(scene_, tracer_);
   look_ = Look(scene_);
-  all_ = false, waiting_.clear(), waits_.clear(), watch_.reset();
+  watch_.reset();
   p = trace();
   ParticleUpdate update;
   update.all = true, update.rays = p.rays + p.looks, update.particles = p.arrived();
@@ -273,8 +251,10 @@ ParticleUpdate ParticleTracing::retraceAll(Particles& p) {
 }
 
 ParticleUpdate ParticleTracing::follow(Particles& p, const SceneChange& change) {
-  note(p, change);
-  return all_ ? retraceAll(p) : retrace(p, waiting_.size());
+  if (!looksAsBefore(change)) return traceAnew(p);
+  if (p.paths() == 0 || change.moved.empty()) return {};
+  if (!weighed_) weigh(p);
+  return retrace(p, touched(p, change.moved));
 }
 
 Particles traceParticles(const Scene& scene, const tracing::RayTracer& tracer, const ParticleSettings& settings) {

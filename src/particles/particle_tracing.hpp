@@ -11,7 +11,6 @@
 // Dimmed lights and new diffuse colours change no path; other lights, other speculars and new things change all.
 // Cost: some nanoseconds a path, and the rays of what is touched.
 #include <deltalux/edit.hpp>
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -50,29 +49,10 @@ class ParticleTracing {
   /// Brings `particles`, which were right before, up to an edit that scene and tracer have taken in.
   ParticleUpdate follow(Particles&, const SceneChange&);
 
-  // The same in two, for motion that waits for nobody: what edits touch is noted at once, and traced anew when there is
-  // time. A path is traced where things are by then, and once, however many edits have touched it.
-
-  /// Looks for the paths that motion from here can touch, so that note() need not.
+  /// Looks for the paths that motion from here can touch, so that follow() need not.
   void expectMotion(const Particles&, const Box& ofObject);
   /// Of what knows the paths near the motion: the place of the paper's octree.
   std::size_t watchBytes() const { return watch_ ? watch_->memoryBytes() : 0; }
-
-  using Worth = std::function<double(std::size_t path)>;
-  struct Waiting {
-    std::uint32_t path = 0;
-    float worth = 0;  // when it was noted
-  };
-  /// Notes what an edit has touched. The edits before need not have been followed yet.
-  void note(const Particles&, const SceneChange&, const Worth& = {});
-  /// Whether edits have changed what all paths depend on: then retraceAll() must follow, and nothing else is noted.
-  bool allWait() const { return all_; }
-  /// Paths that wait to be traced anew, in no order.
-  const std::vector<Waiting>& waiting() const { return waiting_; }
-  /// Traces `count` of those that wait, the worthiest first.
-  ParticleUpdate retrace(Particles&, std::size_t count);
-  /// Traces everything, waiting or not.
-  ParticleUpdate retraceAll(Particles&);
 
  private:
   /// What first segments are drawn from.
@@ -97,9 +77,12 @@ class ParticleTracing {
   Particles trace(const ParticlePlan&);
   void weigh(const Particles&);
   bool looksAsBefore(const SceneChange&) const;
+  ParticleUpdate traceAnew(Particles&);
+  ParticleUpdate retrace(Particles&, const std::vector<std::uint32_t>& paths);
   void watch(const Particles&, std::span<const SceneChange::Moved>);
   void watchAround(const Particles&, const Box&);
-  void addTouched(const Particles&, std::span<const SceneChange::Moved>, const Worth&);
+  /// The paths that a motion touches, ascending.
+  std::vector<std::uint32_t> touched(const Particles&, std::span<const SceneChange::Moved>);
 
   const Scene& scene_;
   const tracing::RayTracer& tracer_;
@@ -107,10 +90,7 @@ class ParticleTracing {
   std::unique_ptr<Ends> ends_;
   Look look_;
   bool weighed_ = false;
-  bool all_ = false;
   std::optional<PathWatch> watch_;
-  std::vector<Waiting> waiting_;
-  std::vector<char> waits_;  // by path
 };
 
 }  // namespace deltalux::particles

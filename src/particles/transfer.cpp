@@ -1,7 +1,6 @@
 #include "particles/transfer.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
@@ -139,14 +138,14 @@ std::vector<RetracedPath> ParticleTransfer::misplaced(const Particles& p, const 
   return paths;
 }
 
-std::vector<hierarchy::ElementId> ParticleTransfer::follow(const Particles& p, const ParticleUpdate& update,
-                                                           const hierarchy::Elements& elements, const Scene& scene) {
+void ParticleTransfer::follow(const Particles& p, const ParticleUpdate& update, const hierarchy::Elements& elements,
+                              const Scene& scene) {
   DELTALUX_CHECK(!update.all && senderOf_.size() == p.paths() && elementOf_.size() <= p.impactSlots(),
                  "the particles of before");
   resizeWithRoom(entries_, elements.size()), resizeWithRoom(sums_, elements.size());
   if (p.paths() == 0) {
     places_.resize(elements.size(), 0);
-    return {};
+    return;
   }
   std::vector<char> before = placesOf(elements);
   before.swap(places_);
@@ -185,13 +184,10 @@ std::vector<hierarchy::ElementId> ParticleTransfer::follow(const Particles& p, c
   }
   sortUnique(changed), sortUnique(surfaces_);
   levels_.choose(changed, elements, sums_);
-  std::erase_if(changed,
-                [&](hierarchy::ElementId e) { return !std::binary_search(surfaces_.begin(), surfaces_.end(), e); });
-  return changed;
 }
 
-std::vector<hierarchy::ElementId> ParticleTransfer::followPatches(const hierarchy::Elements& elements,
-                                                                  std::span<const hierarchy::ElementId> patches) {
+void ParticleTransfer::followPatches(const hierarchy::Elements& elements,
+                                     std::span<const hierarchy::ElementId> patches) {
   std::vector<hierarchy::ElementId> under;
   for (const hierarchy::ElementId e : patches) under.push_back(hierarchy::surfaceOf(elements, e));
   sortUnique(under);
@@ -199,7 +195,6 @@ std::vector<hierarchy::ElementId> ParticleTransfer::followPatches(const hierarch
     return !elements.receives(e) || !std::binary_search(surfaces_.begin(), surfaces_.end(), e);
   });
   levels_.choose(under, elements, sums_);
-  return under;
 }
 
 void ParticleTransfer::add(const Landing& l) {
@@ -241,24 +236,18 @@ void ParticleTransfer::apply(hierarchy::Elements& elements, std::span<const Rgb>
     B[i] = elements.radiometry[i].B;
     if (places_[i]) elements.radiometry[i].particle = Rgb(0.0f);
   }
-  std::vector<char> marks;
-  apply(surfaces_, elements, {B, scales}, std::numeric_limits<float>::infinity(), marks);
-}
-
-void ParticleTransfer::apply(std::span<const hierarchy::ElementId> surfaces, hierarchy::Elements& elements,
-                             const Sources& sources, float least, std::vector<char>& marks) const {
-  parallelBlocks(surfaces.size(), 16, [&](std::size_t begin, std::size_t end) {
+  parallelBlocks(surfaces_.size(), 16, [&](std::size_t begin, std::size_t end) {
     PatchTree tree;
     for (std::size_t i = begin; i < end; ++i) {
-      if (!elements.receives(surfaces[i])) continue;
-      tree.list(elements, surfaces[i]);
-      apply(tree, elements, sources, least, marks);
+      if (!elements.receives(surfaces_[i])) continue;
+      tree.list(elements, surfaces_[i]);
+      apply(tree, B, elements, scales);
     }
   });
 }
 
-void ParticleTransfer::apply(const PatchTree& tree, hierarchy::Elements& elements, const Sources& sources, float least,
-                             std::vector<char>& marks) const {
+void ParticleTransfer::apply(const PatchTree& tree, const std::vector<Rgb>& B, hierarchy::Elements& elements,
+                             std::span<const Rgb> scales) const {
   for (std::size_t begin = 0, end = 0; begin < tree.places.size(); begin = end) {
     const std::uint32_t level = levels_.of(tree.places[begin].element);
     end = begin + 1;
@@ -268,17 +257,12 @@ void ParticleTransfer::apply(const PatchTree& tree, hierarchy::Elements& element
     RgbSum flux(0.0);
     for (std::size_t i = begin; i < end; ++i)
       for (const Entry& entry : entries_[tree.places[i].element.index()])
-        flux += entry.sender < lights_ ? entry.flux * RgbSum(sources.scales[entry.sender])
-                                       : damping * entry.flux * RgbSum(sources.B[entry.sender - lights_]);
+        flux += entry.sender < lights_ ? entry.flux * RgbSum(scales[entry.sender])
+                                       : damping * entry.flux * RgbSum(B[entry.sender - lights_]);
     const Rgb E(flux / std::max<double>(elements.shape(hierarchy::ElementId(level)).litArea(), 1e-30));
-    for (std::size_t i = begin; i < end; ++i) {
-      const hierarchy::ElementId e = tree.places[i].element;
-      if (!elements.isLeaf(e)) continue;
-      Rgb& particle = elements.radiometry[e.index()].particle;
-      if (maxChannel(glm::abs(E - particle)) > least * std::max(maxChannel(E), maxChannel(particle)))
-        marks[e.index()] = 1;
-      particle = E;
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      if (const hierarchy::ElementId e = tree.places[i].element; elements.isLeaf(e))
+        elements.radiometry[e.index()].particle = E;
   }
 }
 

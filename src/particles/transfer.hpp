@@ -5,8 +5,7 @@
 // which: spread_levels.hpp
 //
 // Retraced paths, and those whose ends lie on patches that were split, are taken out and put in one by one; levels are
-// chosen anew, and light is written, surface by surface, so that settling need only look at surfaces where particles or
-// their senders' light have changed.
+// chosen anew surface by surface.
 // Cost: to build, about 0.3 microseconds an impact; to follow, that for what is retraced, and some nanoseconds a path
 // where elements were split.
 #include "particles/particle_tracing.hpp"
@@ -26,33 +25,14 @@ class ParticleTransfer {
   ParticleTransfer(const Particles&, const hierarchy::Elements&, const Scene&);
 
   /// Takes in what was traced anew, and that elements were split, woken, put to sleep or added. Not for updates of all
-  /// particles, or compacted ones: then make a new one. Returns the surfaces that particles lie otherwise on.
-  std::vector<hierarchy::ElementId> follow(const Particles&, const ParticleUpdate&, const hierarchy::Elements&,
-                                           const Scene&);
+  /// particles, or compacted ones: then make a new one.
+  void follow(const Particles&, const ParticleUpdate&, const hierarchy::Elements&, const Scene&);
 
-  /// Takes in that these patches reflect otherwise or are covered otherwise. Returns their surfaces with particles on
-  /// them, which may lie otherwise by that.
-  std::vector<hierarchy::ElementId> followPatches(const hierarchy::Elements&,
-                                                  std::span<const hierarchy::ElementId> patches);
+  /// Takes in that these patches reflect otherwise or are covered otherwise: particles on them may lie otherwise.
+  void followPatches(const hierarchy::Elements&, std::span<const hierarchy::ElementId> patches);
 
   /// Writes E of particles at every leaf from today's radiosities and the scale of lights.
   void apply(hierarchy::Elements&, std::span<const Rgb> scales) const;
-
-  /// Radiosity by element, and the scale of lights.
-  struct Sources {
-    const std::vector<Rgb>& B;
-    std::span<const Rgb> scales;
-  };
-  /// Writes E of particles at every leaf of these surfaces; marks the leaves, in an array by element, whose E changes
-  /// by more than `least`, relatively.
-  void apply(std::span<const hierarchy::ElementId> surfaces, hierarchy::Elements&, const Sources&, float least,
-             std::vector<char>& marks) const;
-
-  /// Input-level patches that particles land on, or did, ascending.
-  const std::vector<hierarchy::ElementId>& surfaces() const { return surfaces_; }
-  /// sender(ElementId) for every patch that sends particles to the surface; some come more than once.
-  template <class Sender>
-  void visitSenders(hierarchy::ElementId surface, const hierarchy::Elements&, const Sender& sender) const;
 
   /// Radiosity of the element, or scale of the light, that sends a path; black when it has no element. [W/m2, or 1]
   Rgb power(std::size_t path, const hierarchy::Elements&, const Scene&) const;
@@ -88,27 +68,17 @@ class ParticleTransfer {
   void add(const Landing&);
   void remove(const Landing&);
   std::vector<RetracedPath> misplaced(const Particles&, const ParticleUpdate&) const;
-  void apply(const PatchTree&, hierarchy::Elements&, const Sources&, float least, std::vector<char>& marks) const;
+  void apply(const PatchTree&, const std::vector<Rgb>& B, hierarchy::Elements&, std::span<const Rgb> scales) const;
 
   std::size_t lights_ = 0;
   double lost_ = 0;
-  LargeArray<std::uint32_t> senderOf_;       // by path
-  LargeArray<std::uint32_t> elementOf_;      // by slot of impact
-  std::vector<std::vector<Entry>> entries_;  // by element: ascending by sender
-  std::vector<LandingSums> sums_;            // by element
-  std::vector<char> places_;                 // by element: whether particles can start and land there
-  std::vector<hierarchy::ElementId> surfaces_;
+  LargeArray<std::uint32_t> senderOf_;          // by path
+  LargeArray<std::uint32_t> elementOf_;         // by slot of impact
+  std::vector<std::vector<Entry>> entries_;     // by element: ascending by sender
+  std::vector<LandingSums> sums_;               // by element
+  std::vector<char> places_;                    // by element: whether particles can start and land there
+  std::vector<hierarchy::ElementId> surfaces_;  // input-level patches that particles land on, or did, ascending
   SpreadLevels levels_;
 };
-
-template <class Sender>
-void ParticleTransfer::visitSenders(hierarchy::ElementId surface, const hierarchy::Elements& elements,
-                                    const Sender& sender) const {
-  PatchTree tree;
-  tree.list(elements, surface);
-  for (const PatchTree::Place& p : tree.places)
-    for (const Entry& e : entries_[p.element.index()])
-      if (e.sender >= lights_) sender(hierarchy::ElementId(e.sender - lights_));
-}
 
 }  // namespace deltalux::particles

@@ -16,6 +16,8 @@ namespace {
 
 constexpr int kShadowRays = 64;     // of one independent estimate
 constexpr int kFirstEstimates = 4;  // before any judgement
+// Lines that tell which surfaces send light, times the error that is asked for; and their limits.
+constexpr double kGatherLines = 40, kFewestGatherLines = 1024, kMostGatherLines = 1 << 14;
 
 /// The strongest first, and no more than so many.
 template <class T>
@@ -48,18 +50,9 @@ void measureLamps(const Sample& sample, const Vec3& normal, const ContributionSe
     if (gray(E) > 0) result.lamps.push_back({light, E / n});
 }
 
-/// The same over the links of a leaf, or of a point without one.
-void measureOverLinks(const radiosity::DirectLight& direct, const radiosity::SenderChoice& choice,
-                      const radiosity::Receiver& x, const ContributionSettings& settings, Contributions& result) {
-  if (choice.dark()) return;
-  measureLamps([&](std::uint64_t key, const auto& visit) { direct.sample(choice, x, kShadowRays, 0, key, visit); },
-               x.normal, settings, result);
-}
-
-/// The same where light is exchanged by lines.
-void measureOverLines(const rendering::PointSources& points, std::optional<hierarchy::ElementId> leaf,
-                      const radiosity::Receiver& at, const ContributionSettings& settings, Contributions& result) {
-  const direct::Receiver x{at.position, at.normal};
+/// The same at a point of a leaf, or of a surface without one.
+void measureAt(const rendering::PointSources& points, std::optional<hierarchy::ElementId> leaf,
+               const direct::Receiver& x, const ContributionSettings& settings, Contributions& result) {
   const std::vector<direct::Source> sources = leaf ? points.at(*leaf, x) : points.light().sources(x);
   direct::Aim aim(sources);
   aim.learn(points.light(), {&x, 1}, direct::tuning::kLearnAtPoint, combineKeys(settings.seed, 1));
@@ -70,8 +63,8 @@ void measureOverLines(const rendering::PointSources& points, std::optional<hiera
 }
 
 /// Last reflections, by the objects that they are on.
-void gatherSurfaces(const Solution& s, const rendering::LineGather* lines, hierarchy::ElementId leaf,
-                    const radiosity::Receiver& x, const ContributionSettings& settings, Contributions& result) {
+void gatherSurfaces(const Solution& s, const rendering::LineGather& lines, const direct::Receiver& x,
+                    const ContributionSettings& settings, Contributions& result) {
   struct Sent {
     RgbSum E{0.0};
     Vec3 centre{0};
@@ -84,14 +77,9 @@ void gatherSurfaces(const Solution& s, const rendering::LineGather* lines, hiera
     sent.E += E, sent.centre += gray(E) * Vec3(s.elements.shape(sender).center);
     result.indirect += E;
   };
-  const int rays = rendering::gatherRays(settings.error);
-  if (lines) {
-    lines->forEachLine(Vec3f(x.position), Vec3f(x.normal), static_cast<std::uint32_t>(rays), settings.seed, add);
-  } else {
-    const radiosity::IndirectSampler sampler(s.scene, s.elements, s.links, *s.tracer);
-    for (const auto& share : sampler.sharesAtPoint(leaf, Vec3f(x.position), Vec3f(x.normal), rays))
-      add(share.sender, share.E);
-  }
+  const auto count =
+      static_cast<std::uint32_t>(std::clamp(kGatherLines / settings.error, kFewestGatherLines, kMostGatherLines));
+  lines.forEachLine(Vec3f(x.position), Vec3f(x.normal), count, settings.seed, add);
   for (const auto& [object, sent] : objects)
     if (gray(sent.E) > 0) result.surfaces.push_back({object, sent.centre / gray(sent.E), sent.E});
 }
@@ -107,22 +95,17 @@ Contributions SolutionReader::contributions(const ProbePoint& point, const Contr
   const auto spot = meter.surfaceAt(point);
   if (!spot) return result;
   result.onSurface = true;
-  const radiosity::Receiver x{spot->position, spot->normal};
+  const direct::Receiver x{spot->position, spot->normal};
   const hierarchy::ElementId side = reconstruction.locator.side(spot->primitive, spot->triangle, spot->front);
   if (side.valid()) {
     const hierarchy::ElementId leaf = reconstruction.locator.locate(side, spot->position).leaf;
-    if (reconstruction.points)
-      measureOverLines(*reconstruction.points, leaf, x, settings, result);
-    else
-      measureOverLinks(reconstruction.direct, reconstruction.choices.at(leaf), x, settings, result);
-    gatherSurfaces(s, meter.lines(), leaf, x, settings, result);
+    measureAt(reconstruction.sources, leaf, x, settings, result);
+    gatherSurfaces(s, meter.lines(), x, settings, result);
     const Rgb particle = meter.particleLight(*spot);
     result.particle = RgbSum(particle);
     if (!isBlack(particle)) result.paths = rendering::particlePathsAt(s, *spot, particle);
-  } else if (reconstruction.points) {
-    measureOverLines(*reconstruction.points, std::nullopt, x, settings, result);
   } else {
-    measureOverLinks(reconstruction.direct, reconstruction.direct.choiceAt(x), x, settings, result);
+    measureAt(reconstruction.sources, std::nullopt, x, settings, result);
   }
   keepStrongest(result.lamps, settings.most);
   keepStrongest(result.surfaces, settings.most);

@@ -43,9 +43,7 @@ EyePaths::EyePaths(const Solution& s, const Reconstruction& reconstruction, EyeS
   }
 }
 
-Rgb EyePaths::radiance(const EyeRay& eye, Sights& sights) const {
-  return follow({eye.ray, Rgb(1.0f), eye.emitters, eye.emitters}, eye, sights);
-}
+Rgb EyePaths::radiance(const EyeRay& eye, Sights& sights) const { return follow({eye.ray}, eye, sights); }
 
 Rgb EyePaths::diffuse(const tracing::Hit& hit) const {
   const Vec3 position(hit.position);
@@ -70,10 +68,10 @@ Rgb EyePaths::follow(Way w, const EyeRay& eye, Sights& sights) const {
   while (w.depth <= settings_.maxDepth) {
     const tracing::Hit hit = tracer_.closestHit(w.ray);
     if (eye.trail) w.corner = eye.trail->add(w.ray, hit, w.corner);
-    if (!hit) return w.emitters ? L + w.beta * background(w) : L;
+    if (!hit) return L + w.beta * background(w);
     const Vec3 n = hit.front ? Vec3(hit.normal) : -Vec3(hit.normal);
     const Vertex v{hit, Vec3(hit.position), Vec3(w.ray.direction), n};
-    if (w.emitters) L += w.beta * emitted(w, v);
+    L += w.beta * emitted(w, v);
     const scene::Bsdf& scattering = bsdf(hit.primitive, hit.front);
     if (scattering.pane && !panesReflect_) {
       w.beta *= scene::passageTransmittance(scattering, -glm::dot(v.direction, n));
@@ -99,7 +97,6 @@ bool EyePaths::go(Way& w, const Vertex& v, const scene::Bsdf& scattering, const 
   const bool glossy = !scene::isDirac(s.event);
   w.lobe = glossy && lightsMet ? std::optional(Lobe{v.position, shape.roughness}) : std::nullopt;
   w.clear = w.clear && !glossy;
-  w.emitters = w.emitters || s.event != scene::ScatterEvent::Passage;
   w.ray.direction = Vec3f(glm::normalize(Frame(v.normal).toWorld(s.direction)));
   w.ray.origin = tracing::offsetOrigin(Vec3f(v.position), v.hit.normal, w.ray.direction);
   ++w.depth;
@@ -148,7 +145,7 @@ void EyePaths::survey(Way w, const EyeRay& eye, Sights& sights) const {
 }
 
 bool EyePaths::metByShadowRays(LightId id, const Lobe& lobe) const {
-  const scene::LightSampler& lights = reconstruction_.direct.lights();
+  const scene::LightSampler& lights = reconstruction_.lights();
   if (lights.isPointLike(id)) return true;
   const double width = kPi * double(lobe.roughness) * double(lobe.roughness);  // [sr]
   if (const auto* sun = std::get_if<SunLight>(&scene_[id].emitter)) return solidAngle(*sun) < width;
@@ -160,7 +157,7 @@ bool EyePaths::metByShadowRays(LightId id, const Lobe& lobe) const {
 }
 
 Rgb EyePaths::background(const Way& w) const {
-  const scene::LightSampler& lights = reconstruction_.direct.lights();
+  const scene::LightSampler& lights = reconstruction_.lights();
   const Vec3 towards(w.ray.direction);
   Rgb L(0.0f);
   for (const LightId id : lights.atInfinity())
@@ -171,7 +168,7 @@ Rgb EyePaths::background(const Way& w) const {
 }
 
 Rgb EyePaths::emitted(const Way& w, const Vertex& v) const {
-  const scene::LightSampler& lights = reconstruction_.direct.lights();
+  const scene::LightSampler& lights = reconstruction_.lights();
   const LightId id = lights.lightOf(v.hit.primitive);
   if (!id.valid())
     return w.clear ? scene::seenRadiance(scene_.materialOf(v.hit.primitive), -v.direction, v.hit.t, v.hit.front)
@@ -208,7 +205,7 @@ Rgb EyePaths::irradiance(const Vertex& v, bool front, const scene::Bsdf* lobes, 
     E += *caustic;
   if (settings_.shadowRays == 0) return E + reconstruction_.field.direct(at, Vec3f(v.position));
 
-  const radiosity::Receiver receiver{v.position, v.sideNormal(front)};
+  const direct::Receiver receiver{v.position, v.sideNormal(front)};
   const std::uint64_t key = combineKeys(eye.key, (front == v.hit.front ? kShadowKey : kOtherSideKey) + depth);
   const Frame frame(v.normal);
   const Vec3 wo = frame.toLocal(-v.direction);

@@ -16,7 +16,6 @@ namespace deltalux::rendering {
 
 struct EyeRay {
   tracing::Ray ray;
-  bool emitters = true;       // whether lights that it meets (straight, or through panes) count
   std::uint64_t key = 0;      // names the stratified numbers of its pixel ...
   std::uint32_t index = 0;    // ... and which of them are this ray's
   EyeTrail* trail = nullptr;  // notes where the path goes
@@ -51,8 +50,7 @@ class EyePaths {
   /// A path as far as it has come.
   struct Way {
     tracing::Ray ray;
-    Rgb beta{1.0f};  // of its radiance, what reaches the eye
-    bool emitters = true;
+    Rgb beta{1.0f};              // of its radiance, what reaches the eye
     bool clear = true;           // from a camera, by way of mirrors and clear things alone: sees what only is seen
     std::optional<Lobe> lobe{};  // of the surface before
     int depth = 0;               // non-diffuse events

@@ -1,12 +1,10 @@
 #pragma once
-// Measures irradiance at points of surfaces and in free space: direct light by shadow rays until its error is small,
-// indirect light over the links of the patch, particles from their textures or impacts; in free space by rays that read
-// what they see.
+// Measures irradiance at points of surfaces and in free space: direct light by shadow rays, indirect light by lines,
+// until their error is small, particles from their textures or impacts; in free space by paths that read what they see.
 #include <deltalux/render.hpp>
 #include <memory>
 #include <mutex>
 
-#include "radiosity/indirect_sampler.hpp"
 #include "render/eye_path.hpp"
 #include "render/line_gather.hpp"
 #include "render/particle_field.hpp"
@@ -33,40 +31,28 @@ class LightMeter {
   ProbeResult measure(const ProbePoint&, const ProbeSettings&, std::uint64_t key) const;
   /// The nearest surface that faces the point's normal, where the point lies on one.
   std::optional<SurfaceSpot> surfaceAt(const ProbePoint&) const;
-  /// Of a solution over lines; null for others.
-  const LineGather* lines() const { return lines_.get(); }
+  const LineGather& lines() const { return lines_; }
   /// What particles bring there [W/m2].
   Rgb particleLight(const SurfaceSpot&) const;
 
  private:
   double reachAt(const Vec3&) const;
   ProbeResult onSurface(const SurfaceSpot&, const ProbeSettings&, std::uint64_t key) const;
-  ProbeResult inFreeSpace(const ProbePoint&, const ProbeSettings&, std::uint64_t key) const;
-  ProbeResult gather(const radiosity::Receiver&, const ProbeSettings&, std::uint64_t key) const;
-  ProbeResult overLines(const hierarchy::LeafPoint&, const SurfaceSpot&, const ProbeSettings&, std::uint64_t key) const;
-  Rgb indirectAt(const hierarchy::LeafPoint&, const SurfaceSpot&, double error) const;
-  /// Direct light of a point where light is exchanged by lines.
-  ProbeResult directAt(const radiosity::Receiver&, std::optional<hierarchy::ElementId> leaf, const Rgb& ambient,
+  ProbeResult directAt(const direct::Receiver&, std::optional<hierarchy::ElementId> leaf, const Rgb& ambient,
                        double error, const ProbeSettings&, std::uint64_t key) const;
   /// Made when first asked for.
   const ParticleField& particles() const;
 
   const Solution& solution_;
   const Scene& scene_;
-  const hierarchy::Elements& elements_;
-  const caustics::Caustics& caustics_;
   const tracing::RayTracer& tracer_;
   const Reconstruction& reconstruction_;
   EyePaths paths_;
-  radiosity::IndirectSampler sampler_;
-  std::unique_ptr<const LineGather> lines_;  // where light is exchanged by lines
+  LineGather lines_;
   mutable std::once_flag once_;
   mutable std::unique_ptr<const ParticleField> particles_;
   mutable std::unique_ptr<const SpaceMeter> space_;  // by prepare()
 };
-
-/// Rays over the links of a surface point, for indirect light of that relative error.
-int gatherRays(double error);
 
 /// As deltalux::probe().
 std::vector<ProbeResult> measureAll(const LightMeter&, std::span<const ProbePoint>, const ProbeSettings&, Progress*);

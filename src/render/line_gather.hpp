@@ -1,6 +1,7 @@
 #pragma once
 // Indirect light at a point by lines of its own, which read the radiosity of the leaves that they end on: until their
-// standard error is what is asked for. [lines.md]
+// standard error is what is asked for. They go on over mirrors, gloss and glass where particles do not bring what
+// surfaces send that way. [lines.md]
 #include <deltalux/probe.hpp>
 #include <functional>
 

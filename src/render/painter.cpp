@@ -49,7 +49,7 @@ Painter::Tile Painter::tile(std::size_t index) const {
 }
 
 Sights Painter::lookAround(const Tile& t) const {
-  Sights sights(elements_, reconstruction_);
+  Sights sights(elements_, reconstruction_.sources);
   if (settings_.meshDirect) return sights;
   const std::uint64_t key = combineKeys(settings_.seed, kSurveyKey);
   for (int y = t.y0; y < t.y1; ++y)

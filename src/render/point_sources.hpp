@@ -1,6 +1,6 @@
 #pragma once
-// Where light comes from at the leaves of a solution over lines: suns and lamps that may shine on a leaf, and cells of
-// the skies with the openness that its lines have found.
+// Where light comes from at the leaves of a solution: suns and lamps that may shine on a leaf, and cells of the skies
+// with the openness that its lines have found.
 #include "direct/aim.hpp"
 
 namespace deltalux {
@@ -13,7 +13,7 @@ namespace deltalux::rendering {
 
 class PointSources {
  public:
-  /// The solution, made by lines, must outlive this.
+  /// The solution must outlive this.
   explicit PointSources(const Solution&);
 
   const direct::PointSampler& light() const { return light_; }

@@ -10,11 +10,8 @@ constexpr float kNoise = 2.0f;  // of leaves, times the error that was asked for
 
 Reconstruction::Reconstruction(const Solution& s, const Reconstruction* before)
     : locator(s.elements, s.scene),
-      field(s.elements, s.scene, *s.tracer, meshIrradiance(s.elements, s.caustics, s.transfers, s.deviation),
+      field(s.elements, s.scene, *s.tracer, meshIrradiance(s.elements, s.caustics, s.deviation),
             kNoise * static_cast<float>(s.settings.error), before ? &before->field : nullptr),
-      direct(s.scene, s.elements, s.links, *s.tracer),
-      choices(direct, s.elements.size()) {
-  if (s.settings.method == SolveMethod::Lines) points = std::make_unique<const PointSources>(s);
-}
+      sources(s) {}
 
 }  // namespace deltalux::rendering

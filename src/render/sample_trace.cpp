@@ -52,7 +52,7 @@ std::vector<PixelSample> SolutionReader::trace(std::span<const PixelRay> rays) c
   const float far = kFar * static_cast<float>(std::max(solution.elements.sceneBox.diagonal(), 1.0));
   std::vector<PixelSample> samples(rays.size());
   parallelBlocks(rays.size(), kRays, [&](std::size_t begin, std::size_t end) {
-    rendering::Sights sights(solution.elements, reconstruction);  // stay empty: there are no shadow rays
+    rendering::Sights sights(solution.elements, reconstruction.sources);  // stay empty: there are no shadow rays
     for (std::size_t i = begin; i < end; ++i) {
       const PixelRay& ray = rays[i];
       PixelSample& s = samples[i];

@@ -32,10 +32,11 @@ class CellOfCode {
 
 direct::Openness skyOpenness(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
                              const lines::Lines& lines) {
-  std::vector<std::uint32_t> counts(leaves.size());
-  for (std::size_t i = 0; i < leaves.size(); ++i) counts[i] = lines.countOf(i);
+  std::vector<std::uint32_t> counts(leaves.size(), 0);
+  for (std::size_t i = 0; i < lines.leaves(); ++i) counts[i] = lines.countOf(i);
   const CellOfCode cellOf;
   return {elements, leaves, counts, [&](std::size_t leaf, const auto& sink) {
+            if (counts[leaf] == 0) return;
             for (std::uint64_t k = lines.first[leaf]; k < lines.first[leaf + 1]; ++k)
               if (lines.end[k] != lines::kCovered) sink(cellOf(lines.code[k]), lines.end[k] == lines::kEscaped);
           }};

@@ -1,6 +1,6 @@
 #pragma once
-// How open the sky is about each leaf of a solution over lines, by all the lines that were traced below a common
-// element.
+// How open the sky is about each leaf of a solution, by all the lines that were traced below a common element; without
+// lines, alike everywhere.
 #include "direct/sky_light.hpp"
 #include "lines/lines.hpp"
 

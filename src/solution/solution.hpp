@@ -7,7 +7,6 @@
 #include "hierarchy/link.hpp"
 #include "lines/lines.hpp"
 #include "particles/particles.hpp"
-#include "radiosity/leaf_transfers.hpp"
 #include "solution/solve_memory.hpp"
 #include "tracing/ray_tracer.hpp"
 
@@ -18,13 +17,12 @@ struct Solution {
   SolveSettings settings;
   std::shared_ptr<const tracing::RayTracer> tracer;  // over `scene`
   hierarchy::Elements elements;
-  hierarchy::Links links;
+  hierarchy::Links links;               // that light is exchanged over, by the paper's method
   particles::Particles particles;       // a function of scene, seed and target count
-  radiosity::LeafTransfers transfers;   // empty before the last round
   lines::Lines lines;                   // of the receiving leaves in order, where light is exchanged by lines
   std::vector<float> deviation;         // the same: standard error of a leaf's irradiance, gray [W/m2]
   std::shared_ptr<SolveMemory> memory;  // of the last solve over lines, had it all the time it wanted; not in files
-  std::vector<Rgb> sampledScale;        // by light: its scale when links and rows last followed it
+  std::vector<Rgb> sampledScale;        // by light: its scale when links last followed it
   caustics::Caustics caustics;          // how the particles' light is shown; never feeds back
   SolveReport report;
 };

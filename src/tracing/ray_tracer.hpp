@@ -24,11 +24,6 @@ struct Passing {
   float t = 0;  // where the blocker is met
 };
 
-/// Whether one surface alone lets nothing pass: not panes together.
-inline bool endsAtOne(const Scene& scene, const Passing& p) {
-  return p.blocker.valid() && !passesStraight(scene.materialOf(p.blocker));
-}
-
 class RayTracer {
  public:
   virtual ~RayTracer() = default;

@@ -39,7 +39,8 @@ TEST(ProbeCommand, MeasuresTheFurnaceOnWallsAndInTheAir) {
     ASSERT_EQ(result.exitCode, 0) << result.err;
     EXPECT_EQ(result.out, "");
     const PointTable table = readPoints(folder / "o.csv");
-    EXPECT_EQ(table.columns, (Names{"name", "x", "y", "z", "nx", "ny", "nz", "E_r", "E_g", "E_b", "lux"}));
+    EXPECT_EQ(table.columns,
+              (Names{"name", "x", "y", "z", "nx", "ny", "nz", "E_r", "E_g", "E_b", "lux", "se_r", "se_g", "se_b"}));
     for (std::size_t row = 0; row < 2; ++row) {
       EXPECT_NEAR(column(table, row, "E_g"), 2 * kPi, 0.03 * 2 * kPi) << row;
       EXPECT_NEAR(column(table, row, "E_g") * 179, column(table, row, "lux"), 0.01);

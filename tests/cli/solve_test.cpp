@@ -28,7 +28,7 @@ TEST(SolveCommand, WhatItKeepsIsProbedAsIfSolvedNow) {
   const std::string solution = solvedFurnace(folder);
   const auto report = nlohmann::json::parse(readText(folder / "r.json"));
   EXPECT_EQ(report["command"], "solve");
-  EXPECT_GT(report["counts"]["links"], 0);
+  EXPECT_GT(report["counts"]["lines"], 0);
   const std::string points = folder.write("p.csv", "x,y,z,nx,ny,nz\n.3,0,.4,0,1,0\n.5,.4,.6,.6,0,.8\n");
   EXPECT_EQ(runCli({"probe", solution, "--points", points, "-o", folder / "kept.csv", "--report", folder / "k.json"})
                 .exitCode,
@@ -39,7 +39,7 @@ TEST(SolveCommand, WhatItKeepsIsProbedAsIfSolvedNow) {
             0);
   EXPECT_EQ(readText(folder / "kept.csv"), readText(folder / "anew.csv"));
   const auto kept = nlohmann::json::parse(readText(folder / "k.json"));
-  EXPECT_EQ(kept["counts"]["links"], report["counts"]["links"]);
+  EXPECT_EQ(kept["counts"]["lines"], report["counts"]["lines"]);
   EXPECT_EQ(kept["scene_stats"]["primitives"], report["scene_stats"]["primitives"]);
   EXPECT_EQ(kept["time_s"]["refine"], 0) << "nothing was refined in this run";
 }
@@ -64,6 +64,7 @@ TEST(SolveCommand, MistakesAreToldApart) {
   test::expectUsageError({"solve", scene, "-o", folder / "f.txt"});
   test::expectUsageError({"solve", scene, "-o", folder / "g.dlx", "--error", "2"});
   test::expectUsageError({"solve", scene, "-o", folder / "g.dlx", "--seconds", "-1"});
+  test::expectUsageError({"solve", scene, "-o", folder / "g.dlx", "--method", "links"});
   const std::string points = folder.write("p.csv", "x,y,z,nx,ny,nz\n.3,0,.4,0,1,0\n");
   test::expectUsageError({"probe", solution, "--points", points, "-o", folder / "o.csv", "--error", "0.2"});
   test::expectUsageError({"probe", solution, "--points", points, "-o", folder / "o.csv", "--diffuse-only"});

@@ -4,7 +4,7 @@
 #include <deltalux/io.hpp>
 
 #include "support/reference_values.hpp"
-#include "support/solved_by_lines.hpp"
+#include "support/solved.hpp"
 
 namespace deltalux {
 namespace {
@@ -14,7 +14,7 @@ using namespace test;
 /// Of its meters whether none is off by more than that.
 void expectAgreement(const std::string& scene, double tolerance) {
   const Engine engine =
-      solvedByLines(loadScene({std::string(DELTALUX_SOURCE_DIR) + "/tests/assets/dark/" + scene + ".rad"}).scene);
+      solved(loadScene({std::string(DELTALUX_SOURCE_DIR) + "/tests/assets/dark/" + scene + ".rad"}).scene, 0.05);
   const std::vector<ReferenceValue> meters =
       readReferenceValues(std::string(DELTALUX_SOURCE_DIR) + "/tests/assets/dark/" + scene + "-reference.csv");
   ASSERT_FALSE(meters.empty());

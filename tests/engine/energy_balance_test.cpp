@@ -47,22 +47,25 @@ TEST(EnergyBalance, OpenScenes) {
 }
 
 /// What solutions of our scenes lose or gain at the default error is a thousandth of all light at most; what is left is
-/// noise of rows and particles (most of it in thin, whose light goes round four times).
+/// noise of lines and particles (most of it in thin, whose light goes round four times; of parallel plates, whose few
+/// lines tell how much escapes to a third of a per cent, at a smaller error).
 struct Reached {
   const char* scene;
-  double residue = 1e-3;
+  double residue = 1e-3, error = 0.05;
 };
 
 class EnergyBalances : public testing::TestWithParam<Reached> {};
 
-TEST_P(EnergyBalances, Close) { EXPECT_NEAR(residue(balanceOf(bundled(GetParam().scene))), 0, GetParam().residue); }
+TEST_P(EnergyBalances, Close) {
+  EXPECT_NEAR(residue(balanceOf(bundled(GetParam().scene), GetParam().error)), 0, GetParam().residue);
+}
 
 INSTANTIATE_TEST_SUITE_P(Bundled, EnergyBalances,
                          testing::Values(Reached{"furnace/furnace.gltf"}, Reached{"nasty/nested_glass.rad"},
                                          Reached{"nasty/outlines.rad"}, Reached{"nasty/slivers.rad"},
                                          Reached{"nasty/touching.rad"}, Reached{"plates/perpendicular.rad"},
                                          Reached{"nasty/mirror_corridor.rad"}, Reached{"nasty/sealed.rad"},
-                                         Reached{"nasty/thin.rad", 1.5e-3}, Reached{"plates/parallel.rad"},
+                                         Reached{"nasty/thin.rad", 1.5e-3}, Reached{"plates/parallel.rad", 1e-3, 0.01},
                                          Reached{"cornell/cornell.rad"}, Reached{"cornell-caustic/cornell-caustic.rad"},
                                          Reached{"ring/ring.rad"}, Reached{"nasty/scales.rad"},
                                          Reached{"nasty/coplanar.rad"}, Reached{"nasty/far_away.rad"}),
@@ -77,6 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Bundled, EnergyBalances,
 TEST(EnergyBalance, NothingLeaksIntoAClosedGap) {
   SolveSettings settings;
   settings.error = 0.1, settings.particles = 100000, settings.causticTextures = false;
+  settings.method = SolveMethod::Paper;  // over lines all sides have elements
   Engine engine(bundled("ring/ring.rad"), settings);
   engine.solve();
   const Solution& s = engine.solution().get();

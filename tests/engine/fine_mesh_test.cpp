@@ -8,7 +8,7 @@
 #include "lines/lines.hpp"
 #include "scene/light_sampling.hpp"
 #include "support/fine_meshes.hpp"
-#include "support/solved_by_lines.hpp"
+#include "support/solved.hpp"
 #include "support/temp_folder.hpp"
 
 namespace deltalux {
@@ -31,8 +31,8 @@ Scene room(Shape shape, Surface surface) {
 std::size_t leavesOf(const Engine& engine) { return hierarchy::LeafTable(engine.solution().get().elements).size(); }
 
 TEST(FineMesh, LeavesAndLightAreThoseOfTheShapeNotOfItsFaces) {
-  const Engine coarse = solvedByLines(room(ground(4, 24, hills), lambert(0.4f))),
-               fine = solvedByLines(room(ground(4, 200, hills), lambert(0.4f)));
+  const Engine coarse = solved(room(ground(4, 24, hills), lambert(0.4f)), 0.05),
+               fine = solved(room(ground(4, 200, hills), lambert(0.4f)), 0.05);
   EXPECT_NEAR(double(leavesOf(fine)) / double(leavesOf(coarse)), 1, 0.25);
   EXPECT_LT(leavesOf(fine), 8000u);
   for (const std::size_t i : {0, 2, 3, 4, 5, 6})  // the floor below lies in the dark
@@ -40,9 +40,9 @@ TEST(FineMesh, LeavesAndLightAreThoseOfTheShapeNotOfItsFaces) {
 }
 
 TEST(FineMesh, AFlatOneIsAsAPolygon) {
-  const Engine mesh = solvedByLines(room(ground(4, 60, [](double, double) { return 0.5; }), lambert(0.4f)));
+  const Engine mesh = solved(room(ground(4, 60, [](double, double) { return 0.5; }), lambert(0.4f)), 0.05);
   Scene scene = room(ground(4, 2, [](double, double) { return 0.5; }), lambert(0.4f));
-  const Engine plain = solvedByLines(std::move(scene));
+  const Engine plain = solved(std::move(scene), 0.05);
   for (const std::size_t i : {0, 2, 3, 4, 5, 6})
     EXPECT_NEAR(meshMean(mesh, PrimitiveId(i)) / meshMean(plain, PrimitiveId(i)), 1, 0.02) << i;
   EXPECT_EQ(meshMean(mesh, PrimitiveId(1)), 0);  // no light leaks to the floor below
@@ -53,7 +53,7 @@ TEST(FineMesh, AFurnaceIsEvenOverIt) {
   addShape(scene, addMaterial(scene, "ball", lambert(0.5f)), ball({0.5, 0.5, 0.5}, 0.3, 40));
   addBox(scene, addMaterial(scene, "wall", lambert(0.5f), Emission{Rgb(1.0f), false, {}}), Vec3(0), Vec3(1), true);
   // The ball sends only what it reflects: its light is that of the walls less what it keeps from them.
-  const Engine engine = solvedByLines(std::move(scene));
+  const Engine engine = solved(std::move(scene), 0.05);
   const hierarchy::Elements& e = engine.solution().get().elements;
   double lowest = kInfinity, highest = 0;
   for (std::size_t i = 0; i < e.size(); ++i) {
@@ -70,8 +70,8 @@ TEST(FineMesh, LightComesThroughASheetOfIt) {
   Trans sheet;
   sheet.diffuseReflectance = Rgb(0.2f), sheet.diffuseTransmittance = Rgb(0.5f);
   const auto flat = [](double, double) { return 1.2; };
-  const Engine fine = solvedByLines(room(ground(4, 40, flat), sheet)),
-               plain = solvedByLines(room(ground(4, 1, flat), sheet));
+  const Engine fine = solved(room(ground(4, 40, flat), sheet), 0.05),
+               plain = solved(room(ground(4, 1, flat), sheet), 0.05);
   for (std::size_t i = 0; i < 7; ++i)
     EXPECT_NEAR(meshMean(fine, PrimitiveId(i)) / meshMean(plain, PrimitiveId(i)), 1, 0.02) << i;
 }
@@ -90,7 +90,7 @@ TEST(FineMesh, CausticsFallOnIt) {
         sum += e.geometry[i].area * gray(e.radiometry[i].particle);
     return sum;
   };
-  const Engine fine = solvedByLines(scene(60)), plain = solvedByLines(scene(1));
+  const Engine fine = solved(scene(60), 0.05), plain = solved(scene(1), 0.05);
   EXPECT_GT(particlesOn(plain), 0.5);
   EXPECT_NEAR(particlesOn(fine) / particlesOn(plain), 1, 0.01);
 }
@@ -112,7 +112,7 @@ TEST(FineMesh, ANarrowSpotIsFoundWhereverItFalls) {
       power += 0.016 / kSteps * 2 * kPi * std::sin(theta) *
                gray(lights.intensity(LightId(0), {std::sin(theta), 0, -std::cos(theta)}));
     }
-    const Engine engine = solvedByLines(std::move(scene));
+    const Engine engine = solved(std::move(scene), 0.05);
     const hierarchy::Elements& e = engine.solution().get().elements;
     double direct = 0;
     for (std::size_t i = 0; i < e.size(); ++i)
@@ -125,13 +125,13 @@ TEST(FineMesh, IsTheSameByAnyNumberOfThreadsAndFromAFile) {
   std::vector<std::uint64_t> hashes;
   for (const std::size_t threads : {1, 2, 3}) {
     const ThreadLimit limit(threads);
-    const Engine engine = solvedByLines(room(ball({2, 2, 1}, 0.6, 30), lambert(0.4f)), 0.1);
+    const Engine engine = solved(room(ball({2, 2, 1}, 0.6, 30), lambert(0.4f)), 0.1);
     hashes.push_back(hashOf(engine));
   }
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);
 
-  const Engine engine = solvedByLines(room(ball({2, 2, 1}, 0.6, 30), lambert(0.4f)), 0.1);
+  const Engine engine = solved(room(ball({2, 2, 1}, 0.6, 30), lambert(0.4f)), 0.1);
   const TempFolder folder;
   saveSolution(folder.path() / "s.dlx", engine.solution());
   const SolutionView loaded = loadSolution(folder.path() / "s.dlx");

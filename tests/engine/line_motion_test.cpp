@@ -1,12 +1,14 @@
 // Motion over lines: shadows follow frame by frame, and what it ends at is the fresh solve.
 #include <gtest/gtest.h>
 
+#include <deltalux/io.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "hierarchy/leaf_table.hpp"
 #include "support/furnished_room.hpp"
 #include "support/rooms.hpp"
-#include "support/solved_by_lines.hpp"
+#include "support/run_cli.hpp"
+#include "support/solved.hpp"
 
 namespace deltalux {
 namespace {
@@ -25,7 +27,7 @@ Engine roomWithBoard() {
   for (std::size_t i = first; i < scene.primitives.size(); ++i) scene.primitives[i].object = board;
   addLight(scene, PointLight{{2.5, 2.5, 2.9}, Rgb(1.0f)});
   scene.lights.back().name = "lamp";
-  Engine engine(std::move(scene), coarseLines());
+  Engine engine(std::move(scene), coarse());
   engine.solve();
   return engine;
 }
@@ -60,7 +62,7 @@ TEST(LineMotion, ShadowsFollowFrameByFrame) {
   EXPECT_LT(floorAt(engine, below), 0.05 * open);
   EXPECT_GT(floorAt(engine, {0.7f, 0.7f, 0}), 0.1 * open);  // where the board's shadow was
   engine.update();
-  Engine fresh(engine.solution().scene(), coarseLines());
+  Engine fresh(engine.solution().scene(), coarse());
   fresh.solve();
   EXPECT_EQ(hashOf(engine), hashOf(fresh));
   EXPECT_LT(floorAt(engine, below), 0.01 * open);
@@ -74,13 +76,38 @@ TEST(LineMotion, DimmedLampsFollow) {
   for (int i = 0; i < 50; ++i) engine.frame(20);
   EXPECT_NEAR(floorAt(engine, below), 0.5 * open, 0.1 * open);
   engine.update();
-  Engine fresh(engine.solution().scene(), coarseLines());
+  Engine fresh(engine.solution().scene(), coarse());
   fresh.solve();
   EXPECT_EQ(hashOf(engine), hashOf(fresh));
 }
 
+TEST(LineMotion, SettlesToWhatOneUpdateGives) {
+  const auto box = [] {
+    return Engine(loadScene({bundledScene("cornell-caustic/cornell-caustic.rad")}).scene, coarse());
+  };
+  Engine dragged = box(), atOnce = box();
+  dragged.solve(), atOnce.solve();
+  ASSERT_GT(dragged.solution().get().caustics.count(), 0u);
+  dragged.select("ball");
+  const auto shift = [](const char* object, const Vec3& by) {
+    return TransformObject{object, glm::translate(Mat4(1), by)};
+  };
+  const std::vector<Edit> edits{shift("ball", {0.03, 0, 0.02}), shift("ball", {0.03, 0, 0.02}),
+                                shift("short_block", {0.02, 0, 0.01}), shift("ball", {-0.02, 0, 0.02}),
+                                SetMaterial{"tall_block_surface", Rgb(0.5f), std::nullopt}};
+  for (const Edit& e : edits) dragged.apply(e), dragged.frame(1e-3), atOnce.apply(e);
+  EXPECT_GE(8 * dragged.solution().report().memory.octree, dragged.solution().get().particles.paths());
+  const StepReport settled = dragged.update();
+  atOnce.update();
+  EXPECT_EQ(settled.deferred, 0u);
+  EXPECT_FALSE(settled.staleW);
+  EXPECT_EQ(hashOf(dragged), hashOf(atOnce));
+  EXPECT_NO_THROW(validate(dragged.solution().get().caustics));
+  EXPECT_EQ(dragged.solution().get().caustics.count(), atOnce.solution().get().caustics.count());
+}
+
 TEST(LineMotion, EndsAtTheFreshSolveForAnyObject) {
-  Engine engine(furnishedRoom(), coarseLines());
+  Engine engine(furnishedRoom(), coarse());
   engine.solve();
   for (const std::string& object : editableOfFurnishedRoom().objects) {
     for (int i = 0; i < 3; ++i) {
@@ -89,7 +116,7 @@ TEST(LineMotion, EndsAtTheFreshSolveForAnyObject) {
     }
     engine.update();
   }
-  Engine fresh(engine.solution().scene(), coarseLines());
+  Engine fresh(engine.solution().scene(), coarse());
   fresh.solve();
   EXPECT_EQ(hashOf(engine), hashOf(fresh));
 }

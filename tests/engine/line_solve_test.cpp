@@ -15,7 +15,7 @@
 #include "support/residue.hpp"
 #include "support/run_cli.hpp"
 #include "support/shared.hpp"
-#include "support/solved_by_lines.hpp"
+#include "support/solved.hpp"
 
 namespace deltalux {
 namespace {
@@ -25,7 +25,7 @@ using namespace test;
 TEST(LineSolve, AFurnaceIsExactOnTheMesh) {
   Scene scene;
   addBox(scene, addMaterial(scene, "wall", lambert(0.5f), Emission{Rgb(1.0f), false, {}}), Vec3(0), Vec3(1), true);
-  const Engine engine = solvedByLines(std::move(scene));
+  const Engine engine = solved(std::move(scene), 0.05);
   const SolutionView view = engine.solution();
   const hierarchy::Elements& e = view.get().elements;
   int leaves = 0;
@@ -42,7 +42,7 @@ TEST(LineSolve, AFurnaceIsExactOnTheMesh) {
 
 TEST(LineSolve, PlatesHaveTheirClosedForms) {
   for (const Plates& p : kPlates)
-    EXPECT_NEAR(factorOf(p, [](Scene s) { return solvedByLines(std::move(s), 0.01); }) / p.factor, 1, 0.01) << p.name;
+    EXPECT_NEAR(factorOf(p, [](Scene s) { return solved(std::move(s), 0.01); }) / p.factor, 1, 0.01) << p.name;
 }
 
 TEST(LineSolve, EnergyIsKeptToAThousandth) {
@@ -53,7 +53,7 @@ TEST(LineSolve, EnergyIsKeptToAThousandth) {
          {0.7, 0.2, 0}, {0.9, 0.4, 0.5}, false);
   addShape(scene, addMaterial(scene, "glass", Dielectric{Rgb(1.0f), 1.5f}), Sphere{{0.6, 1.1, 0.3}, 0.2});
   addLight(scene, PointLight{{0.7, 0.7, 0.6}, Rgb(1.0f)});
-  const Engine engine = solvedByLines(std::move(scene), 0.02);
+  const Engine engine = solved(std::move(scene), 0.02);
   const EnergyLedger l = engine.solution().report().energy;
   EXPECT_NEAR(*l.emittedW, 4 * kPi, 0.005 * 4 * kPi);
   EXPECT_NEAR(*l.escapedW, 0, 1e-6 * 4 * kPi);
@@ -67,7 +67,7 @@ TEST(LineSolve, GlossyRoomsKeepTheirLight) {
   addBox(scene, addMaterial(scene, "wall", Opaque{Rgb(0.4f), {}, gloss}), {0, 0, 0}, {3, 4, 2.5}, true);
   addBox(scene, addMaterial(scene, "block", Opaque{Rgb(0.3f), {}, gloss}), {1, 1, 0}, {1.5, 1.6, 0.7}, false);
   addLight(scene, PointLight{{1.5, 2.5, 2}, Rgb(1.0f)});
-  const Engine engine = solvedByLines(std::move(scene));
+  const Engine engine = solved(std::move(scene), 0.05);
   const EnergyLedger l = engine.solution().report().energy;
   EXPECT_NEAR(residue(l), 0, 0.005);
 }
@@ -104,7 +104,7 @@ std::vector<double> luxAt(Scene scene, double angle) {
       points.push_back({turn * Vec3(x, 0, 0.4 * y), turn * Vec3(0, 1, 0)});
     }
   std::vector<double> values;
-  for (const ProbeResult& r : measure(solvedByLines(std::move(scene)), points)) values.push_back(lux(r));
+  for (const ProbeResult& r : measure(solved(std::move(scene), 0.05), points)) values.push_back(lux(r));
   return values;
 }
 
@@ -129,18 +129,18 @@ TEST(LineSolve, OneHashForAnyNumberOfThreads) {
   std::vector<std::uint64_t> hashes;
   for (const std::size_t threads : {1, 2, 4}) {
     const ThreadLimit limit(threads);
-    hashes.push_back(hashOf(solvedByLines(furnishedRoom(), 0.1)));
+    hashes.push_back(hashOf(solved(furnishedRoom(), 0.1)));
   }
   EXPECT_EQ(hashes[1], hashes[0]);
   EXPECT_EQ(hashes[2], hashes[0]);
 }
 
 TEST(LineSolve, AnUpdatedSolutionIsTheFreshOne) {
-  Engine edited = solvedByLines(furnishedRoom(), 0.1);
+  Engine edited = solved(furnishedRoom(), 0.1);
   const auto editable = editableOfFurnishedRoom();
   edited.apply(TransformObject{editable.objects.front(), glm::translate(Mat4(1.0), Vec3(0.1, 0.05, 0))});
   edited.update();
-  Engine fresh = solvedByLines(edited.solution().scene(), 0.1);
+  Engine fresh = solved(edited.solution().scene(), 0.1);
   EXPECT_EQ(hashOf(edited), hashOf(fresh));
 }
 
@@ -156,7 +156,7 @@ TEST(LineSolve, LightThatComesThroughASheetAloneIsThere) {
   ReferenceSettings settings;
   settings.samples = 1 << 14;
   const std::vector<ProbeResult> expected = ReferenceIntegrator(scene, settings).probe(points);
-  const auto measured = measure(solvedByLines(std::move(scene)), points);
+  const auto measured = measure(solved(std::move(scene), 0.05), points);
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(lux(measured[i]) / lux(expected[i]), 1, 0.04) << i;
 }
 
@@ -168,7 +168,7 @@ TEST(LineSolve, WallsKeepLightOnTheirSide) {
   addPolygon(scene, white, {{2.3, 0, 0}, {2.3, 2, 0}, {2.3, 2, 2}, {2.3, 0, 2}});
   const MaterialId lamp = addMaterial(scene, "lamp", lambert(0), Emission{Rgb(20.0f), false, {}});
   addPolygon(scene, lamp, {{0.4, 0.4, 1.98}, {0.4, 1.6, 1.98}, {1.4, 1.6, 1.98}, {1.4, 0.4, 1.98}});
-  const Engine engine = solvedByLines(std::move(scene));
+  const Engine engine = solved(std::move(scene), 0.05);
   const auto E = measure(
       engine, {{{1, 1, 0}, {0, 0, 1}}, {{3, 1, 0}, {0, 0, 1}}, {{3, 1, 2}, {0, 0, -1}}, {{4, 1, 1}, {-1, 0, 0}}});
   EXPECT_GT(E[0].irradiance.g, 1);
@@ -177,7 +177,7 @@ TEST(LineSolve, WallsKeepLightOnTheirSide) {
 
 TEST(LineSolve, TimeBoundsEveryPhase) {
   SolveSettings settings;
-  settings.error = 0.005, settings.method = SolveMethod::Lines, settings.seconds = 1;
+  settings.error = 0.005, settings.seconds = 1;
   Engine engine(furnishedRoom(), settings);
   const SolveReport report = engine.solve();
   EXPECT_FALSE(report.converged);
@@ -187,7 +187,6 @@ TEST(LineSolve, TimeBoundsEveryPhase) {
 
 TEST(LineSolve, APreviewIsASolutionOfItsOwn) {
   SolveSettings settings;
-  settings.method = SolveMethod::Lines;
   Engine engine(furnishedRoom(), settings);
   const SolveReport first = engine.preview();
   EXPECT_FALSE(first.converged);
@@ -201,7 +200,7 @@ struct Errors {
   double median, p95;
 };
 Errors errorsAgainst(const std::filesystem::path& rad, const std::filesystem::path& csv) {
-  const Engine engine = solvedByLines(loadScene({rad}).scene);
+  const Engine engine = solved(loadScene({rad}).scene, 0.05);
   const std::vector<ReferenceValue> values = readReferenceValues(csv);
   std::vector<ProbePoint> points;
   for (const ReferenceValue& v : values) points.push_back(v.point);
@@ -218,7 +217,7 @@ Errors errorsAgainst(const std::filesystem::path& rad, const std::filesystem::pa
 
 TEST(LineSolve, TheReportKnowsItsError) {
   for (const double error : {0.1, 0.05}) {
-    const Engine engine = solvedByLines(loadScene({bundledScene("cornell/cornell.rad")}).scene, error);
+    const Engine engine = solved(loadScene({bundledScene("cornell/cornell.rad")}).scene, error);
     const Solution& s = engine.solution().get();
     const hierarchy::LeafTable leaves(s.elements);
     // Leaves by area, each held against meters at points of its own.

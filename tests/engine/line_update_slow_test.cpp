@@ -8,7 +8,7 @@
 
 #include "support/furnished_room.hpp"
 #include "support/shared.hpp"
-#include "support/solved_by_lines.hpp"
+#include "support/solved.hpp"
 
 namespace deltalux {
 namespace {
@@ -17,7 +17,7 @@ using namespace test;
 
 SolveSettings settingsOf(double error, std::uint64_t particles = 0) {
   SolveSettings settings;
-  settings.error = error, settings.particles = particles, settings.method = SolveMethod::Lines;
+  settings.error = error, settings.particles = particles;
   return settings;
 }
 

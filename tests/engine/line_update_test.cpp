@@ -1,11 +1,12 @@
 // An update over lines is a fresh solve of the edited scene, bit for bit in mesh, lines and particles.
 #include <gtest/gtest.h>
 
+#include <deltalux/error.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "support/furnished_room.hpp"
 #include "support/rooms.hpp"
-#include "support/solved_by_lines.hpp"
+#include "support/update_checks.hpp"
 
 namespace deltalux {
 namespace {
@@ -13,24 +14,30 @@ namespace {
 using namespace test;
 
 TEST(LineUpdate, IsTheFreshSolveAfterEachOfManyEdits) {
-  Engine engine(furnishedRoom(), coarseLines());
+  Engine engine(furnishedRoom(), coarse());
   engine.solve();
   RandomEdits edits(engine, editableOfFurnishedRoom(), 11);
   for (int i = 0; i < 8; ++i) {
     edits.step();
-    Engine fresh(engine.solution().scene(), coarseLines());
+    Engine fresh(engine.solution().scene(), coarse());
     fresh.solve();
     ASSERT_EQ(hashOf(engine), hashOf(fresh)) << i << ": " << edits.last();
+    expectValid(engine, edits.last());
   }
+  edits.undoAll();
+  expectValid(engine, "undo");
+  Engine fresh(engine.solution().scene(), coarse());
+  fresh.solve();
+  EXPECT_EQ(hashOf(engine), hashOf(fresh));
 }
 
 TEST(LineUpdate, HasTheRowsOfTheFreshSolve) {
-  Engine engine(furnishedRoom(), coarseLines());
+  Engine engine(furnishedRoom(), coarse());
   engine.solve();
   RandomEdits edits(engine, editableOfFurnishedRoom(), 17);
   for (int i = 0; i < 6; ++i) {
     edits.step();
-    Engine fresh(engine.solution().scene(), coarseLines());
+    Engine fresh(engine.solution().scene(), coarse());
     fresh.solve();
     lines::Exchange &a = *engine.solution().get().memory->exchange, &b = *fresh.solution().get().memory->exchange;
     ASSERT_EQ(a.leaves(), b.leaves());
@@ -41,28 +48,49 @@ TEST(LineUpdate, HasTheRowsOfTheFreshSolve) {
   }
 }
 
+TEST(LineUpdate, WithoutParticlesToo) {
+  SolveSettings settings = coarse();
+  settings.diffuseOnly = true;
+  Engine engine(furnishedRoom(), settings);
+  engine.solve();
+  RandomEdits edits(engine, editableOfFurnishedRoom(), 23);
+  for (int i = 0; i < 8; ++i) edits.step();
+  Engine fresh(engine.solution().scene(), settings);
+  fresh.solve();
+  EXPECT_EQ(hashOf(engine), hashOf(fresh));
+}
+
+TEST(LineUpdate, AnUnknownNameLeavesEverythingAsItWas) {
+  Engine engine(furnishedRoom(), coarse());
+  engine.solve();
+  const std::uint64_t before = hashOf(engine);
+  EXPECT_THROW(engine.apply(RemoveObject{"boks"}), InputError);
+  engine.update();
+  EXPECT_EQ(hashOf(engine), before);
+}
+
 TEST(LineUpdate, AsksOnlyWhatAMotionMayHaveChanged) {
-  Engine engine(furnishedRoom(), coarseLines());
+  Engine engine(furnishedRoom(), coarse());
   engine.solve();
   const std::string object = editableOfFurnishedRoom().objects.front();
   for (const double step : {0.05, -0.03}) {
     engine.apply(TransformObject{object, glm::translate(Mat4(1), Vec3(step, 0, 0))});
     engine.update();
     const std::uint64_t rays = engine.solution().get().report.counts.raysVisibility;
-    Engine fresh(engine.solution().scene(), coarseLines());
+    Engine fresh(engine.solution().scene(), coarse());
     EXPECT_LT(static_cast<double>(rays), 0.7 * static_cast<double>(fresh.solve().counts.raysVisibility));
     EXPECT_EQ(hashOf(engine), hashOf(fresh)) << step;
   }
 }
 
 TEST(LineUpdate, FollowsAnEditThatComesAfterOneBeforeTheSolve) {
-  Engine engine(furnishedRoom(), coarseLines());
+  Engine engine(furnishedRoom(), coarse());
   const std::string object = editableOfFurnishedRoom().objects.front();
   engine.apply(TransformObject{object, glm::translate(Mat4(1), Vec3(0.02, 0, 0))});
   engine.solve();
   engine.apply(TransformObject{object, glm::translate(Mat4(1), Vec3(0, 0.05, 0))});
   engine.update();
-  Engine fresh(engine.solution().scene(), coarseLines());
+  Engine fresh(engine.solution().scene(), coarse());
   fresh.solve();
   EXPECT_EQ(hashOf(engine), hashOf(fresh));
 }
@@ -81,13 +109,13 @@ TEST(LineUpdate, FollowsLinesBetweenFacingMirrors) {
   const std::size_t first = scene.primitives.size();
   addBox(scene, white, {1, 1, 0.6}, {1.1, 1.4, 1}, false);
   for (std::size_t i = first; i < scene.primitives.size(); ++i) scene.primitives[i].object = board;
-  Engine engine(std::move(scene), coarseLines());
+  Engine engine(std::move(scene), coarse());
   engine.solve();
   for (int i = 0; i < 3; ++i) {
     engine.apply(TransformObject{"board", glm::translate(Mat4(1), Vec3(0.4, 0.15, 0.1))});
     engine.update();
   }
-  Engine fresh(engine.solution().scene(), coarseLines());
+  Engine fresh(engine.solution().scene(), coarse());
   fresh.solve();
   EXPECT_EQ(hashOf(engine), hashOf(fresh));
 }

@@ -37,7 +37,7 @@ TEST(SolveAndUpdate, ASmallRoomAllTheWay) {
   EXPECT_GT(before, 0.0);
 
   const Restore back = engine.apply(TransformObject{"pot", translation({0.2, 0.1, 0})});
-  EXPECT_GT(engine.update().linksVisited, 0u);
+  EXPECT_GT(engine.update().leavesChanged, 0u);
   engine.select("box");
   for (int i = 0; i < 3; ++i) {
     engine.apply(TransformObject{"box", translation({-0.05, 0.05, 0})});

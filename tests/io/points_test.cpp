@@ -62,26 +62,24 @@ TEST(Points, ResultsAreTheSameRowsPlusColumns) {
   const PointTable table = parsePoints("id,x,y,z,nx,ny,nz,wall\n7,1.50,2,3,0,0,1,\"north, left\"\n", "p.csv");
   const std::vector<ProbeResult> results{{{1.25, 2, 3}, {0.01, 0.02, 0.03}, 10}};
   EXPECT_NEAR(photometric({1.25, 2, 3}, 179), 179 * (0.265 * 1.25 + 0.670 * 2 + 0.065 * 3), 1e-9);
-  const std::string plain = formatProbeResults(table, results, ProbeColumns::Values);
-  EXPECT_EQ(plain, "id,x,y,z,nx,ny,nz,wall,E_r,E_g,E_b,lux\n7,1.50,2,3,0,0,1,\"north, left\",1.25,2,3,334.0588\n");
-  const std::string full = formatProbeResults(table, results, ProbeColumns::ValuesAndErrors);
-  EXPECT_NE(formatProbeResults(table, results, ProbeColumns::Values, 683), plain) << "lux by the scene's efficacy";
-  EXPECT_EQ(full,
+  const std::string text = formatProbeResults(table, results);
+  EXPECT_EQ(text,
             "id,x,y,z,nx,ny,nz,wall,E_r,E_g,E_b,lux,se_r,se_g,se_b\n"
             "7,1.50,2,3,0,0,1,\"north, left\",1.25,2,3,334.0588,0.01,0.02,0.03\n");
+  EXPECT_NE(formatProbeResults(table, results, 683), text) << "lux by the scene's efficacy";
 }
 
 TEST(Points, ColumnsOfEarlierResultsAreReplaced) {
   const PointTable table = parsePoints("x,y,z,nx,ny,nz,E_r,lux,note\n1,2,3,0,0,1,99,98,hi\n", "p.csv");
   const std::vector<ProbeResult> results{{{1, 1, 1}, {0, 0, 0}, 1}};
-  EXPECT_EQ(formatProbeResults(table, results, ProbeColumns::Values),
-            "x,y,z,nx,ny,nz,note,E_r,E_g,E_b,lux\n1,2,3,0,0,1,hi,1,1,1,179\n");
+  EXPECT_EQ(formatProbeResults(table, results),
+            "x,y,z,nx,ny,nz,note,E_r,E_g,E_b,lux,se_r,se_g,se_b\n1,2,3,0,0,1,hi,1,1,1,179,0,0,0\n");
 }
 
 TEST(Points, ResultsCanBeReadAgainAsPoints) {
   const test::TempFolder folder;
   const PointTable table = parsePoints("x,y,z,nx,ny,nz\n1,2,3,0,0,1\n4,5,6,1,0,0\n", "p.csv");
-  writeProbeResults(folder / "out.csv", table, std::vector<ProbeResult>(2), ProbeColumns::ValuesAndErrors, 179);
+  writeProbeResults(folder / "out.csv", table, std::vector<ProbeResult>(2), 179);
   const PointTable again = readPoints(folder / "out.csv");
   ASSERT_EQ(again.points.size(), 2u);
   EXPECT_EQ(again.points[1].position, Vec3(4, 5, 6));

@@ -31,7 +31,6 @@ struct Exchanged {
   }
   static SolutionView solve(Scene scene) {
     SolveSettings settings;
-    settings.method = SolveMethod::Lines;
     Engine engine(std::move(scene), settings);
     engine.solve();
     return engine.solution();

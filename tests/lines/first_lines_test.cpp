@@ -7,7 +7,7 @@
 #include "lines/leaf_scale.hpp"
 #include "solution/solution.hpp"
 #include "support/solution_scenes.hpp"
-#include "support/solved_by_lines.hpp"
+#include "support/solved.hpp"
 
 namespace deltalux {
 namespace {
@@ -64,7 +64,7 @@ void expectTheSameWithFirstLines(const SolutionView& view) {
   }
 }
 
-TEST(FirstLines, AreTheLinesOfTheLeaf) { expectTheSameWithFirstLines(solvedByLines(everything()).solution()); }
+TEST(FirstLines, AreTheLinesOfTheLeaf) { expectTheSameWithFirstLines(solved(everything(), 0.05).solution()); }
 
 }  // namespace
 }  // namespace deltalux

@@ -1,4 +1,4 @@
-// Updates over links alone: what a fresh solve of the edited scene gives.
+// Updates over links: what a fresh solve of the edited scene gives.
 #include <gtest/gtest.h>
 
 #include <deltalux/io.hpp>
@@ -97,6 +97,28 @@ TEST(PaperUpdate, FramesLeaveAllToTheNextUpdate) {
   const test::Spread between = difference(dragged, moved);
   EXPECT_LT(between.median, 1e-3);
   EXPECT_LT(between.p95, 0.05);
+}
+
+TEST(PaperUpdate, WhatIsHiddenForAWhileStaysRefined) {
+  Engine engine = test::solved(test::furnishedRoom(), 0.1, SolveMethod::Paper);
+  int kept = 0;
+  for (int i = 0; i < 4; ++i) {
+    const std::vector<hierarchy::Link> before = engine.solution().get().links.all;
+    Mat4 matrix(1.0);
+    matrix[3] = glm::dvec4(-0.3, 0.1, 0, 1);
+    engine.apply(TransformObject{"box", matrix});
+    engine.update();
+    const hierarchy::Links& links = engine.solution().get().links;
+    for (std::size_t id = 0; id < before.size(); ++id) {
+      const hierarchy::Link &was = before[id], &is = links.all[id];
+      const bool same =
+          was.state == hierarchy::LinkState::Interior && was.receiver == is.receiver && was.sender == is.sender;
+      if (!same || was.unseen() || !is.unseen()) continue;
+      EXPECT_EQ(is.state, hierarchy::LinkState::Interior) << id;
+      ++kept;
+    }
+  }
+  EXPECT_GT(kept, 0);
 }
 
 TEST(PaperUpdate, FollowsAFurnishedRoom) {

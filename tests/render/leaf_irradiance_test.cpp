@@ -1,4 +1,4 @@
-// What rows say of their own noise.
+// What lines and shadow rays say of their own noise.
 #include "render/leaf_irradiance.hpp"
 
 #include <gtest/gtest.h>
@@ -26,16 +26,18 @@ TEST(LeafIrradiance, NoiseIsWhatLeavesVaryBy) {
   Engine engine(std::move(scene), {.error = 0.02});
   engine.solve();
   const Solution& s = engine.solution().get();
-  const std::vector<LeafIrradiance> values = meshIrradiance(s.elements, s.caustics, s.transfers, s.deviation);
+  const std::vector<LeafIrradiance> values = meshIrradiance(s.elements, s.caustics, s.deviation);
   double area = 0, sum = 0, squares = 0, predicted = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!s.elements.isReceivingLeaf(hierarchy::ElementId(i)) || s.elements.geometry[i].exposed < 1) continue;
-    const double A = s.elements.geometry[i].area, E = gray(values[i].indirect);
+    if (!s.elements.isReceivingLeaf(hierarchy::ElementId(i)) || s.elements.geometry[i].exposed < 1 ||
+        !s.elements.topology[i].front)
+      continue;
+    const double A = s.elements.geometry[i].area, E = gray(values[i].direct + values[i].indirect);
     area += A, sum += A * E, squares += A * E * E, predicted += A * values[i].noise * values[i].noise;
   }
   const double mean = sum / area, varies = std::sqrt(squares / area - mean * mean), noise = std::sqrt(predicted / area);
   EXPECT_GT(varies, 0.001 * mean);
-  // Rays are stratified: they vary by less than as many independent ones.
+  // Lines are stratified: they vary by less than as many independent ones.
   EXPECT_LT(varies, 1.2 * noise);
   EXPECT_GT(varies, 0.3 * noise);
 }

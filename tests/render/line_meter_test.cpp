@@ -41,7 +41,7 @@ Scene sunOnMirror() {
 class LineMeterTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    engine_ = std::make_unique<Engine>(sunOnMirror(), SolveSettings{.error = 0.03, .method = SolveMethod::Lines});
+    engine_ = std::make_unique<Engine>(sunOnMirror(), SolveSettings{.error = 0.03});
     engine_->solve();
   }
   static void TearDownTestSuite() { engine_.reset(); }

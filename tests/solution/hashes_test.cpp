@@ -3,7 +3,7 @@
 
 #include "base/parallel.hpp"
 #include "support/furnished_room.hpp"
-#include "support/solved_by_lines.hpp"
+#include "support/solved.hpp"
 
 namespace deltalux {
 namespace {
@@ -20,7 +20,7 @@ std::string differences(const SolutionHashes& a, const SolutionHashes& b) {
 }
 
 const Solution& furnished() {
-  static const Engine engine = solvedByLines(furnishedRoom(), 0.2);
+  static const Engine engine = solved(furnishedRoom(), 0.2);
   return engine.solution().get();
 }
 
@@ -44,7 +44,7 @@ std::pair<std::uint32_t, std::uint32_t> siblings(const Solution& s) {
 
 TEST(Hashes, AreTheSameForAnyNumberOfThreads) {
   const ThreadLimit one(1);
-  const Engine alone = solvedByLines(furnishedRoom(), 0.2);
+  const Engine alone = solved(furnishedRoom(), 0.2);
   EXPECT_EQ(differences(hashesOf(alone.solution().get()), hashesOf(furnished())), "");
   const SolutionHashes hashes = hashesOf(furnished());
   EXPECT_TRUE(hashes.mesh != 0 && hashes.lines != 0 && hashes.particles != 0);

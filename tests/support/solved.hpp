@@ -4,6 +4,7 @@
 #include <deltalux/engine.hpp>
 #include <deltalux/render.hpp>
 
+#include "base/random.hpp"
 #include "solution/solution.hpp"
 #include "support/rooms.hpp"
 
@@ -12,12 +13,25 @@ namespace deltalux::test {
 inline double lux(const ProbeResult& r) { return photometric(r.irradiance, kLuminousEfficacy); }
 inline Rgb fromPhotometric(double value) { return Rgb(static_cast<float>(value / kLuminousEfficacy)); }
 
-inline Engine solved(Scene scene, double error = 0.01, SolveMethod method = SolveMethod::Links) {
+inline Engine solved(Scene scene, double error = 0.01, SolveMethod method = SolveMethod::Lines) {
   SolveSettings settings;
   settings.error = error, settings.method = method;
   Engine engine(std::move(scene), settings);
   engine.solve();
   return engine;
+}
+
+/// For tests of what holds at any error: soon done.
+inline SolveSettings coarse() {
+  SolveSettings settings;
+  settings.error = 0.1, settings.particles = 20000;
+  return settings;
+}
+
+/// Of its mesh, and where all lines and particles go.
+inline std::uint64_t hashOf(const Engine& engine) {
+  const SolutionHashes hashes = hashesOf(engine.solution().get());
+  return combineKeys(combineKeys(hashes.mesh, hashes.lines), hashes.particles);
 }
 
 /// Shadow rays until their own error is a fraction of one per cent.

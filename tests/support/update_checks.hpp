@@ -13,15 +13,8 @@ inline void expectValid(const Engine& engine, const std::string& after) {
   ASSERT_NO_THROW(validate(s.scene)) << after;
   ASSERT_NO_THROW(validate(s.elements)) << after;
   ASSERT_NO_THROW(validate(s.links, s.elements)) << after;
-  ASSERT_NO_THROW(s.transfers.validate(s.elements, s.links)) << after;
   ASSERT_NO_THROW(validate(s.particles, s.scene)) << after;
   ASSERT_NO_THROW(validate(s.caustics)) << after;
-}
-
-inline std::size_t heldBytes(const Engine& engine) {
-  const Solution& s = engine.solution().get();
-  return s.elements.memoryBytes() + s.links.memoryBytes() + s.transfers.memoryBytes() + s.particles.memoryBytes() +
-         s.caustics.memoryBytes();
 }
 
 /// For small scenes, where bounds are wide.

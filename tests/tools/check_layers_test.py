@@ -82,7 +82,7 @@ class CheckLayers(unittest.TestCase):
     def test_third_party_homes(self):
         self.assert_offence("src/io/bad.cpp", "#include <embree3/rtcore.h>\n", "src/tracing/")
         self.assert_offence("src/base/bad.cpp", "#include <iostream>\n", "does not print")
-        self.assert_offence("src/radiosity/bad.cpp", "#include <Eigen/Dense>\n", "tests/")
+        self.assert_offence("src/paper/bad.cpp", "#include <Eigen/Dense>\n", "tests/")
 
     def test_exceptions_excuse_one_pair_and_must_be_used(self):
         bad = {"src/hierarchy/bad.cpp": '#include "tracing/ray_tracer.hpp"\n'}

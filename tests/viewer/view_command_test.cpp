@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deltalux/image_io.hpp>
+#include <deltalux/points.hpp>
 #include <nlohmann/json.hpp>
 
 #include "support/run_cli.hpp"
@@ -68,8 +70,9 @@ class ViewCommand : public testing::Test {
     }
     folder_.write("p.csv", "x,y,z,nx,ny,nz\n0.3,0,0.06,0,1,0\n");
     EXPECT_EQ(runCli({"probe", file("s.dlx"), "--points", file("p.csv"), "-o", file("o.csv"), "--quiet"}).exitCode, 0);
-    const std::string out = test::readText(folder_ / "o.csv");
-    return std::stod(out.substr(out.rfind(',') + 1));
+    const PointTable table = readPoints(folder_ / "o.csv");
+    const auto column = std::ranges::find(table.columns, "lux") - table.columns.begin();
+    return std::stod(table.rows[0][static_cast<std::size_t>(column)]);
   }
 
   TempFolder folder_;

@@ -171,8 +171,7 @@ void checkReferences(const Solution& s) {
   for (const hierarchy::Link& l : s.links.all) checkLink(l, s.links.size(), s.elements);
   checkLinkTree(s.links);
   validate(s.particles, s.scene);
-  s.transfers.validate(s.elements, s.links);
-  require(s.transfers.empty() || s.sampledScale.size() == s.scene.lights.size(), "scales: one a light");
+  require(s.links.all.empty() || s.sampledScale.size() == s.scene.lights.size(), "scales: one a light");
   checkLines(s.lines, s.deviation, s.elements, s.scene);
   checkCaustics(s.caustics, s.scene);
 }

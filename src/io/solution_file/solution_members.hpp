@@ -8,7 +8,7 @@ namespace deltalux::io {
 
 template <>
 struct EnumRange<SolveMethod> {
-  static constexpr SolveMethod first = SolveMethod::Links, last = SolveMethod::Paper;
+  static constexpr SolveMethod first = SolveMethod::Lines, last = SolveMethod::Paper;
 };
 
 void members(auto& archive, Is<SolveSettings> auto& s) {
@@ -25,9 +25,8 @@ void members(auto& archive, Is<ErrorEstimate> auto& e) {
   transferAll(archive, asked, median, p95);
 }
 void members(auto& archive, Is<SolveReport> auto& r) {
-  auto& [times, counts, memory, error, energy, activeLinks, provenClear, provenBlocked, cutParticles, converged] = r;
-  transferAll(archive, times, counts, memory, error, energy, activeLinks, provenClear, provenBlocked, cutParticles,
-              converged);
+  auto& [times, counts, memory, error, energy, cutParticles, converged] = r;
+  transferAll(archive, times, counts, memory, error, energy, cutParticles, converged);
 }
 
 void members(auto& archive, Is<hierarchy::Elements> auto& e) {
@@ -38,7 +37,7 @@ void members(auto& archive, Is<hierarchy::Elements> auto& e) {
               frames, sceneRoot, grown, lightRoot, distant, asleep, sceneBox);
 }
 void members(auto& archive, Is<hierarchy::Links> auto& l) {
-  auto& [all, roots, arriving, free] = l;  // the latter two follow from the first
+  auto& [all, roots, free] = l;  // the last follows from the first
   transferAll(archive, all, roots);
 }
 
@@ -61,21 +60,5 @@ void members(auto& archive, Is<particles::Particles> auto& p) {
   transferAll(archive, senderCells, nominal, links, link, sender, originTriangle, range, account, fate, vertices, met,
               primitive, triangleAndSide, uv, throughput, quantum, rays, looks);
 }
-
-void members(auto& archive, Is<radiosity::TransferRow> auto& r) {
-  auto& [terms, transfers, rays, reach, weightPerRay] = r;
-  transferAll(archive, terms, transfers, rays, reach.furthest, reach.objects.words, weightPerRay);
-}
-void members(auto& archive, Is<radiosity::LeafRow> auto& r) {
-  auto& [leaf, direct, indirect] = r;
-  transferAll(archive, leaf, direct, indirect);
-}
-struct StoredTransfers {
-  static void transfer(auto& archive, auto& t) {
-    auto& [rows, mean, rowOf, known, reaches, surplus, dropped] = t;  // the others follow from the rows
-    transferAll(archive, rows, mean.area, mean.light);
-  }
-};
-void members(auto& archive, Is<radiosity::LeafTransfers> auto& t) { StoredTransfers::transfer(archive, t); }
 
 }  // namespace deltalux::io

@@ -103,7 +103,7 @@ SurfaceMesh unlitSide(const SideShape& shape, const Scene& scene, const Reconstr
   const Material& material = scene.materialOf(shape.primitive);
   side.albedo = diffuseReflectance(material, shape.front);
   side.transmittance = diffuseTransmittance(material);
-  side.radiance = radianceAlongNormal(scene, reconstruction.direct.lights(), shape);
+  side.radiance = radianceAlongNormal(scene, reconstruction.lights(), shape);
   return side;
 }
 

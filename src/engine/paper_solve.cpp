@@ -1,0 +1,136 @@
+// Solves over links (paper/solve.hpp): its stages in order. Links are refined, light settles over them, until
+// they are as fine as the target error asks.
+#include <algorithm>
+#include <deltalux/error.hpp>
+
+#include "base/check.hpp"
+#include "engine/particle_settings.hpp"
+#include "engine/state.hpp"
+#include "hierarchy/build.hpp"
+#include "hierarchy/pull.hpp"
+#include "paper/coarse_solution.hpp"
+#include "particles/mesh_for_particles.hpp"
+#include "particles/reached_sides.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr double kFirstError = 64.0;  // of the links, relative to the last, in the first round
+constexpr double kHasty = 8.0;        // first round when time is limited, against the first otherwise
+constexpr double kPreview = 8.0;      // the same, for a first look: its picture is there in a second or two
+
+}  // namespace
+
+void Engine::State::paperRound(Progress* progress) {
+  Solution& s = *solution;
+  if (s.elements.size() == 0) prepare(progress);
+  if (!s.elements.sceneRoot.valid()) {
+    s.report.converged = finished = true;
+    return;
+  }
+  paper::OracleSettings oracle = linksJudged();
+  const double least = oracle.error;
+  oracle.error = std::max(nextError, least);
+  const bool last = oracle.error <= least;
+  const paper::RefineReport refined = refineLinks(oracle, progress);
+
+  const caustics::SurfaceSides shown = chooseTextures();
+  const engine::Clock placing;
+  particles::subdivideForParticles(s.elements, s.scene, s.particles, shown);
+  transfer.emplace(s.particles, s.elements, s.scene);
+  s.report.times.particles += placing.seconds();
+
+  nextError = paper::nextError(oracle.error, least);
+  if (budget.limited()) {
+    const double left = budget.left() - engine::kEndingTime * budget.seconds();
+    nextError = budget.reach(paper::LinkErrors(s.links, s.elements, oracle), oracle.error, nextError, left);
+  }
+  finished = last || refined.stopped || !(nextError < oracle.error);
+  const bool settled = settleOverLinks(finished, progress);
+  const bool limited = budget.limited();
+  if (finished) {
+    s.sampledScale.clear();
+    for (const Light& light : s.scene.lights) s.sampledScale.push_back(light.scale);
+    makeTextures();
+  }
+  count();
+  if (finished) budget = engine::TimeBudget(0);  // updates take what time they need
+  if (!limited) prepareToFollow();               // or the first edit does
+  s.report.converged = settled && last && !refined.stopped && !curtailed;
+}
+
+void Engine::State::prepare(Progress* progress) {
+  Solution& s = *solution;
+  const engine::Clock time;
+  budget = engine::TimeBudget(s.settings.seconds, clock.seconds());
+  paper::CoarseReport coarse;
+  auto sides = paper::coarseSolution(s.scene, *s.tracer, &coarse);
+  trace();
+  particles::addReachedSides(sides, s.particles, s.scene, *s.tracer);
+  s.elements = hierarchy::buildElements(s.scene, sides);
+  hierarchy::pull(s.elements);
+  DELTALUX_VALIDATED(validate(s.elements));
+  s.report.counts.raysVisibility += coarse.rays;
+  s.report.times.hierarchy += time.seconds() - s.report.times.particles;
+  nextError = linksJudged().error * kFirstError * (previewed ? kPreview : budget.limited() ? kHasty : 1.0);
+  if (progress) progress->report("hierarchy", 1.0);
+}
+
+void Engine::State::trace() {
+  Solution& s = *solution;
+  if (s.settings.diffuseOnly) return;
+  const engine::Clock time;
+  const particles::ParticleSettings settings = engine::particleSettings(s.settings);
+  tracing.emplace(s.scene, *s.tracer, settings);
+  s.particles = budget.limited() ? tracing->traceWithin(engine::kParticleTime * budget.seconds()) : tracing->trace();
+  curtailed = tracing->count() < settings.count;
+  if (curtailed) s.settings.particles = tracing->count();  // updates trace as many
+  DELTALUX_VALIDATED(validate(s.particles, s.scene));
+  s.report.times.particles += time.seconds();
+  countParticles();
+}
+
+paper::RefineReport Engine::State::refineLinks(const paper::OracleSettings& oracle, Progress* progress) {
+  Solution& s = *solution;
+  const double predicted = budget.limited() ? paper::LinkErrors(s.links, s.elements, oracle).madeBy(oracle.error) : 0;
+  const engine::Clock time;
+  const paper::RefineReport refined = paper::refine(s.links, s.elements, s.scene, *s.tracer, oracle, [&] {
+    if (progress && progress->stopRequested()) throw Interrupted();
+    return budget.limited() && budget.left() < 0;
+  });
+  DELTALUX_VALIDATED(validate(s.links, s.elements));
+  budget.learn(time.seconds(), predicted, static_cast<double>(refined.created));
+  s.report.times.refine += time.seconds();
+  s.report.counts.raysVisibility += refined.rays;
+  return refined;
+}
+
+caustics::SurfaceSides Engine::State::chooseTextures() {
+  Solution& s = *solution;
+  if (s.particles.impacts() == 0 || !s.settings.causticTextures)
+    return caustics::SurfaceSides(2 * s.scene.primitives.size(), false);
+  const engine::Clock time;
+  caustics::SurfaceSides sides = caustics::sidesWithTextures(
+      s.scene, s.elements, particles::impacts(s.particles, s.elements, s.scene), s.settings.error);
+  s.report.times.textures += time.seconds();
+  return sides;
+}
+
+bool Engine::State::settleOverLinks(bool well, Progress* progress) {
+  Solution& s = *solution;
+  const engine::Clock time;
+  const paper::Settled settled =
+      paper::settle({s.scene, *s.tracer, s.elements, s.links}, *transfer, well ? paper::kSettledWell : paper::kSettled,
+                    [&](const paper::Settled& now) {
+                      const double emitted = gray(now.emitted), left = gray(now.unsettled);
+                      if (progress) progress->report("gather", emitted / std::max(emitted + left, 1e-30));
+                      return !budget.up() || (well && left > paper::kSettled * emitted);
+                    });
+  unsettled = settled.unsettled;
+  s.report.counts.iterations += settled.iterations;
+  s.report.times.gather += time.seconds();
+  return settled.whole;
+}
+
+}  // namespace deltalux
