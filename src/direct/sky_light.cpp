@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "base/unit_circle.hpp"
 #include "hierarchy/leaf_sequence.hpp"
@@ -113,10 +114,12 @@ Openness::GuidedLeaves Openness::placeGuides(const hierarchy::Elements& elements
   return guided;
 }
 
+/// Few lines in all guide nothing: each would tell where rays go that it is balanced with, and count for less by that.
 void Openness::setShares(std::size_t guide, const Counts& counts) {
+  const bool few = std::accumulate(counts.all.begin(), counts.all.end(), 0.0f) < tuning::kGuideLines;
   for (std::size_t c = 0; c < SkyCells::kCount; ++c)
     share_[guide * SkyCells::kCount + c] =
-        octave((counts.open[c] + tuning::kOpenPrior) / (counts.all[c] + tuning::kLinesPrior));
+        few ? 1.0f : octave((counts.open[c] + tuning::kOpenPrior) / (counts.all[c] + tuning::kLinesPrior));
   std::uint64_t key = 0;
   for (std::size_t c = 0; c < SkyCells::kCount; ++c)
     key = combineKeys(key, std::bit_cast<std::uint32_t>(share_[guide * SkyCells::kCount + c]));

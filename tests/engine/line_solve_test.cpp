@@ -45,6 +45,16 @@ TEST(LineSolve, PlatesHaveTheirClosedForms) {
     EXPECT_NEAR(factorOf(p, [](Scene s) { return solved(std::move(s), 0.01); }) / p.factor, 1, 0.01) << p.name;
 }
 
+TEST(LineSolve, AFieldUnderTheSkyGetsItWholeByFewLinesToo) {
+  for (const double error : {0.2, 0.1, 0.05}) {
+    Scene scene;
+    addPolygon(scene, addMaterial(scene, "grass", lambert(0.2f)), {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}});
+    addLight(scene, DomeLight{{0, 0, 1}, kPi / 2, Rgb(1.0f), UniformSky{1.0}, {0, 0, 1}});
+    const Engine engine = solved(std::move(scene), error);
+    EXPECT_NEAR(meshMean(engine, PrimitiveId(0)), kPi, 0.5 * error * kPi) << error;
+  }
+}
+
 TEST(LineSolve, EnergyIsKeptToAThousandth) {
   Scene scene;
   addBox(scene, addMaterial(scene, "wall", lambert(0.5f)), {0, 0, 0}, {1, 1.5, 0.8}, true);

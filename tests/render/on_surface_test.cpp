@@ -20,7 +20,7 @@ Scene tableOutdoors(double unit) {
 }
 
 TEST(OnSurface, IsAMatterOfMillimetresNotOfTheScenesSize) {
-  const Engine engine = solved(tableOutdoors(1), 0.05);
+  const Engine engine = solved(tableOutdoors(1), 0.1);
   const auto E = measure(engine, {{{0.2, 0.3, 0.75}, {0, 0, 1}},    // in the air above the table
                                   {{0.2, 0.3, 0.7005}, {0, 0, 1}},  // on it
                                   {{0.2, 0.3, 0.65}, {0, 0, 1}},    // below it: it is black
@@ -36,7 +36,7 @@ TEST(OnSurface, IsAMatterOfMillimetresNotOfTheScenesSize) {
 }
 
 TEST(OnSurface, MillimetresAreMetresOfTheScenesUnit) {
-  const Engine engine = solved(tableOutdoors(0.001), 0.05);  // in millimetres
+  const Engine engine = solved(tableOutdoors(0.001), 0.2);  // in millimetres
   const auto E = measure(engine, {{{0.2, 0.3, 0.5}, {0, 0, 1}}, {{5, 5, 2.5}, {0, 0, -1}}});
   EXPECT_NEAR(E[0].irradiance.g, kPi, 0.05 * kPi) << "on the table, which is 0.2 mm above it";
   EXPECT_GT(E[1].irradiance.g, 0.4 * kPi) << "2.5 mm above the floor, towards it";
