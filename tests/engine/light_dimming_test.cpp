@@ -6,7 +6,7 @@
 #include "hierarchy/leaf_table.hpp"
 #include "support/furnished_room.hpp"
 #include "support/rooms.hpp"
-#include "support/solved_by_lines.hpp"
+#include "support/solved.hpp"
 
 namespace deltalux {
 namespace {
@@ -57,7 +57,7 @@ double difference(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
 }
 
 void expectFresh(const Engine& engine, const std::string& after) {
-  Engine fresh(engine.solution().scene(), coarseLines());
+  Engine fresh(engine.solution().scene(), engine.solution().settings());
   fresh.solve();
   EXPECT_EQ(hashOf(engine), hashOf(fresh)) << after;
   const std::vector<Rgb> a = irradiance(engine), b = irradiance(fresh);
@@ -66,7 +66,7 @@ void expectFresh(const Engine& engine, const std::string& after) {
 }
 
 TEST(LightDimming, TracesNoRayAndIsTheFreshSolve) {
-  Engine engine(roomOfManyLights(), coarseLines());
+  Engine engine(roomOfManyLights(), coarse());
   engine.solve();
   const std::vector<std::pair<std::string, Edit>> edits{
       {"dimmed", ScaleLight{"ceiling", 0.3f}},        {"coloured", ColourLight{"reading", Rgb(0.9f, 0.2f, 0)}},
@@ -81,7 +81,7 @@ TEST(LightDimming, TracesNoRayAndIsTheFreshSolve) {
 }
 
 TEST(LightDimming, FollowsMotionAndMotionFollowsIt) {
-  Engine engine(furnishedRoom(), coarseLines());
+  Engine engine(furnishedRoom(), coarse());
   engine.solve();
   const std::string object = editableOfFurnishedRoom().objects.front(), lamp = editableOfFurnishedRoom().lights.front();
   for (int i = 0; i < 3; ++i) {
@@ -94,7 +94,7 @@ TEST(LightDimming, FollowsMotionAndMotionFollowsIt) {
 }
 
 TEST(LightDimming, LightOfAllIsTheSumOfEach) {
-  Engine engine(roomOfManyLights(), coarseLines());
+  Engine engine(roomOfManyLights(), coarse());
   engine.solve();
   const std::vector<Rgb> all = irradiance(engine);
   // Of what is left on: suns and skies that are off do not count, so they stay on.
@@ -116,7 +116,7 @@ TEST(LightDimming, LightOfAllIsTheSumOfEach) {
 }
 
 TEST(LightDimming, SamplesAreDecidedAnewWhereNightFalls) {
-  Engine engine(roomOfManyLights(), coarseLines());
+  Engine engine(roomOfManyLights(), coarse());
   engine.solve();
   const std::uint64_t day = hashOf(engine);
   engine.apply(SwitchLight{"sun", false});
@@ -133,7 +133,7 @@ TEST(LightDimming, SamplesAreDecidedAnewWhereNightFalls) {
 }
 
 TEST(LightDimming, BrighterThanEverIsSampledAnew) {
-  Engine engine(roomOfManyLights(), coarseLines());
+  Engine engine(roomOfManyLights(), coarse());
   engine.solve();
   engine.apply(ScaleLight{"night", 20.0f});
   EXPECT_GT(engine.update().rays, 0u);
@@ -141,7 +141,7 @@ TEST(LightDimming, BrighterThanEverIsSampledAnew) {
 }
 
 TEST(LightDimming, FollowsInFramesWithoutARay) {
-  Engine engine(roomOfManyLights(), coarseLines());
+  Engine engine(roomOfManyLights(), coarse());
   engine.solve();
   engine.apply(ScaleLight{"ceiling", 0.5f});
   engine.apply(ScaleLight{"sky", 0.5f});

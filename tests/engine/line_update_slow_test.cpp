@@ -21,13 +21,6 @@ SolveSettings settingsOf(double error, std::uint64_t particles = 0) {
   return settings;
 }
 
-/// Whether the solution is that of a fresh solve of its scene.
-bool isTheFreshOne(const Engine& engine) {
-  Engine fresh(engine.solution().scene(), engine.solution().settings());
-  fresh.solve();
-  return hashOf(engine) == hashOf(fresh);
-}
-
 /// Edits of what is not there are passed over without a word.
 void expectAllThere(const Scene& scene, const Editable& what) {
   for (const std::string& name : what.objects) EXPECT_FALSE(findObjects(scene, name).empty()) << name;

@@ -34,6 +34,13 @@ inline std::uint64_t hashOf(const Engine& engine) {
   return combineKeys(combineKeys(hashes.mesh, hashes.lines), hashes.particles);
 }
 
+/// Whether mesh, lines and particles are those of a fresh solve of its scene.
+inline bool isTheFreshOne(const Engine& engine) {
+  Engine fresh(engine.solution().scene(), engine.solution().settings());
+  fresh.solve();
+  return hashOf(engine) == hashOf(fresh);
+}
+
 /// Shadow rays until their own error is a fraction of one per cent.
 inline std::vector<ProbeResult> measure(const Engine& engine, const std::vector<ProbePoint>& points) {
   ProbeSettings settings;
