@@ -3,8 +3,8 @@
 // window, not at the wall around it. The unit square of numbers that samples a source (point_light.hpp) is divided
 // where some of it is seen and some is not, or where it brings more here than there; rays are shared among the squares
 // in proportion to their area times the root mean square of what one of their rays brings, which is least variance for
-// few rays. That is known from the openness that stored lines have found, and learnt from rays of the very points that
-// will be shaded, never from those that shade them: what these bring stays unbiased.
+// few rays. That is known from the visibility estimates that stored lines have found, and learnt from rays of the very
+// points that will be shaded, never from those that shade them: what these bring stays unbiased.
 //
 // No ray is to bring much more than the light there is, unless it is all of its light's: for that the number of rays
 // grows, up to a limit, so that where something is seen after all that was thought to be hidden, it is no speck.

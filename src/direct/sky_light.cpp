@@ -91,8 +91,9 @@ Rgb Skies::radiance(const Vec3f& direction) const {
   return sum;
 }
 
-Openness::GuidedLeaves Openness::placeGuides(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
-                                             std::span<const std::uint32_t> linesOf) {
+SkyVisibility::GuidedLeaves SkyVisibility::placeGuides(const hierarchy::Elements& elements,
+                                                       const hierarchy::LeafTable& leaves,
+                                                       std::span<const std::uint32_t> linesOf) {
   std::vector<std::uint32_t> below(elements.size(), 0), guide(elements.size(), hierarchy::LeafTable::kNone);
   for (std::size_t i = elements.size(); i-- > 0;) {
     if (leaves.indexOf[i] != hierarchy::LeafTable::kNone) below[i] += linesOf[leaves.indexOf[i]];
@@ -115,7 +116,7 @@ Openness::GuidedLeaves Openness::placeGuides(const hierarchy::Elements& elements
 }
 
 /// Few lines in all guide nothing: each would tell where rays go that it is balanced with, and count for less by that.
-void Openness::setShares(std::size_t guide, const Counts& counts) {
+void SkyVisibility::setShares(std::size_t guide, const Counts& counts) {
   const bool few = std::accumulate(counts.all.begin(), counts.all.end(), 0.0f) < tuning::kGuideLines;
   for (std::size_t c = 0; c < SkyCells::kCount; ++c)
     share_[guide * SkyCells::kCount + c] =
@@ -126,8 +127,8 @@ void Openness::setShares(std::size_t guide, const Counts& counts) {
   keys_[guide] = key;
 }
 
-std::uint64_t skyKey(const Skies& skies, const Openness& openness, const SkyLeaf& s) {
-  std::uint64_t key = combineKeys(combineKeys(skies.key(), openness.key(s.leaf)), s.lines);
+std::uint64_t skyKey(const Skies& skies, const SkyVisibility& visibility, const SkyLeaf& s) {
+  std::uint64_t key = combineKeys(combineKeys(skies.key(), visibility.key(s.leaf)), s.lines);
   const auto both = [](float a, float b) {
     return std::uint64_t(std::bit_cast<std::uint32_t>(a)) << 32 | std::bit_cast<std::uint32_t>(b);
   };
@@ -144,7 +145,7 @@ std::uint64_t skyKey(const Skies& skies, const Openness& openness, const SkyLeaf
   return combineKeys(combineKeys(key, word), bits);
 }
 
-SkyAtLeaf skyLight(const Skies& skies, const Openness& openness, const hierarchy::Elements& elements,
+SkyAtLeaf skyLight(const Skies& skies, const SkyVisibility& visibility, const hierarchy::Elements& elements,
                    const Scene& scene, const tracing::RayTracer& tracer, const SkyLeaf& s, std::span<SkyRay> ran) {
   SkyAtLeaf result;
   std::ranges::fill(ran, SkyRay{});
@@ -164,7 +165,7 @@ SkyAtLeaf skyLight(const Skies& skies, const Openness& openness, const hierarchy
     cosines.fill(1.0f);
   for (int cell = 0; cell < SkyCells::kCount; ++cell) {
     const float cosine = cosines[static_cast<std::size_t>(cell)];
-    if (cosine > 0) total += skies.strength(cell) * cosine * openness.at(s.leaf, cell);
+    if (cosine > 0) total += skies.strength(cell) * cosine * visibility.at(s.leaf, cell);
     cumulative[static_cast<std::size_t>(cell)] = total;
   }
   const auto rays = static_cast<double>(s.points.size());

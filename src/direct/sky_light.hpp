@@ -1,7 +1,7 @@
 #pragma once
 // Direct light of skies at leaves: the leaf's lines that escape, balanced [VG95] with shadow rays that are drawn by the
-// sky's radiance, the cosine, and the openness that lines below a common element have found, in octaves, so that what a
-// few lines see is not told from chance.
+// sky's radiance, the cosine, and the visibility estimates that lines below a common element have found, in octaves, so
+// that what a few lines see is not told from chance.
 #include <array>
 #include <span>
 
@@ -45,14 +45,14 @@ class Skies {
   Rgb dimming_{1.0f};
 };
 
-/// Openness by guide: shares of lines into each cell that escape, in octaves.
-class Openness {
+/// Visibility estimates by guide: shares of lines into each cell that escape, in octaves.
+class SkyVisibility {
  public:
   /// `forEachLineOf(leaf, sink)` calls sink(cell, escaped) for every line of a leaf. Counts below the lowest element
   /// above each leaf that has enough lines.
   template <class ForEachLineOf>
-  Openness(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
-           std::span<const std::uint32_t> linesOf, const ForEachLineOf& forEachLineOf) {
+  SkyVisibility(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
+                std::span<const std::uint32_t> linesOf, const ForEachLineOf& forEachLineOf) {
     const GuidedLeaves guided = placeGuides(elements, leaves, linesOf);
     share_.resize(guides_ * SkyCells::kCount), keys_.resize(guides_);
     parallelFor(guides_, 1, [&](std::size_t guide) {
@@ -121,9 +121,9 @@ struct SkyRay {
 };
 
 /// The skies' irradiance over what is not covered of a leaf. `rays`: becomes those of its points, in order.
-SkyAtLeaf skyLight(const Skies&, const Openness&, const hierarchy::Elements&, const Scene&, const tracing::RayTracer&,
-                   const SkyLeaf&, std::span<SkyRay> rays);
+SkyAtLeaf skyLight(const Skies&, const SkyVisibility&, const hierarchy::Elements&, const Scene&,
+                   const tracing::RayTracer&, const SkyLeaf&, std::span<SkyRay> rays);
 /// The same for leaves whose sky light is the same where nothing is in the way that was not: of what it follows from.
-std::uint64_t skyKey(const Skies&, const Openness&, const SkyLeaf&);
+std::uint64_t skyKey(const Skies&, const SkyVisibility&, const SkyLeaf&);
 
 }  // namespace deltalux::direct

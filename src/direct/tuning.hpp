@@ -46,11 +46,11 @@ constexpr double kNarrow = 1.0;
 /// Light below which variation is not looked for, in shares of the scene's mean irradiance.
 constexpr double kFloor = 0.02;
 
-/// Cells of the sphere that openness is kept by: along height, and around.
+/// Cells of the sphere that visibility estimates are kept by: along height, and around.
 constexpr int kSkyHeights = 16, kSkyAzimuths = 16;
 /// Shadow rays of a leaf to the sky. Fewer: grain beside windows.
 constexpr int kSkyRays = 32;
-/// Lines that tell openness below one element. Fewer: guides of chance.
+/// Lines that tell visibility below one element. Fewer: guides of chance.
 constexpr int kGuideLines = 4096;
 /// Prior of a cell's visibility estimate: lines, and those of them that leave the scene; and the least estimate, of a
 /// cell that no line leaves the scene by. Less: what few lines have seen is believed, and slots get no rays.

@@ -12,7 +12,7 @@
 #include "engine/relight.hpp"
 #include "lines/line_counts.hpp"
 #include "lines/tuning.hpp"
-#include "solution/sky_openness.hpp"
+#include "solution/sky_visibility.hpp"
 
 namespace deltalux::engine {
 
@@ -43,7 +43,7 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
   // Not of the coarse light, whose leaves were others.
   const std::vector<std::uint32_t>* before = x.knownLines ? &x.knownLines->of : nullptr;
   sky.key.resize(leaves.size()), sky.rays.resize(leaves.size() * kEach);
-  const direct::Openness open = skyOpenness(x.s.elements, leaves, traced.lines);
+  const direct::SkyVisibility visibility = skyVisibility(x.s.elements, leaves, traced.lines);
   const std::vector<std::uint32_t> first = lines::firstOf(traced.escaped, leaves.size());
   struct Scratch {
     std::vector<direct::EscapedView> escaped;
@@ -66,7 +66,7 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
     for (std::uint32_t k = 0; k < count && points.size() < rays; ++k)
       if (traced.lines.end[traced.lines.first[i] + k] != lines::kCovered) points.push_back(k);
     const direct::SkyLeaf leaf{static_cast<std::uint32_t>(i), leaves[i], count - traced.covered[i], escaped, points};
-    sky.key[i] = direct::skyKey(x.skies, open, leaf);
+    sky.key[i] = direct::skyKey(x.skies, visibility, leaf);
     const std::uint32_t old = before ? (*before)[i] : hierarchy::LeafTable::kNone;
     const direct::SkyAtLeaf* same =
         old != hierarchy::LeafTable::kNone ? x.known->sky(x.s.elements, leaves[i], old, sky.key[i]) : nullptr;
@@ -77,7 +77,7 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
     }
     std::array<direct::SkyRay, kEach> ran;
     const std::span<direct::SkyRay> own = std::span(ran).first(points.size());
-    sky.at[i] = direct::skyLight(x.skies, open, x.s.elements, x.s.scene, *x.s.tracer, leaf, own);
+    sky.at[i] = direct::skyLight(x.skies, visibility, x.s.elements, x.s.scene, *x.s.tracer, leaf, own);
     for (std::size_t k = 0; k < own.size(); ++k)
       if (own[k].length > 0) codes[k] = lines::lineCode(own[k].direction, own[k].length);
     return std::uint64_t(sky.at[i].rays);

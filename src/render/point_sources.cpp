@@ -1,7 +1,7 @@
 #include "render/point_sources.hpp"
 
 #include "hierarchy/leaf_sequence.hpp"
-#include "solution/sky_openness.hpp"
+#include "solution/sky_visibility.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::rendering {
@@ -14,16 +14,19 @@ constexpr std::uint64_t kLeafKey = 0x61696d5f5f5full;
 }  // namespace
 
 PointSources::PointSources(const Solution& s)
-    : s_(s), leaves_(s.elements), light_(s.scene, *s.tracer), openness_(skyOpenness(s.elements, leaves_, s.lines)) {}
+    : s_(s),
+      leaves_(s.elements),
+      light_(s.scene, *s.tracer),
+      visibility_(skyVisibility(s.elements, leaves_, s.lines)) {}
 
 std::vector<direct::Source> PointSources::at(hierarchy::ElementId leaf) const {
   const std::uint32_t i = leaves_.indexOf[leaf.index()];
-  return light_.sources(s_.elements.shape(leaf), [&](int cell) { return openness_.at(i, cell); });
+  return light_.sources(s_.elements.shape(leaf), [&](int cell) { return visibility_.at(i, cell); });
 }
 
 std::vector<direct::Source> PointSources::at(hierarchy::ElementId leaf, const direct::Receiver& x) const {
   const std::uint32_t i = leaves_.indexOf[leaf.index()];
-  return light_.sources(direct::pointPatch(x), [&](int cell) { return openness_.at(i, cell); });
+  return light_.sources(direct::pointPatch(x), [&](int cell) { return visibility_.at(i, cell); });
 }
 
 float PointSources::lightAt(hierarchy::ElementId leaf) const {

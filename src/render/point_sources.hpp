@@ -1,6 +1,6 @@
 #pragma once
 // Where light comes from at the leaves of a solution: suns and lamps that may shine on a leaf, and cells of the skies
-// with the openness that its lines have found.
+// with the visibility estimates that its lines have found.
 #include "direct/aim.hpp"
 
 namespace deltalux {
@@ -29,7 +29,7 @@ class PointSources {
   const Solution& s_;
   hierarchy::LeafTable leaves_;
   direct::PointSampler light_;
-  direct::Openness openness_;
+  direct::SkyVisibility visibility_;
 };
 
 }  // namespace deltalux::rendering

@@ -1,4 +1,4 @@
-#include "solution/sky_openness.hpp"
+#include "solution/sky_visibility.hpp"
 
 #include "base/parallel.hpp"
 
@@ -30,8 +30,8 @@ class CellOfCode {
 
 }  // namespace
 
-direct::Openness skyOpenness(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
-                             const lines::Lines& lines) {
+direct::SkyVisibility skyVisibility(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
+                                    const lines::Lines& lines) {
   std::vector<std::uint32_t> counts(leaves.size(), 0);
   for (std::size_t i = 0; i < lines.leaves(); ++i) counts[i] = lines.countOf(i);
   const CellOfCode cellOf;

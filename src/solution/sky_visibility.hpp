@@ -6,6 +6,6 @@
 
 namespace deltalux {
 
-direct::Openness skyOpenness(const hierarchy::Elements&, const hierarchy::LeafTable&, const lines::Lines&);
+direct::SkyVisibility skyVisibility(const hierarchy::Elements&, const hierarchy::LeafTable&, const lines::Lines&);
 
 }  // namespace deltalux
