@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/random.hpp"
 #include "hierarchy/patch.hpp"
 #include "lines/tuning.hpp"
 
@@ -10,8 +11,7 @@ namespace deltalux::lines {
 
 namespace {
 
-/// In octaves: the mean that all refer to stays what it is when an edit changes a few.
-double octave(double x) { return x > 0 ? std::exp2(std::round(std::log2(x))) : 0.0; }
+constexpr std::uint64_t kCountKey = 0x636f756e74735f5full;
 
 }  // namespace
 
@@ -31,13 +31,17 @@ std::vector<std::uint32_t> lineCounts(const hierarchy::Elements& elements, const
     if (out[i]) continue;
     area += elements.shape(leaves[i]).area, sent += power[i], live += 1;
   }
-  const double meanArea = octave(area / std::max(live, 1.0)), meanPower = octave(sent / std::max(live, 1.0));
+  // In octaves: sums of area and power hardly change by an edit, how many leaves there are does.
+  const double count = std::exp2(std::round(std::log2(std::max(live, 1.0))));
+  const double meanArea = area / count, meanPower = sent / count;
   std::vector<std::uint32_t> counts(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     if (out[i]) continue;
     double share = elements.shape(leaves[i]).area / std::max(meanArea, 1e-300);
     if (meanPower > 0) share = std::max(share, power[i] / meanPower);
-    const auto octaves = static_cast<int>(std::floor(0.5 * std::log2(std::max(share, 1e-12)) + 0.5));
+    // Each leaf has a threshold of its own: when an edit changes the sums a little, few leaves get other lines.
+    const double threshold = toUnit(combineKeys(elements.key[leaves[i].index()], kCountKey));
+    const auto octaves = static_cast<int>(std::floor(0.5 * std::log2(std::max(share, 1e-12)) + threshold));
     counts[i] = static_cast<std::uint32_t>(
         std::lround(base * std::exp2(std::clamp(octaves, tuning::kFewestOctaves, tuning::kMostOctaves))));
   }

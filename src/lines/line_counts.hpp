@@ -1,6 +1,7 @@
 #pragma once
 // How many lines each leaf gets: a base that follows from the error, times the root of what the leaf is of area and of
-// power, whichever is more, in octaves, so that small changes leave nearly all leaves' lines as they are.
+// power, whichever is more, in octaves at thresholds of its own, so that small changes leave nearly all leaves' lines
+// as they are.
 #include "hierarchy/leaf_table.hpp"
 
 namespace deltalux::lines {
