@@ -6,7 +6,7 @@ namespace deltalux::lines::tuning {
 
 /// Lines of a leaf of mean area and power at an error of 5 %; their noise falls as one over the root. Fewer: blotches
 /// on indirect light. More: time and memory in proportion.
-constexpr double kBaseLines = 128;
+constexpr double kBaseLines = 144;
 constexpr double kBaseError = 0.05;
 /// Octaves of lines below and above the base. Fewer below: narrow places take most of the time. More above: large
 /// leaves do.

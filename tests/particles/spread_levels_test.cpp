@@ -29,7 +29,8 @@ class Floor {
     engine.solve();
     elements_ = engine.solution().get().elements;
     for (std::size_t i = 0; i < elements_.size(); ++i)
-      if (const hierarchy::ElementId e(i); elements_.isReceivingLeaf(e) && elements_.domain[i].primitive == floor_) {
+      if (const hierarchy::ElementId e(i);
+          elements_.isReceivingLeaf(e) && elements_.topology[i].front && elements_.domain[i].primitive == floor_) {
         top_ = hierarchy::surfaceOf(elements_, e), leaves_.push_back(e);
       }
   }
