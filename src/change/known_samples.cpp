@@ -57,17 +57,24 @@ bool mayShadow(const MovedSpace& space, const direct::Lamp& lamp, const BoxF& fr
                        static_cast<float>(std::tan(lamp.halfAngle)));
 }
 
+/// visit(lamp) of suns and lamps that may shine on a patch through where something has moved.
+template <class Visit>
+void forEachMayShadow(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::ElementGeometry& g,
+                      const Visit& visit) {
+  const auto ask = [&](std::uint32_t i, double potential) {
+    const direct::Lamp& lamp = lamps.all()[i];
+    if (potential > 0 && mayShadow(space, lamp, boxOf(g))) visit(lamp);
+  };
+  for (const std::uint32_t i : lamps.suns()) ask(i, direct::potential(lamps.all()[i], g));
+  lamps.tree().reaching(g, ask);
+}
+
 bool holdAllShadowRays(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::Elements& elements,
                        hierarchy::ElementId patch) {
   const hierarchy::ElementGeometry& g = elements.shape(patch);
-  const BoxF box = boxOf(g);
-  if (space.moved(elements.domain[patch.index()].primitive) || space.touches(box)) return false;
-  for (const std::uint32_t i : lamps.suns()) {
-    const direct::Lamp& sun = lamps.all()[i];
-    if (direct::potential(sun, g) > 0 && mayShadow(space, sun, box)) return false;
-  }
+  if (space.moved(elements.domain[patch.index()].primitive) || space.touches(boxOf(g))) return false;
   bool holds = true;
-  lamps.tree().reaching(g, [&](std::uint32_t i, double) { holds = holds && !mayShadow(space, lamps.all()[i], box); });
+  forEachMayShadow(space, lamps, g, [&](const direct::Lamp&) { holds = false; });
   return holds;
 }
 
@@ -75,23 +82,17 @@ bool holdShadowRays(const MovedSpace& space, const direct::DirectSampler& sample
                     hierarchy::ElementId patch, const direct::KnownPoints& known, const direct::LampSight& above,
                     const direct::LeafDirect& before) {
   if (space.moved(elements.domain[patch.index()].primitive)) return false;
-  const hierarchy::ElementGeometry& g = elements.shape(patch);
-  const BoxF box = boxOf(g);
-  const direct::Lamps& lamps = sampler.lamps();
   const auto stops = [&](const tracing::Ray& ray) { return space.crosses(at(ray.origin), ray.direction, ray.tFar); };
   bool holds = true, drawn = false;
-  const auto ask = [&](std::uint32_t i, double potential) {
-    const direct::Lamp& lamp = lamps.all()[i];
-    if (!holds || !(potential > 0) || !mayShadow(space, lamp, box)) return;
+  forEachMayShadow(space, sampler.lamps(), elements.shape(patch), [&](const direct::Lamp& lamp) {
+    if (!holds) return;
     const auto asked = std::ranges::find_if(
         before.lamps, [&](const direct::LampLight& l) { return l.lamp == lamp.id && l.points > 0; });
     if (asked == before.lamps.end())
       drawn = true;
     else
       holds = !sampler.anyRay(patch, known, *asked, stops);
-  };
-  for (const std::uint32_t i : lamps.suns()) ask(i, direct::potential(lamps.all()[i], g));
-  lamps.tree().reaching(g, ask);
+  });
   return holds && !(drawn && before.drawn > 0 && sampler.anyDrawnRay(patch, known, above, before.drawn, stops));
 }
 

@@ -120,7 +120,7 @@ void lightLeaves(LineSolve& x, lines::TracedLines traced, const Dimming& dimming
     s.elements.radiometry[leaves[i].index()].indirect =
         x.known && x.floor > 0 ? x.known->indirect(s.elements, leaves[i]) : Rgb(0.0f);
   });
-  relight(s, *x.exchange, lampsOf(x.samples, x.dim, leaves), x.sky, dimming, converged);
+  relight(s, leaves, *x.exchange, lampsOf(x.samples, x.dim, leaves), x.sky, dimming, converged);
   s.lines = std::move(traced.lines), x.escaped = std::move(traced.escaped), x.bends = std::move(traced.bends);
   s.report.counts.lines = s.lines.size();
   s.report.memory.lines = s.lines.memoryBytes() + x.exchange->memoryBytes();

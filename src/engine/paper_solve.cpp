@@ -1,4 +1,4 @@
-// Solves over links (paper/solve.hpp): its stages in order. Links are refined, light settles over them, until
+// Solves over links (paper/solve.hpp): its stages in order. Links are refined, light is iterated over them, until
 // they are as fine as the target error asks.
 #include <algorithm>
 #include <deltalux/error.hpp>
@@ -47,7 +47,7 @@ void Engine::State::paperRound(Progress* progress) {
     nextError = budget.reach(paper::LinkErrors(s.links, s.elements, oracle), oracle.error, nextError, left);
   }
   finished = last || refined.stopped || !(nextError < oracle.error);
-  const bool settled = settleOverLinks(finished, progress);
+  const bool converged = iterateOverLinks(finished, progress);
   const bool limited = budget.limited();
   if (finished) {
     s.sampledScale.clear();
@@ -57,7 +57,7 @@ void Engine::State::paperRound(Progress* progress) {
   count();
   if (finished) budget = engine::TimeBudget(0);  // updates take what time they need
   if (!limited) prepareToFollow();               // or the first edit does
-  s.report.converged = settled && last && !refined.stopped && !curtailed;
+  s.report.converged = converged && last && !refined.stopped && !curtailed;
 }
 
 void Engine::State::prepare(Progress* progress) {
@@ -117,7 +117,7 @@ caustics::SurfaceSides Engine::State::chooseTextures() {
   return sides;
 }
 
-bool Engine::State::settleOverLinks(bool well, Progress* progress) {
+bool Engine::State::iterateOverLinks(bool well, Progress* progress) {
   Solution& s = *solution;
   const engine::Clock time;
   const paper::Settled settled =

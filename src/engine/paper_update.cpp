@@ -43,9 +43,9 @@ void Engine::State::paperUpdate(const engine::SceneUpdate& edits, StepReport& st
   const engine::Clock placing;
   placeParticles(followed, changed);
   step.times.particles += placing.seconds();
-  settleOverLinks(true, progress);
+  iterateOverLinks(true, progress);
   const bool relit = !edits.dimmed.empty() || !edits.movedLights.empty() || !painted.empty();
-  if (relit && refineByNewLight(progress)) settleOverLinks(true, progress);
+  if (relit && refineByNewLight(progress)) iterateOverLinks(true, progress);
   step.times.gather = s.report.times.gather - gathered;
   step.leavesChanged = s.report.counts.leafElements;
 

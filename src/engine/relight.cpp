@@ -25,10 +25,9 @@ Dimming Dimming::none(const Scene& scene) { return {std::vector<Rgb>(scene.light
 
 Dimming Dimming::of(const Scene& scene, const direct::Skies& skies) { return {scene::dimming(scene), skies.dimming()}; }
 
-void relight(Solution& s, lines::Exchange& exchange, const LampsOfLeaves& lamps, const KnownSky& sky,
-             const Dimming& dimming, double converged) {
+void relight(Solution& s, const hierarchy::LeafTable& leaves, lines::Exchange& exchange, const LampsOfLeaves& lamps,
+             const KnownSky& sky, const Dimming& dimming, double converged) {
   hierarchy::Elements& elements = s.elements;
-  const hierarchy::LeafTable leaves(elements);
   const std::size_t n = leaves.size();
   lines::LeafLight light = lines::leafLight(elements, leaves);
   std::vector<float> deviation(n);

@@ -21,6 +21,7 @@ struct Dimming {
 
 /// Writes the elements' irradiance and radiosity, from the particles' light and the indirect light that they have, and
 /// the solution's deviations. To be pulled up then. The lights' own emission is left as it is.
-void relight(Solution&, lines::Exchange&, const LampsOfLeaves&, const KnownSky&, const Dimming&, double converged);
+void relight(Solution&, const hierarchy::LeafTable&, lines::Exchange&, const LampsOfLeaves&, const KnownSky&,
+             const Dimming&, double converged);
 
 }  // namespace deltalux::engine

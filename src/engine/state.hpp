@@ -77,8 +77,8 @@ struct Engine::State {
   paper::RefineReport refineLinks(const paper::OracleSettings& oracle, Progress* progress);
   /// Sides whose particles textures would show by the light there is: their mesh need not. [GD01 3]
   caustics::SurfaceSides chooseTextures();
-  /// Returns whether light has settled; `well`: it is to be the last time.
-  bool settleOverLinks(bool well, Progress* progress);
+  /// Returns whether light has converged; `well`: it is to be the last time.
+  bool iterateOverLinks(bool well, Progress* progress);
   /// How links are judged when they are as fine as the error asks for.
   paper::OracleSettings linksJudged() const { return paper::judgedFor(solution->settings.error); }
 
@@ -92,10 +92,10 @@ struct Engine::State {
   void takeIn(StepReport& step);
   /// What the solve before knows that edits leave as it was, for the next.
   void recall(const engine::SceneUpdate& edits);
-  /// Whether edits have but dimmed lights, by less than would change what they count for.
-  bool onlyDims(const engine::SceneUpdate& edits) const;
+  /// Of edits that have but dimmed lights, by less than would change what they count for; nullopt of others.
+  std::optional<engine::Dimming> dimmingAlone(const engine::SceneUpdate& edits) const;
   /// The light over the lines there are, then: no ray is traced.
-  void relightOverLines(const engine::SceneUpdate& edits);
+  void relightOverLines(const engine::SceneUpdate& edits, const engine::Dimming&);
   /// Retraces particles that edits have touched. [GD01 4]
   particles::ParticleUpdate followWithParticles(const SceneChange&, StepReport& step);
   /// Paths that were traced anew leave gaps.

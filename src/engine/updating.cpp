@@ -37,8 +37,8 @@ StepReport Engine::State::update(Progress* progress) {
   const Solution& s = *solution;
   if (byLines() || !engine::haveElements(s.elements, s.scene, taken) || outshines(taken)) {
     lineMotion.reset(), counts = {};
-    if (onlyDims(taken)) {
-      relightOverLines(taken);
+    if (const auto dimming = dimmingAlone(taken)) {
+      relightOverLines(taken, *dimming);
     } else {
       recall(taken);
       if (!known) traced = 0;  // by a tracer of its own
@@ -61,14 +61,17 @@ void Engine::State::takeIn(StepReport& step) {
   waiting.add(std::exchange(pending, {}));
 }
 
-bool Engine::State::onlyDims(const engine::SceneUpdate& edits) const {
+std::optional<engine::Dimming> Engine::State::dimmingAlone(const engine::SceneUpdate& edits) const {
   const Solution& s = *solution;
-  return byLines() && finished && s.memory && edits.moved.empty() && edits.movedLights.empty() &&
-         edits.materials.empty() && s.memory->nominal == scene::nominalScales(s.scene) &&
-         s.memory->sky.skies == direct::Skies(s.scene).key();
+  if (!byLines() || !finished || !s.memory || !edits.moved.empty() || !edits.movedLights.empty() ||
+      !edits.materials.empty() || s.memory->nominal != scene::nominalScales(s.scene))
+    return {};
+  const direct::Skies skies(s.scene);
+  if (skies.key() != s.memory->sky.skies) return {};
+  return engine::Dimming::of(s.scene, skies);
 }
 
-void Engine::State::relightOverLines(const engine::SceneUpdate& edits) {
+void Engine::State::relightOverLines(const engine::SceneUpdate& edits, const engine::Dimming& dimming) {
   Solution& s = *solution;
   const engine::Clock time;
   for (const hierarchy::ElementId e : hierarchy::elementsOf(s.elements, edits.dimmed))
@@ -78,9 +81,10 @@ void Engine::State::relightOverLines(const engine::SceneUpdate& edits) {
   if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
   transfer->apply(s.elements, scene::scalesOf(s.scene));
   s.report.counts.iterations = 0;
-  engine::relight(s, *s.memory->exchange,
-                  engine::lampsOf(s.memory->samples, s.memory->dim, hierarchy::LeafTable(s.elements)), s.memory->sky,
-                  engine::Dimming::of(s.scene, direct::Skies(s.scene)), lines::tuning::kConvergedAgain);
+  const hierarchy::LeafTable leaves(s.elements);
+  const SolveMemory& memory = *s.memory;
+  engine::relight(s, leaves, *memory.exchange, engine::lampsOf(memory.samples, memory.dim, leaves), memory.sky, dimming,
+                  lines::tuning::kConvergedAgain);
   hierarchy::pull(s.elements);
   s.report.error = engine::estimateError(s);
   s.report.times = {};

@@ -319,18 +319,11 @@ Rgb Exchange::sentOver(std::size_t i) const {
   const float* ms = m_.data();
   const std::uint32_t* id = id_.data();
   const std::uint16_t* count = count_.data();
-  std::array<float, kLanes> weight;
   std::array<LeafRecord, 2> sums{};
-  std::uint64_t k = begin_[i];
-  for (const std::uint64_t end = begin_[i + 1]; k < end; k += kLanes) {
-    const std::size_t n = std::min<std::uint64_t>(kLanes, end - k);
-    if (n == kLanes)
-      for (std::size_t l = 0; l < kLanes; ++l) weight[l] = static_cast<float>(count[k + l]) / (m + ms[id[k + l]]);
-    else
-      for (std::size_t l = 0; l < n; ++l) weight[l] = static_cast<float>(count[k + l]) / (m + ms[id[k + l]]);
-    for (std::size_t l = 0; l < n; ++l)
-      for (std::size_t c = 0; c < 4; ++c) sums[l % 2].B[c] += weight[l] * records_[id[k + l]].B[c];
-  }
+  inLanes(begin_[i], begin_[i + 1], [&](std::uint64_t k, std::size_t lane) {
+    const float weight = static_cast<float>(count[k]) / (m + ms[id[k]]);
+    for (std::size_t c = 0; c < 4; ++c) sums[lane % 2].B[c] += weight * records_[id[k]].B[c];
+  });
   return {sums[0].B[0] + sums[1].B[0], sums[0].B[1] + sums[1].B[1], sums[0].B[2] + sums[1].B[2]};
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "scene/tuning.hpp"
+
 namespace deltalux::scene {
 
 namespace {
@@ -13,8 +15,8 @@ bool isFar(const Light& light) {
 float nominalScale(const Light& light) {
   const float scale = maxChannel(light.scale);
   if (!(scale > 0)) return isFar(light) ? 0.0f : 1.0f;
-  const int step = static_cast<int>(std::ceil(std::log2(scale) / 4));
-  return std::ldexp(1.0f, 4 * (isFar(light) ? step : std::max(step, 0)));
+  const int step = static_cast<int>(std::ceil(std::log2(scale) / tuning::kNominalOctaves));
+  return std::ldexp(1.0f, tuning::kNominalOctaves * (isFar(light) ? step : std::max(step, 0)));
 }
 
 }  // namespace
