@@ -18,7 +18,7 @@ class Engine {
   Engine(Engine&&) noexcept;
   Engine& operator=(Engine&&) noexcept;
 
-  /// One round: a finer solution, whose light has settled. The report's `converged` says whether
+  /// One round: a finer solution, whose light has converged. The report's `converged` says whether
   /// the target is met. Throws Interrupted (the last round's solution stands) when `progress` asks to stop.
   SolveReport step(Progress* progress = nullptr);
   /// In place of the first step: a coarser round, for something to look at soon. Steps after it lead to the same error.

@@ -16,7 +16,7 @@ struct SolveReport {
   ErrorEstimate error;
   EnergyLedger energy;
   std::uint64_t cutParticles = 0;  // by the limit of 64 events
-  bool converged = false;          // the error target is met everywhere and the light has settled
+  bool converged = false;          // the error target is met everywhere and the light has converged
 };
 
 struct Solution;  // all state; src/solution/solution.hpp
