@@ -97,14 +97,26 @@ bool holdShadowRays(const MovedSpace& space, const direct::DirectSampler& sample
 }
 
 bool holdSkyRays(const MovedSpace& space, const hierarchy::Elements& elements, hierarchy::ElementId patch,
-                 std::span<const lines::LineCode> rays) {
+                 std::span<const lines::LineCode> codes, std::span<direct::SkyRay> rays) {
+  using Fate = direct::SkyRay::Fate;
   const BoxF box = boxOf(elements.shape(patch));
   if (space.touches(box)) return false;
   std::array<char, direct::tuning::kSkyRays> near{};
-  LineSieve(space, box, lines::kDirectionError).mark(rays, std::span(near).first(rays.size()));
-  for (std::size_t k = 0; k < rays.size(); ++k)
-    if (near[k] && rays[k].reach > 0 && mayCross(space, box, rays[k])) return false;
-  return true;
+  LineSieve(space, box, lines::kDirectionError).mark(codes, std::span(near).first(codes.size()));
+  bool all = true;
+  for (std::size_t k = 0; k < codes.size(); ++k) {
+    if (codes[k].reach == 0) continue;
+    if (near[k] && mayCross(space, box, codes[k])) {
+      all = false;
+      continue;
+    }
+    const float length = lines::lengthOf(codes[k]);
+    if (length < direct::SkyRay::kDimmed)
+      rays[k].known = Fate::Stopped;
+    else if (length >= lines::kEndless)
+      rays[k].known = Fate::Open;
+  }
+  return all;
 }
 
 lines::KnownLines knownLines(const MovedSpace& space, lines::TracedLines all, std::vector<std::uint32_t> of,

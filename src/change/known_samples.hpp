@@ -3,6 +3,7 @@
 // their rays starts or passes where something has moved.
 #include "change/moved_space.hpp"
 #include "direct/leaf_direct.hpp"
+#include "direct/sky_light.hpp"
 #include "lines/enclosed_sides.hpp"
 #include "lines/first_lines.hpp"
 
@@ -22,9 +23,10 @@ bool holdShadowRays(const MovedSpace&, const direct::DirectSampler&, const hiera
                     hierarchy::ElementId patch, const direct::KnownPoints&, const direct::LampSight& above,
                     const direct::LeafDirect&);
 
-/// Whether shadow rays of a patch to the sky are, by their codes in the order of its sequence.
+/// Tells the fate of those shadow rays of a patch to the sky that are as they were, by their codes in the order of its
+/// sequence. Returns whether all of them are. Sizes must agree.
 bool holdSkyRays(const MovedSpace&, const hierarchy::Elements&, hierarchy::ElementId patch,
-                 std::span<const lines::LineCode>);
+                 std::span<const lines::LineCode>, std::span<direct::SkyRay>);
 
 /// Lines from before as they are now; `of` by leaf there is: the leaf that it was where it stands, or kNone; what they
 /// were over (`before`).

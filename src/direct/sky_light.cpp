@@ -127,28 +127,32 @@ void SkyVisibility::setShares(std::size_t guide, const Counts& counts) {
   keys_[guide] = key;
 }
 
-std::uint64_t skyKey(const Skies& skies, const SkyVisibility& visibility, const SkyLeaf& s) {
-  std::uint64_t key = combineKeys(combineKeys(skies.key(), visibility.key(s.leaf)), s.lines);
-  const auto both = [](float a, float b) {
-    return std::uint64_t(std::bit_cast<std::uint32_t>(a)) << 32 | std::bit_cast<std::uint32_t>(b);
-  };
-  for (const EscapedView& e : s.escaped) {
-    key = combineKeys(combineKeys(key, both(e.direction.x, e.direction.y)), both(e.direction.z, e.chance));
-    key = combineKeys(combineKeys(key, both(e.weight.r, e.weight.g)), both(e.weight.b, 0));
-  }
+SkyKey skyKey(const Skies& skies, const SkyVisibility& visibility, const SkyLeaf& s) {
+  SkyKey all;
+  std::uint64_t& key = all.points;
   // In words of bits: points ascend, and nearly all are among the first.
   std::uint64_t word = 0, bits = 0;
   for (const std::uint32_t point : s.points) {
     if (point / 64 != word) key = combineKeys(combineKeys(key, word), bits), word = point / 64, bits = 0;
     bits |= std::uint64_t(1) << (point % 64);
   }
-  return combineKeys(combineKeys(key, word), bits);
+  key = combineKeys(combineKeys(key, word), bits);
+  std::uint64_t& light = all.light = combineKeys(combineKeys(skies.key(), visibility.key(s.leaf)), s.lines);
+  light = combineKeys(light, all.points);
+  const auto both = [](float a, float b) {
+    return std::uint64_t(std::bit_cast<std::uint32_t>(a)) << 32 | std::bit_cast<std::uint32_t>(b);
+  };
+  for (const EscapedView& e : s.escaped) {
+    light = combineKeys(combineKeys(light, both(e.direction.x, e.direction.y)), both(e.direction.z, e.chance));
+    light = combineKeys(combineKeys(light, both(e.weight.r, e.weight.g)), both(e.weight.b, 0));
+  }
+  return all;
 }
 
 SkyAtLeaf skyLight(const Skies& skies, const SkyVisibility& visibility, const hierarchy::Elements& elements,
-                   const Scene& scene, const tracing::RayTracer& tracer, const SkyLeaf& s, std::span<SkyRay> ran) {
+                   const Scene& scene, const tracing::RayTracer& tracer, const SkyLeaf& s, std::span<SkyRay> all) {
+  using Fate = SkyRay::Fate;
   SkyAtLeaf result;
-  std::ranges::fill(ran, SkyRay{});
   const hierarchy::ElementGeometry& g = elements.shape(s.element);
   const bool flat = g.normalCone > 0.999f;
   std::array<float, SkyCells::kCount> cumulative;
@@ -186,19 +190,25 @@ SkyAtLeaf skyLight(const Skies& skies, const SkyVisibility& visibility, const hi
       const auto at = std::upper_bound(cumulative.begin(), cumulative.end(), static_cast<float>(choice.x) * total);
       const int cell = std::min(static_cast<int>(at - cumulative.begin()), SkyCells::kCount - 1);
       const Vec3f w = SkyCells::direction(cell, place.x, place.y);
+      SkyRay& ray = all[k];
+      if (ray.cell != cell) ray = {static_cast<std::uint8_t>(cell)};
+      if (ray.known == Fate::Stopped) continue;
       const hierarchy::PatchPoint x = sequence.point(s.points[k]);
       const float cosine = glm::dot(w, x.normal);
       if (!(cosine > 0)) continue;
       const Rgb L = skies.radiance(w);
       if (isBlack(L)) continue;
-      tracing::Ray ray;
-      ray.origin = tracing::offsetOrigin(x.position, x.normal, w), ray.direction = w;
-      ++result.rays;
-      const tracing::Hit hit = tracer.closestHit(ray);
-      const bool stopped = hit && scene::stopsLight(scene.materialOf(hit.primitive));
-      ran[k] = {w, stopped ? hit.t : ray.tFar};
-      if (stopped) continue;
-      const Rgb V = hit ? tracer.transmittance(ray) : Rgb(1.0f);
+      Rgb V(1.0f);
+      if (ray.known == Fate::Unknown) {
+        tracing::Ray way;
+        way.origin = tracing::offsetOrigin(x.position, x.normal, w), way.direction = w;
+        ++result.rays;
+        const tracing::Hit hit = tracer.closestHit(way);
+        const bool stopped = hit && scene::stopsLight(scene.materialOf(hit.primitive));
+        ray.direction = w, ray.length = stopped ? hit.t : hit ? SkyRay::kDimmed : way.tFar;
+        if (stopped) continue;
+        if (hit) V = tracer.transmittance(way);
+      }
       if (!isBlack(V)) add(L * V * static_cast<float>(cosine / (guided(cell) + byLines(cosine, V))));
     }
   }

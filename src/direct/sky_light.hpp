@@ -114,16 +114,29 @@ struct SkyLeaf {
   std::span<const std::uint32_t> points;  // numbers of open points of its sequence: a shadow ray each
 };
 
-/// Where a shadow ray ran: as far as what stops light there.
+/// Where a shadow ray runs: as far as what stops light there. Rays of one leaf, point and cell run the same way.
 struct SkyRay {
+  enum class Fate : std::uint8_t { Unknown, Stopped, Open };
+  static constexpr float kDimmed = 1e38f;  // length of those that pass panes [sentinel]
+  static_assert(SkyCells::kCount <= 256);
+
+  std::uint8_t cell = 0;
+  Fate known = Fate::Unknown;  // before it is traced
   Vec3f direction{0.0f};
-  float length = 0;  // 0: there was none
+  float length = 0;  // 0: it was not traced
+
+  bool traced() const { return length > 0; }
 };
 
-/// The skies' irradiance over what is not covered of a leaf. `rays`: becomes those of its points, in order.
+/// The skies' irradiance over what is not covered of a leaf. `rays`: what is known of those of its points, in order;
+/// becomes what they have found.
 SkyAtLeaf skyLight(const Skies&, const SkyVisibility&, const hierarchy::Elements&, const Scene&,
                    const tracing::RayTracer&, const SkyLeaf&, std::span<SkyRay> rays);
-/// The same for leaves whose sky light is the same where nothing is in the way that was not: of what it follows from.
-std::uint64_t skyKey(const Skies&, const SkyVisibility&, const SkyLeaf&);
+/// What sky light of a leaf follows from where nothing is in the way that was not: equal for equal points of its rays,
+/// and for equal light by them.
+struct SkyKey {
+  std::uint64_t points = 0, light = 0;
+};
+SkyKey skyKey(const Skies&, const SkyVisibility&, const SkyLeaf&);
 
 }  // namespace deltalux::direct

@@ -25,15 +25,17 @@ std::vector<float> roughIndirect(const LineSolve& x, const hierarchy::LeafTable&
   const LampsOfLeaves lamps = lampsOf(x.samples, x.dim, leaves);
   const Dimming undimmed = Dimming::none(x.s.scene);
   std::vector<float> rho(n), source(n);
+  const std::vector<std::uint32_t> firstEscaped = lines::firstOf(traced.escaped, n);
   parallelFor(n, kRoomLeaves, [&](std::size_t i) {
     const hierarchy::ElementLight& l = x.s.elements.radiometry[leaves[i].index()];
     rho[i] = gray(l.rho + l.tau), source[i] = gray(direct::dimmed(lamps[i], undimmed.lights).E + l.particle);
-  });
-  if (!x.skies.empty())
-    for (const lines::EscapedLine& e : traced.escaped) {
-      const auto count = static_cast<float>(traced.lines.countOf(e.leaf) - traced.covered[e.leaf]);
-      source[e.leaf] += std::numbers::pi_v<float> * gray(e.weight * x.skies.radiance(e.direction)) / count;
+    if (x.skies.empty()) return;
+    const auto count = static_cast<float>(traced.lines.countOf(i) - traced.covered[i]);
+    for (std::uint32_t k = firstEscaped[i]; k < firstEscaped[i + 1]; ++k) {
+      const lines::EscapedLine& e = traced.escaped[k];
+      source[i] += std::numbers::pi_v<float> * gray(e.weight * x.skies.radiance(e.direction)) / count;
     }
+  });
   return lines::ownIndirect(traced, rho, source);
 }
 

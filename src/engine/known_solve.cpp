@@ -10,6 +10,7 @@ namespace deltalux::engine {
 namespace {
 
 constexpr std::size_t kLeavesOfTask = 1024;
+constexpr std::size_t kSkyRays = direct::tuning::kSkyRays;
 
 bool sameSight(const direct::LampSight& a, const direct::LampSight& b) {
   return a.asked == b.asked && a.seen == b.seen && a.drawnAsked == b.drawnAsked && a.drawnSeen == b.drawnSeen;
@@ -142,9 +143,10 @@ hierarchy::KnownParts* KnownSolve::parts(const hierarchy::Elements& elements,
   return &parts_;
 }
 
-Rgb KnownSolve::indirect(const hierarchy::Elements& elements, hierarchy::ElementId leaf) const {
+std::optional<Rgb> KnownSolve::indirect(const hierarchy::Elements& elements, hierarchy::ElementId leaf) const {
   const std::uint32_t old = find(elements, leaf);
-  return old == kNone ? Rgb(0.0f) : elements_.radiometry[old].indirect;
+  if (old == kNone) return {};
+  return elements_.radiometry[old].indirect;
 }
 
 std::vector<std::uint32_t> KnownSolve::leavesBefore(const hierarchy::Elements& elements,
@@ -164,14 +166,16 @@ std::optional<lines::KnownLines> KnownSolve::takeLines(const hierarchy::Elements
 }
 
 std::span<const lines::LineCode> KnownSolve::skyRays(std::uint32_t before) const {
-  constexpr std::size_t kEach = direct::tuning::kSkyRays;
-  return {memory_.sky.rays.data() + before * kEach, kEach};
+  return {memory_.sky.rays.data() + before * kSkyRays, kSkyRays};
 }
 
 const direct::SkyAtLeaf* KnownSolve::sky(const hierarchy::Elements& elements, hierarchy::ElementId leaf,
-                                         std::uint32_t before, std::uint64_t key) const {
-  if (before >= memory_.sky.key.size() || memory_.sky.key[before] != key) return nullptr;
-  return change::holdSkyRays(space_, elements, leaf, skyRays(before)) ? &memory_.sky.at[before] : nullptr;
+                                         std::uint32_t before, const direct::SkyKey& key,
+                                         std::span<direct::SkyRay> rays) const {
+  if (before >= memory_.sky.key.size() || memory_.sky.key[before].points != key.points) return nullptr;
+  for (std::size_t k = 0; k < rays.size(); ++k) rays[k].cell = memory_.sky.cells[before * kSkyRays + k];
+  const bool hold = change::holdSkyRays(space_, elements, leaf, skyRays(before).first(rays.size()), rays);
+  return hold && memory_.sky.key[before].light == key.light ? &memory_.sky.at[before] : nullptr;
 }
 
 }  // namespace deltalux::engine

@@ -40,13 +40,14 @@ class KnownSolve {
   /// Direct light from those points of a leaf, likewise; nullptr.
   const direct::DimDirect* dim(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId leaf,
                                std::uint64_t points) const;
-  /// Light of a leaf by way of others as it was; where it was none, black [W/m2].
-  Rgb indirect(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
+  /// Light of a leaf by way of others as it was; nullopt where it was none [W/m2].
+  std::optional<Rgb> indirect(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
   /// The lines, as they are now; once.
   std::optional<lines::KnownLines> takeLines(const hierarchy::Elements&, const hierarchy::LeafTable&);
-  /// Sky light of a leaf, that had that number, if it follows from what has that key; nullptr.
+  /// Sky light of a leaf, that had that number, if it follows from what has that key; nullptr, and what is known of its
+  /// rays.
   const direct::SkyAtLeaf* sky(const hierarchy::Elements&, hierarchy::ElementId leaf, std::uint32_t before,
-                               std::uint64_t key) const;
+                               const direct::SkyKey&, std::span<direct::SkyRay>) const;
   std::span<const lines::LineCode> skyRays(std::uint32_t before) const;
   const lines::Exchange* exchange() const { return memory_.exchange.get(); }
 

@@ -42,7 +42,7 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
   if (x.skies.empty()) return sky;
   // Not of the coarse light, whose leaves were others.
   const std::vector<std::uint32_t>* before = x.knownLines ? &x.knownLines->of : nullptr;
-  sky.key.resize(leaves.size()), sky.rays.resize(leaves.size() * kEach);
+  sky.key.resize(leaves.size()), sky.rays.resize(leaves.size() * kEach), sky.cells.resize(leaves.size() * kEach);
   const direct::SkyVisibility visibility = skyVisibility(x.s.elements, leaves, traced.lines);
   const std::vector<std::uint32_t> first = lines::firstOf(traced.escaped, leaves.size());
   struct Scratch {
@@ -52,7 +52,8 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
   PerThread<Scratch> scratch;
   x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(leaves.size(), kSkyLeaves, [&](std::size_t i) {
     lines::LineCode* codes = sky.rays.data() + i * kEach;
-    std::fill_n(codes, kEach, lines::LineCode{});
+    std::uint8_t* cells = sky.cells.data() + i * kEach;
+    std::fill_n(codes, kEach, lines::LineCode{}), std::fill_n(cells, kEach, std::uint8_t{0});
     const std::uint32_t count = traced.lines.countOf(i);
     if (count == traced.covered[i]) return std::uint64_t(0);
     auto& [escaped, points] = scratch.local();
@@ -67,22 +68,35 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
       if (traced.lines.end[traced.lines.first[i] + k] != lines::kCovered) points.push_back(k);
     const direct::SkyLeaf leaf{static_cast<std::uint32_t>(i), leaves[i], count - traced.covered[i], escaped, points};
     sky.key[i] = direct::skyKey(x.skies, visibility, leaf);
-    const std::uint32_t old = before ? (*before)[i] : hierarchy::LeafTable::kNone;
-    const direct::SkyAtLeaf* same =
-        old != hierarchy::LeafTable::kNone ? x.known->sky(x.s.elements, leaves[i], old, sky.key[i]) : nullptr;
-    if (same) {
-      sky.at[i] = *same;
-      std::ranges::copy(x.known->skyRays(old), codes);
-      return std::uint64_t(0);
-    }
-    std::array<direct::SkyRay, kEach> ran;
+    std::array<direct::SkyRay, kEach> ran{};
     const std::span<direct::SkyRay> own = std::span(ran).first(points.size());
+    const std::uint32_t old = before ? (*before)[i] : hierarchy::LeafTable::kNone;
+    if (old != hierarchy::LeafTable::kNone) {
+      if (const direct::SkyAtLeaf* same = x.known->sky(x.s.elements, leaves[i], old, sky.key[i], own)) {
+        sky.at[i] = *same;
+        std::ranges::copy(x.known->skyRays(old), codes);
+        for (std::size_t k = 0; k < own.size(); ++k) cells[k] = own[k].cell;
+        return std::uint64_t(0);
+      }
+    }
     sky.at[i] = direct::skyLight(x.skies, visibility, x.s.elements, x.s.scene, *x.s.tracer, leaf, own);
-    for (std::size_t k = 0; k < own.size(); ++k)
-      if (own[k].length > 0) codes[k] = lines::lineCode(own[k].direction, own[k].length);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      cells[k] = own[k].cell;
+      if (own[k].traced())
+        codes[k] = lines::lineCode(own[k].direction, own[k].length);
+      else if (own[k].known != direct::SkyRay::Fate::Unknown)
+        codes[k] = x.known->skyRays(old)[k];
+    }
     return std::uint64_t(sky.at[i].rays);
   });
   return sky;
+}
+
+/// Indirect light of a leaf, to begin with: that from before, or the coarse light. (That itself begins with none: by it
+/// the mesh is refined, and what iteration leaves would decide.)
+Rgb startOf(const LineSolve& x, hierarchy::ElementId leaf) {
+  if (const auto before = x.known ? x.known->indirect(x.s.elements, leaf) : std::nullopt) return *before;
+  return x.s.elements.radiometry[hierarchy::surfaceOf(x.s.elements, leaf).index()].indirect;
 }
 
 std::unique_ptr<lines::Exchange> exchangeOf(const LineSolve& x, const hierarchy::LeafTable& leaves,
@@ -116,9 +130,7 @@ void lightLeaves(LineSolve& x, lines::TracedLines traced, const Dimming& dimming
   x.exchange = exchangeOf(x, leaves, traced);
   x.sky = skyOf(x, leaves, traced);
   parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
-    // Not of the coarse light, by which the mesh is refined: what iteration leaves would decide.
-    s.elements.radiometry[leaves[i].index()].indirect =
-        x.known && x.floor > 0 ? x.known->indirect(s.elements, leaves[i]) : Rgb(0.0f);
+    s.elements.radiometry[leaves[i].index()].indirect = x.floor > 0 ? startOf(x, leaves[i]) : Rgb(0.0f);
   });
   relight(s, leaves, *x.exchange, lampsOf(x.samples, x.dim, leaves), x.sky, dimming, converged);
   s.lines = std::move(traced.lines), x.escaped = std::move(traced.escaped), x.bends = std::move(traced.bends);

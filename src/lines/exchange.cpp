@@ -11,8 +11,8 @@ namespace deltalux::lines {
 
 namespace {
 
-constexpr std::size_t kLeaves = 512;  // of a task
-constexpr float kLeastEnd = 1e-6f;    // in place of a chance of 0
+constexpr std::size_t kLeaves = 512, kFewLeaves = 32;  // of a task
+constexpr float kLeastEnd = 1e-6f;                     // in place of a chance of 0
 constexpr std::uint32_t kMostCount = 0xffff;
 constexpr std::size_t kLanes = 8;
 
@@ -309,42 +309,47 @@ void Exchange::scale() {
 void Exchange::fill(std::span<const Rgb> B) {
   parallelFor(leaves(), kLeaves, [&](std::size_t i) {
     const Rgb sent = B[i] * (scale_[i] / e_[i]);
-    records_[i].B = {sent.r, sent.g, sent.b, 0};
+    records_[i].B = {sent.r, sent.g, sent.b, m_[i]};
   });
 }
 
 /// Sum over a row's straight lines of what the records send by them.
 Rgb Exchange::sentOver(std::size_t i) const {
   const float m = m_[i];
-  const float* ms = m_.data();
+  const LeafRecord* records = records_.data();
   const std::uint32_t* id = id_.data();
   const std::uint16_t* count = count_.data();
   std::array<LeafRecord, 2> sums{};
   inLanes(begin_[i], begin_[i + 1], [&](std::uint64_t k, std::size_t lane) {
-    const float weight = static_cast<float>(count[k]) / (m + ms[id[k]]);
-    for (std::size_t c = 0; c < 4; ++c) sums[lane % 2].B[c] += weight * records_[id[k]].B[c];
+    const LeafRecord& other = records[id[k]];
+    const float weight = static_cast<float>(count[k]) / (m + other.B[3]);
+    for (std::size_t c = 0; c < 4; ++c) sums[lane % 2].B[c] += weight * other.B[c];
   });
   return {sums[0].B[0] + sums[1].B[0], sums[0].B[1] + sums[1].B[1], sums[0].B[2] + sums[1].B[2]};
 }
 
+Rgb Exchange::irradianceOf(std::size_t i, std::span<const Rgb> B) const {
+  if (!(area_[i] > 0)) return Rgb(0.0f);
+  Rgb sum = sentOver(i) / e_[i];
+  Rgb oneWay(0.0f);
+  for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k) {
+    const Special& s = specials_[k];
+    if (s.rough)
+      oneWay += s.x * B[s.other];
+    else
+      sum += s.x * scale_[s.other] * B[s.other];
+  }
+  return (target_[i] * scale_[i] * sum + oneWay) / area_[i];
+}
+
 void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E) {
   fill(B);
-  parallelFor(leaves(), kLeaves, [&](std::size_t i) {
-    if (!(area_[i] > 0)) {
-      E[i] = Rgb(0.0f);
-      return;
-    }
-    Rgb sum = sentOver(i) / e_[i];
-    Rgb oneWay(0.0f);
-    for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k) {
-      const Special& s = specials_[k];
-      if (s.rough)
-        oneWay += s.x * B[s.other];
-      else
-        sum += s.x * scale_[s.other] * B[s.other];
-    }
-    E[i] = (target_[i] * scale_[i] * sum + oneWay) / area_[i];
-  });
+  parallelFor(leaves(), kLeaves, [&](std::size_t i) { E[i] = irradianceOf(i, B); });
+}
+
+void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E, std::span<const std::uint32_t> leaves) {
+  fill(B);
+  parallelFor(leaves.size(), kFewLeaves, [&](std::size_t k) { E[leaves[k]] = irradianceOf(leaves[k], B); });
 }
 
 void Exchange::deviation(std::span<const Rgb> B, std::span<float> sigma) {

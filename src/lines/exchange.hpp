@@ -24,7 +24,7 @@
 
 namespace deltalux::lines {
 
-/// s / e times radiosity, and nothing, as wide as registers.
+/// s / e times radiosity, and m, as wide as registers.
 struct alignas(16) LeafRecord {
   std::array<float, 4> B{};
 };
@@ -45,6 +45,8 @@ class Exchange {
 
   /// Irradiance of every leaf from the radiosities of all [W/m2]. Sizes must agree.
   void gather(std::span<const Rgb> B, std::span<Rgb> E);
+  /// The same of some leaves alone.
+  void gather(std::span<const Rgb> B, std::span<Rgb> E, std::span<const std::uint32_t> leaves);
   /// Standard deviation of gather()'s gray irradiance, from the scatter of the leaf's lines [W/m2].
   void deviation(std::span<const Rgb> B, std::span<float> sigma);
   /// Share of what leaf j sends that arrives at leaves: column sums.
@@ -69,6 +71,7 @@ class Exchange {
   void scale();
   void fill(std::span<const Rgb> B);
   Rgb sentOver(std::size_t leaf) const;
+  Rgb irradianceOf(std::size_t leaf, std::span<const Rgb> B) const;
   /// visit(other, x) of all symmetric exchange of a leaf, unscaled, gray.
   template <class Visit>
   void forEachExchange(std::size_t leaf, const Visit&) const;

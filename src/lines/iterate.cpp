@@ -78,8 +78,39 @@ struct Change {
   }
 };
 
-void reflect(const LeafLight& light, std::size_t i, Rgb& B) {
-  B = light.rho[i] * (light.source[i] + light.indirect[i]);
+/// Radiosity of a leaf by the irradiance of either side.
+Rgb reflected(const LeafLight& light, std::uint32_t i) {
+  Rgb B = light.rho[i] * (light.source[i] + light.indirect[i]);
+  if (isBlack(light.tau[i])) return B;
+  for (const LeafLight::Behind& b : std::ranges::equal_range(light.behind, i, {}, &LeafLight::Behind::leaf))
+    B += b.share * light.tau[i] * (light.source[b.other] + light.indirect[b.other]);
+  return B;
+}
+
+double relativeChange(const Rgb& before, const Rgb& now) {
+  return isBlack(now) ? 0.0 : double(gray(glm::abs(now - before))) / gray(now);
+}
+
+/// Where light is still on its way when the rest has converged, as in dark rooms and on what an edit has moved: passes
+/// over those leaves alone. `next`: what the last pass makes of light.B.
+void iterateLate(Exchange& exchange, LeafLight& light, std::span<const Rgb> next) {
+  constexpr double kArrived = 0.5 * tuning::kLeafConverged;  // that a pass over all may find it to be there
+  std::vector<std::uint32_t> late;
+  for (std::uint32_t i = 0; i < next.size(); ++i)
+    if (relativeChange(light.B[i], next[i]) > kArrived) late.push_back(i);
+  std::ranges::copy(next, light.B.begin());
+  std::vector<Rgb> own(late.size());
+  double most = kInfinity;
+  for (int pass = 0; pass < tuning::kMostPasses && most > kArrived; ++pass) {
+    exchange.gather(light.B, light.indirect, late);
+    most = 0;
+    for (std::size_t k = 0; k < late.size(); ++k) {
+      own[k] = reflected(light, late[k]);
+      most = std::max(most, relativeChange(light.B[late[k]], own[k]));
+    }
+    for (std::size_t k = 0; k < late.size(); ++k) light.B[late[k]] = own[k];
+  }
+  exchange.gather(light.B, light.indirect);
 }
 
 }  // namespace
@@ -102,26 +133,30 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
   IterationReport report;
   std::vector<Rgb> next(n);
   const auto reflectAll = [&](std::vector<Rgb>& B) {
-    parallelFor(n, kLeafBlock, [&](std::size_t i) { reflect(light, i, B[i]); });
-    for (const LeafLight::Behind& b : light.behind)
-      B[b.leaf] += b.share * light.tau[b.leaf] * (light.source[b.other] + light.indirect[b.other]);
+    parallelFor(n, kLeafBlock, [&](std::size_t i) { B[i] = reflected(light, static_cast<std::uint32_t>(i)); });
   };
   reflectAll(light.B);
   report.emitted = parallelSum<RgbSum>(n, kLeafBlock, [&](std::size_t i) {
     return double(exchange.area(i)) * RgbSum((light.rho[i] + light.tau[i]) * light.source[i]);
   });
-  while (report.passes < most) {
-    exchange.gather(light.B, light.indirect);
+  exchange.gather(light.B, light.indirect);
+  while (true) {
     reflectAll(next);
     ++report.passes;
     const Change change = parallelSum<Change>(n, kLeafBlock, [&](std::size_t i) {
-      const Rgb d = glm::abs(next[i] - light.B[i]);
-      return Change{double(exchange.area(i)) * RgbSum(d), isBlack(next[i]) ? 0.0 : double(gray(d)) / gray(next[i])};
+      return Change{double(exchange.area(i)) * RgbSum(glm::abs(next[i] - light.B[i])),
+                    relativeChange(light.B[i], next[i])};
     });
     report.residual = change.power, report.change = change.most;
-    light.B.swap(next);
-    if (gray(report.residual) <= converged * gray(report.emitted) && report.change <= tuning::kLeafConverged) break;
+    const bool power = gray(report.residual) <= converged * gray(report.emitted),
+               leaves = report.change <= tuning::kLeafConverged;
+    if ((power && leaves) || report.passes == most) break;
+    if (power)
+      iterateLate(exchange, light, next);
+    else
+      light.B.swap(next), exchange.gather(light.B, light.indirect);
   }
+  light.B.swap(next);
   return report;
 }
 

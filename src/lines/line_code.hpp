@@ -13,9 +13,12 @@ struct LineCode {
   std::uint16_t reach = 0;
 };
 
+/// In place of an infinite length.
+inline constexpr float kEndless = 3e38f;
+
 /// The upper half of a float above `t`: seven bits after the point, so at most a 64th too far.
 inline std::uint16_t reachCode(float t) {
-  const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::isfinite(t) ? t : 3e38f);
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::isfinite(t) ? t : kEndless);
   return static_cast<std::uint16_t>((bits + 0xffffu) >> 16);
 }
 
