@@ -1,7 +1,7 @@
 // caustic_figures_bench reconstruction NAME SCENE OBJECT ERROR SAMPLES FOLDER
 // caustic_figures_bench restriction NAME SCENE OBJECT ERROR FOLDER
 //
-// The figures of docs/caustics.md, as pictures in FOLDER, and their numbers as CSV rows: scene, error, particles,
+// The figures of docs/textures.md, as pictures in FOLDER, and their numbers as CSV rows: scene, error, particles,
 // measure, value, unit.
 //   reconstruction  the same particles on an object's first surface, over the region of its busiest texture: flat (each
 //                   patch of a mesh refined for particles its mean), mesh (that mesh smoothed) and texture, beside the

@@ -13,7 +13,7 @@
 
 namespace deltalux::paper {
 
-/// Calibrated against reference values (docs/calibration.md); not meant to be set by users.
+/// Calibrated against reference values (docs/links.md); not meant to be set by users.
 struct OracleSettings {
   double error = 0.2;   // target relative error of irradiance
   double share = 0.1;   // of the target that one link may take

@@ -11,7 +11,7 @@ namespace deltalux::paper {
 
 namespace {
 
-// What links may err by, for an error of irradiance (docs/paper.md): errors of links add up to less, as they differ in
+// What links may err by, for an error of irradiance (docs/links.md): errors of links add up to less, as they differ in
 // sign. Smaller ones cost memory first: half the error, two thirds more links.
 constexpr double kLinkError = 4;
 constexpr double kFactor = 0.35;      // from round to round

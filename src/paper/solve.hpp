@@ -3,7 +3,7 @@
 // to a smaller error than the one before, and light settles over them after each, so that the next judges them by the
 // light there is. The last round refines to what the error of irradiance that is asked for comes to for links.
 //
-// How errors map: docs/paper.md. Cost: refinement, one kernel, one shaft and at most 16 rays a link; settling, some ten
+// How errors map: docs/links.md. Cost: refinement, one kernel, one shaft and at most 16 rays a link; settling, some ten
 // nanoseconds a link and iteration. Nothing here depends on the number of threads.
 #include <functional>
 

@@ -1,4 +1,5 @@
-# Installs the library, builds examples/embed against what was installed, and runs it:
+# Installs the library, builds examples/embed against what was installed, and runs both programs; README.md must hold the
+# shorter one as it stands:
 #   cmake -DBUILD=build folder -DSOURCE=checkout -DWORK=folder to fill -P embed.cmake
 file(REMOVE_RECURSE ${WORK})
 function(run)
@@ -18,4 +19,16 @@ if(NOT output MATCHES "([0-9]+) triangles\nmoved in [0-9.]+ s: ([0-9]+) sides ha
 endif()
 if(CMAKE_MATCH_1 LESS 100 OR CMAKE_MATCH_2 LESS 1 OR CMAKE_MATCH_3 LESS CMAKE_MATCH_2)
   message(FATAL_ERROR "a block that moves changes its own shape, and light around it:\n${output}")
+endif()
+
+file(CREATE_LINK ${SOURCE}/scenes ${WORK}/scenes SYMBOLIC)
+run(${WORK}/build/ten_lines WORKING_DIRECTORY ${WORK})
+if(NOT output MATCHES "dimmed in [0-9.]+ s by 0 rays" OR NOT EXISTS ${WORK}/cornell.png)
+  message(FATAL_ERROR "ten_lines says something else, or leaves no picture:\n${output}")
+endif()
+file(READ ${SOURCE}/README.md readme)
+file(READ ${SOURCE}/examples/embed/ten_lines.cpp code)
+string(FIND "${readme}" "${code}" at)
+if(at EQUAL -1)
+  message(FATAL_ERROR "README.md has another program than examples/embed/ten_lines.cpp: copy it")
 endif()
