@@ -52,8 +52,11 @@ struct Daylight {
 std::vector<Daylight> daylightVariants();
 /// The first of such a name and variant.
 Daylight findDaylight(const std::string& name, const std::string& variant);
+/// The same, what is grey near the room cut into squares of a metre: the solver splits no leaf for light of the sky.
+Daylight inTiles(Daylight);
 /// Under a sky of that type, 10 klx on open ground: A to F on a wall from above, G to N on the floor.
 Case daylightCase(const Daylight&, int sky);
+constexpr std::size_t kFirstOnFloor = 6;  // of its points
 /// The case's expected values alone, by Gauss's rule of that order, of the program's glass or of CIE 171's polynomial.
 std::vector<double> daylightReference(const Daylight&, int sky, int order = 8, bool polynomialGlass = false);
 

@@ -19,6 +19,8 @@ constexpr double kEast = 32, kWest = -28;             // ends of ground and mask
 constexpr double kMaskDepth = 1;                      // of the horizontal mask, at the head of the opening
 constexpr double kMaskDistance = 6, kMaskHeight = 3;  // of the vertical mask
 
+constexpr double kTilesWest = -8, kTilesEast = 12, kTilesSouth = -16;
+
 const Vec3 kSun(-std::cos(kPi / 3) * std::sqrt(0.5), -std::cos(kPi / 3) * std::sqrt(0.5), std::sin(kPi / 3));
 
 /// Of the roof or the southern wall.
@@ -93,6 +95,26 @@ Daylight findDaylight(const std::string& name, const std::string& variant) {
     if (d.name == name && d.variant == variant) return d;
   DELTALUX_CHECK(false, "no such case");
   return {};
+}
+
+Daylight inTiles(Daylight d) {
+  std::vector<Facet> whole = std::move(d.facets);
+  d.facets.clear();
+  for (const Facet& facet : whole) {
+    if (!(facet.reflectance > 0)) {
+      d.facets.push_back(facet);
+      continue;
+    }
+    const Vec2 lower = glm::max(facet.lower, Vec2(kTilesWest, kTilesSouth));
+    const Vec2 upper = glm::min(facet.upper, Vec2(kTilesEast, facet.upper.y));
+    for (const Facet& part : around(facet, lower, upper)) d.facets.push_back(part);
+    for (double x = lower.x; x < upper.x; ++x)
+      for (double y = lower.y; y < upper.y; ++y) {
+        d.facets.push_back(facet);
+        d.facets.back().lower = {x, y}, d.facets.back().upper = {x + 1, y + 1};
+      }
+  }
+  return d;
 }
 
 std::vector<double> daylightReference(const Daylight& d, int type, int order, bool polynomialGlass) {
