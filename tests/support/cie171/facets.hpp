@@ -26,7 +26,7 @@ struct Pane {
 };
 /// Unpolarised light on such a pane, by all reflections between its faces.
 Pane paneAt(double cosine);
-/// Directional transmittance of the same glass as CIE 171 prescribes it, after Mitalas and Arseneault. [CIE 171, 5.10]
+/// Directional transmittance of 6 mm of clear glass as CIE 171 prescribes it. [CIE 171, 5.10; TS93 2.34]
 double polynomialTransmittance(double cosine);
 
 /// The rest of a facet around a rectangle of it: up to four.
