@@ -18,8 +18,8 @@ constexpr float kEnough = 16;           // particles that tell how noisy they ar
 constexpr double kCut = 0.9;            // of the mean area: less is cut by an outline
 constexpr double kFew = 0.02;           // of the cells: not worth another level
 constexpr double kBlend = 3.0;          // standard deviation in cells, of the blending of widths
-constexpr float kTiny = 1e-30f;
-constexpr std::size_t kChunk = 256;  // slots whose numbers stay close by
+constexpr float kTiny = 1e-30f;         // [rounding]
+constexpr std::size_t kChunk = 256;     // slots whose numbers stay close by [task]
 
 /// What a level's kernel has in common with the narrower ones, for cells of one area.
 struct Overlaps {

@@ -9,7 +9,7 @@ namespace deltalux::caustics {
 namespace {
 constexpr float kSliver = 0.4f;      // of a texel: less surface joins a neighbour
 constexpr double kThin = 0.5;        // width over height from which texels stand alone
-constexpr double kWholeTurn = 1e-9;  // of the chart's width
+constexpr double kWholeTurn = 1e-9;  // of the chart's width [rounding]
 }  // namespace
 
 CellGrid::CellGrid(const Chart& chart, const Region& region, int width, int height, std::span<const float> areas)

@@ -58,7 +58,7 @@ class CellRaster {
   float mostPerArea(const Slots& values) const;
 
  private:
-  static constexpr std::size_t kRim = 16;  // slots before the first row and after the last
+  static constexpr std::size_t kRim = 16;  // slots before the first row and after the last [layout]
   struct Group {
     std::uint32_t first, count;  // slots that are one cell
   };

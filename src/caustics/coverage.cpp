@@ -84,7 +84,7 @@ class Outline {
   }
 
  private:
-  static constexpr double kRounding = 1e-6;
+  static constexpr double kRounding = 1e-6;  // [rounding]
 
   std::size_t indexOf(int x, int y) const { return static_cast<std::size_t>(y) * (width_ + 2) + x; }
 

@@ -12,14 +12,14 @@ namespace deltalux::caustics {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr double kChangeMatters = 0.1;    // of the target error: differences that are a change
-constexpr double kMattersToChoice = 0.5;  // where there is no texture
-constexpr double kNoise = 0.25;           // of the noise of a tile's flux: smaller differences are no change
-constexpr double kStrays = 2;             // particles that are no change where there are few
-constexpr double kOtherNoise = 1.25;      // times more or less noise matters: another reconstruction
-constexpr float kTexels = 256;            // across a side, at most: impacts that far apart are different ones
-constexpr std::size_t kParts = 8;         // of all impacts, summed apart
+constexpr std::uint32_t kNone = 0xffffffffu;  // [sentinel]
+constexpr double kChangeMatters = 0.1;        // of the target error: differences that are a change
+constexpr double kMattersToChoice = 0.5;      // where there is no texture
+constexpr double kNoise = 0.25;               // of the noise of a tile's flux: smaller differences are no change
+constexpr double kStrays = 2;                 // particles that are no change where there are few
+constexpr double kOtherNoise = 1.25;          // times more or less noise matters: another reconstruction
+constexpr float kTexels = 256;                // across a side, at most: impacts that far apart are different ones
+constexpr std::size_t kParts = 8;             // of all impacts, summed apart [task]
 
 /// 1 for impacts at one place, 0 for those that textures tell apart.
 float sameness(const particles::Particles& p, std::uint32_t a, std::uint32_t b) {

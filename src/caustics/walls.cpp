@@ -9,15 +9,15 @@ namespace deltalux::caustics {
 
 namespace {
 
-constexpr double kParticles = 30;       // of a kernel that edges are looked for with
-constexpr double kWidestKernel = 6;     // of its kernel, in cells
-constexpr double kWidthFactor = 2;      // between widths
-constexpr double kContrast = 2;         // jumps of a blurred edge, in units of noise
-constexpr double kSharpParticles = 16;  // whose noise a sharp edge must stand out from,
-constexpr double kSharpContrast = 1.5;  // and by how much
-constexpr float kLeast = 1e-3f;         // openness of a closed wall
-constexpr float kTinyWeight = 1e-30f;
-constexpr std::size_t kSlotChunk = 256;  // slots whose numbers stay close by
+constexpr double kParticles = 30;        // of a kernel that edges are looked for with
+constexpr double kWidestKernel = 6;      // of its kernel, in cells
+constexpr double kWidthFactor = 2;       // between widths
+constexpr double kContrast = 2;          // jumps of a blurred edge, in units of noise
+constexpr double kSharpParticles = 16;   // whose noise a sharp edge must stand out from,
+constexpr double kSharpContrast = 1.5;   // and by how much
+constexpr float kLeast = 1e-3f;          // openness of a closed wall
+constexpr float kTinyWeight = 1e-30f;    // [rounding]
+constexpr std::size_t kSlotChunk = 256;  // slots whose numbers stay close by [task]
 
 /// Of all slots, each with the kernel that holds kParticles.
 struct Estimates {

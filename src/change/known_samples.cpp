@@ -13,7 +13,7 @@ namespace deltalux::change {
 
 namespace {
 
-constexpr std::size_t kKnownLeaves = 256;  // of a task
+constexpr std::size_t kKnownLeaves = 256;  // of a task [task]
 
 BoxF boxOf(const hierarchy::ElementGeometry& g) { return {g.lower, g.upper}; }
 BoxF at(const Vec3f& p) { return {p, p}; }

@@ -8,7 +8,7 @@ namespace deltalux::change {
 namespace {
 
 constexpr std::size_t kMost = 8;  // boxes of what was, and of what is: more tell more, and take longer
-constexpr double kMargin = 1e-5;  // that boxes are wider by, in shares of the scene's extent: roundings of origins
+constexpr double kMargin = 1e-5;  // that boxes are wider by, in the scene's extent: roundings of origins [rounding]
 
 /// Of the parameters in [begin, end] at which a line is within the slab; none where begin > end then.
 void clip(float lower, float upper, float origin, float direction, float& begin, float& end) {

@@ -11,8 +11,8 @@ namespace deltalux::direct {
 
 namespace {
 
-constexpr int kMostPoints = 64;
-constexpr std::uint64_t kLampKey = 0x6c616d70735f5full, kDrawKey = 0x647261775f5f5full;
+constexpr int kMostPoints = 64;                                                          // [layout]
+constexpr std::uint64_t kLampKey = 0x6c616d70735f5full, kDrawKey = 0x647261775f5f5full;  // [key]
 static_assert(tuning::kUnshadowedPoints <= kMostPoints && tuning::kSunPilots + tuning::kMixedSunRays <= kMostPoints);
 
 /// In inverse proportion to the error: the area where rays disagree shrinks with the mesh as well.
@@ -155,7 +155,7 @@ struct Draws {
       : key(combineKeys(pointsKey, kDrawKey)), offset(toUnit(key)), numbers(combineKeys(key, 1)) {}
   /// By the golden ratio [Roberts18], which has nothing in common with the places of the points.
   double choice(std::size_t point) const {
-    constexpr double kGolden = 0.61803398874989485;
+    constexpr double kGolden = 0.61803398874989485;  // [defined]
     const double u = offset + kGolden * static_cast<double>(point);
     return u - std::floor(u);
   }

@@ -12,7 +12,7 @@ namespace {
 
 /// Like a sun of its size.
 Lamp narrow(LightId id, const DomeLight& dome, const Rgb& scale) {
-  constexpr int kGrid = 8;
+  constexpr int kGrid = 8;  // [tuned]
   Lamp lamp;
   lamp.id = id, lamp.sun = true, lamp.axis = dome.axis, lamp.halfAngle = dome.halfAngle;
   const Frame frame(dome.axis);
@@ -47,7 +47,7 @@ PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer)
       continue;
     }
     Sky sky{LightId(i), *dome, light.scale};
-    constexpr int kGrid = 8;
+    constexpr int kGrid = 8;  // [tuned]
     for (int cell = 0; cell < SkyCells::kCount; ++cell)
       for (int k = 0; k < kGrid * kGrid; ++k)
         sky.strength[static_cast<std::size_t>(cell)] +=

@@ -16,10 +16,10 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr std::size_t kRays = 1 << 18;
-constexpr std::size_t kBlock = 1024;
-constexpr int kPanes = 64;
-constexpr std::uint64_t kKey = 0x62616c616e63657aull;
+constexpr std::size_t kRays = 1 << 18;                 // [tuned]
+constexpr std::size_t kBlock = 1024;                   // [task]
+constexpr int kPanes = 64;                             // [limit]
+constexpr std::uint64_t kKey = 0x62616c616e63657aull;  // [key]
 
 struct Surfaces {
   RgbSum direct{0.0}, absorbed{0.0};  // [W]
@@ -140,7 +140,7 @@ Outcome diffuseLight(const Solution& s) {
 /// The same where light is exchanged by lines, which go on over mirrors, gloss and glass: by some of those lines,
 /// traced again.
 Outcome lineLight(const Solution& s) {
-  constexpr std::size_t kLines = 1 << 19;
+  constexpr std::size_t kLines = 1 << 19;  // [tuned]
   const hierarchy::Elements& elements = s.elements;
   const lines::SurfaceResponses responses(s.scene, !s.settings.diffuseOnly);
   const lines::LineTracer tracer(s.scene, *s.tracer, responses);

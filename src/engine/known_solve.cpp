@@ -9,7 +9,7 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr std::size_t kLeavesOfTask = 1024;
+constexpr std::size_t kLeavesOfTask = 1024;  // [task]
 
 bool sameSight(const direct::LampSight& a, const direct::LampSight& b) {
   return a.asked == b.asked && a.seen == b.seen && a.drawnAsked == b.drawnAsked && a.drawnSeen == b.drawnSeen;

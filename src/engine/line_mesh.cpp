@@ -11,7 +11,7 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr std::size_t kPatches = 16;  // of a task
+constexpr std::size_t kPatches = 16;  // of a task [task]
 
 /// By the points that are known to be open; a little where none is, so that the leaf shows what is beside it.
 void setExposed(LineSolve& x, hierarchy::ElementId patch) {

@@ -16,9 +16,9 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr std::size_t kMotionLeaves = 256, kLightLeaves = 8;  // of a task
-constexpr std::size_t kFewestLeaves = 64;                     // that follow in any frame, so that it gets on
-constexpr double kPasses = 2;                                 // that a frame keeps time for
+constexpr std::size_t kMotionLeaves = 256, kLightLeaves = 8;  // of a task [task]
+constexpr std::size_t kFewestLeaves = 64;                     // that follow in any frame, so that it gets on [tuned]
+constexpr double kPasses = 2;                                 // that a frame keeps time for [tuned]
 
 /// What suns and lamps may bring to a leaf [W/m2, gray].
 double potentialOf(const direct::Lamps& lamps, const hierarchy::ElementGeometry& g) {

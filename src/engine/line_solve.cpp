@@ -20,8 +20,8 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr double kMeshTime = 0.5;  // share of all time after which the mesh is split no more
-constexpr double kLineTime = 0.8;  // share of the time that is left then that lines may take
+constexpr double kMeshTime = 0.5;  // share of all time after which the mesh is split no more [tuned]
+constexpr double kLineTime = 0.8;  // share of the time that is left then that lines may take [tuned]
 
 void checkInterrupted(Progress* progress) {
   if (progress && progress->stopRequested()) throw Interrupted();
@@ -29,7 +29,7 @@ void checkInterrupted(Progress* progress) {
 
 /// Into cells of which shadow rays to a point choose.
 void divideSkies(hierarchy::Elements& elements, const Scene& scene) {
-  constexpr int kLevels = 4;
+  constexpr int kLevels = 4;  // [tuned]
   std::vector<hierarchy::ElementId> cells = elements.distant;
   for (int level = 0; level < kLevels; ++level) {
     std::vector<hierarchy::ElementId> parts;

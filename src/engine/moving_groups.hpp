@@ -18,7 +18,7 @@ class MovingGroups {
     return p.index() < groups_.size() ? groups_[p.index()] : tracing::GroupId(0);
   }
 
-  static constexpr int kMost = 16;
+  static constexpr int kMost = 16;  // [tuned]
 
   void setApart(tracing::RayTracer&, const Scene&, std::span<const PrimitiveId>);
 

@@ -16,9 +16,9 @@ namespace deltalux {
 
 namespace {
 
-constexpr double kFirstError = 64.0;  // of the links, relative to the last, in the first round
-constexpr double kHasty = 8.0;        // first round when time is limited, against the first otherwise
-constexpr double kPreview = 8.0;      // the same, for a first look: its picture is there in a second or two
+constexpr double kFirstError = 64.0;  // of the links, relative to the last, in the first round [tuned]
+constexpr double kHasty = 8.0;        // first round when time is limited, against the first otherwise [tuned]
+constexpr double kPreview = 8.0;      // the same, for a first look: its picture is there in a second or two [tuned]
 
 }  // namespace
 

@@ -13,7 +13,7 @@ namespace deltalux {
 
 namespace {
 
-constexpr double kBrighter = 8.0;  // times as bright as it was, a light may become before it is solved for anew
+constexpr double kBrighter = 8.0;  // times as bright as it was, a light may become before it is solved for anew [tuned]
 
 }  // namespace
 

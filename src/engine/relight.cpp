@@ -10,7 +10,7 @@
 namespace deltalux::engine {
 
 namespace {
-constexpr std::size_t kRelitLeaves = 1024;  // of a task
+constexpr std::size_t kRelitLeaves = 1024;  // of a task [task]
 }  // namespace
 
 LampsOfLeaves lampsOf(const PatchSamples& samples, std::span<const DimLeaf> dimLeaves,

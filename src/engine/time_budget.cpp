@@ -6,7 +6,7 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr double kStep = 0.84;  // between errors that are considered
+constexpr double kStep = 0.84;  // between errors that are considered [tuned]
 
 }  // namespace
 

@@ -7,8 +7,8 @@
 
 namespace deltalux::engine {
 
-constexpr double kParticleTime = 0.3;  // share of all time that particles may take
-constexpr double kEndingTime = 0.15;   // the same of what comes after the last round over links: light, textures
+constexpr double kParticleTime = 0.3;  // share of all time that particles may take [tuned]
+constexpr double kEndingTime = 0.15;  // the same of what comes after the last round over links: light, textures [tuned]
 
 class TimeBudget {
  public:

@@ -132,7 +132,7 @@ particles::ParticleUpdate Engine::State::followWithParticles(const SceneChange& 
 }
 
 bool Engine::State::gapsAreMany() const {
-  constexpr double kMostGaps = 1.5;  // size of particles with gaps, to that without
+  constexpr double kMostGaps = 1.5;  // size of particles with gaps, to that without [tuned]
   const particles::Particles& p = solution->particles;
   std::size_t used = 0;
   for (const particles::PathRange& r : p.range) used += r.vertices;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kLeafGroups = 4;  // surfaces that a cluster may hold directly without looking at their sizes
 constexpr float kSlot = 0.5f;           // least mean free path, relative to that of the surroundings
 constexpr double kLarge = 0.5;          // a surface this large against its cluster stays in it
-constexpr std::uint64_t kSceneKey = 1, kLightKey = 2, kFacesKey = 3, kGrownKey = 64;
+constexpr std::uint64_t kSceneKey = 1, kLightKey = 2, kFacesKey = 3, kGrownKey = 64;  // [key]
 
 /// The sides of one surface (front, back) travel together.
 struct Group {

@@ -14,10 +14,10 @@ namespace deltalux::hierarchy {
 
 namespace {
 
-constexpr std::size_t kFine = 512;             // faces from which on a mesh is fine
-constexpr std::uint32_t kInputs = 64;          // patches of the input level that a mesh has at least,
-constexpr std::uint32_t kFewestOfInput = 256;  // but for this many faces in each
-constexpr int kBits = 20, kCurveBits = 3 * kBits;
+constexpr std::size_t kFine = 512;                 // faces from which on a mesh is fine
+constexpr std::uint32_t kInputs = 64;              // patches of the input level that a mesh has at least,
+constexpr std::uint32_t kFewestOfInput = 256;      // but for this many faces in each
+constexpr int kBits = 20, kCurveBits = 3 * kBits;  // [layout]
 
 /// Which of the six axes a normal is nearest to.
 std::uint64_t wayOf(const Vec3& n) {
@@ -35,7 +35,7 @@ std::uint64_t codeOf(const Vec3& center, const Vec3& normal, const Vec3& origin,
 }  // namespace
 
 FaceOrder::FaceOrder(PrimitiveId primitive, const Mesh& mesh) : primitive_(primitive) {
-  constexpr std::size_t kBlock = 4096;
+  constexpr std::size_t kBlock = 4096;  // [task]
   const std::size_t n = mesh.triangles.size();
   Box box;
   for (const Vec3& p : mesh.positions) box.extend(p);

@@ -12,7 +12,7 @@ namespace deltalux::hierarchy {
 
 namespace {
 
-constexpr int kMaxDepth = 14;         // four bits below the 2 * 14 that addresses use
+constexpr int kMaxDepth = 14;         // four bits below the 2 * 14 that addresses use [layout]
 constexpr double kLongAndThin = 1.6;  // aspect above which a patch is halved rather than quartered
 constexpr double kWall = 0.2;         // least height of what a patch is split along, in the patch's side
 
@@ -209,7 +209,7 @@ struct FaceSpread {
 };
 
 void shapeFaces(Elements& elements, const Scene& scene, ElementId e) {
-  constexpr std::size_t kBlock = 2048;
+  constexpr std::size_t kBlock = 2048;  // [task]
   const auto& mesh = std::get<Mesh>(scene[elements.domain[e.index()].primitive].shape);
   const FaceOrder& order = elements.orderOf(e);
   const FaceRange range = elements.facesOf(e);
@@ -469,7 +469,7 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
 }
 
 std::vector<char> subdivide(Elements& elements, const Scene& scene, std::span<const ElementId> all, KnownParts* known) {
-  constexpr std::size_t kBlock = 64;  // elements of a task
+  constexpr std::size_t kBlock = 64;  // elements of a task [task]
   std::vector<char> split(all.size(), true);
   std::vector<Parts> parts(all.size());
   parallelFor(all.size(), kBlock, [&](std::size_t i) {

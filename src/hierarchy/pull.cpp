@@ -10,7 +10,7 @@ namespace deltalux::hierarchy {
 namespace {
 
 constexpr float kDarkest = 0.1f, kBrightest = 2.0f;  // tolerance of a leaf relative to its surface's first estimate
-constexpr float kLeast = 1e-12f;
+constexpr float kLeast = 1e-12f;                     // [rounding]
 
 /// The same place on the other side of a surface, at no finer level; invalid when that side has no element.
 ElementId otherSide(const Elements& elements, ElementId leaf) {

@@ -10,7 +10,7 @@ namespace deltalux::io {
 namespace {
 
 // Relative to the mesh's size, and in the sines of angles: what single precision leaves of a plane.
-constexpr double kFlat = 1e-6;
+constexpr double kFlat = 1e-6;  // [rounding]
 
 using FaceCorners = std::array<std::uint32_t, 3>;
 

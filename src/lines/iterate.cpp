@@ -13,7 +13,7 @@ namespace deltalux::lines {
 
 namespace {
 
-constexpr std::size_t kLeafBlock = 1024;
+constexpr std::size_t kLeafBlock = 1024;  // [task]
 
 /// The faces of a fine mesh that a patch holds, or is part of.
 hierarchy::FaceRange facesAround(const hierarchy::Elements& elements, hierarchy::ElementId patch,

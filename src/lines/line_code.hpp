@@ -34,7 +34,7 @@ inline LineCode lineCode(const Vec3f& w, float t) {
 inline float lengthOf(LineCode code) { return std::bit_cast<float>(static_cast<std::uint32_t>(code.reach) << 16); }
 
 /// Angle between a direction and its code, at most [radians].
-inline constexpr float kDirectionError = 0.02f;
+inline constexpr float kDirectionError = 0.02f;  // [layout]
 
 /// Not of unit length; within a degree of the coded one.
 inline Vec3f direction(LineCode code) {

@@ -11,7 +11,7 @@ namespace deltalux::lines {
 
 namespace {
 
-constexpr std::uint64_t kCountKey = 0x636f756e74735f5full;
+constexpr std::uint64_t kCountKey = 0x636f756e74735f5full;  // [key]
 
 }  // namespace
 

@@ -15,12 +15,12 @@ namespace deltalux::paper {
 
 namespace {
 
-constexpr std::size_t kLooks = 32;    // rays of a side, before paths
-constexpr std::size_t kLines = 1024;  // through a box that was left
-constexpr std::size_t kBoxes = 8;     // more are taken for one
-constexpr double kMargin = 0.01;      // of a box's diagonal: how far beside it counts as in it
-constexpr double kNearBox = 0.1;      // and as close by
-constexpr std::uint64_t kLineKey = 0x756e636f7665726cull;
+constexpr std::size_t kLooks = 32;                         // rays of a side, before paths
+constexpr std::size_t kLines = 1024;                       // through a box that was left
+constexpr std::size_t kBoxes = 8;                          // more are taken for one
+constexpr double kMargin = 0.01;                           // of a box's diagonal: how far beside it counts as in it
+constexpr double kNearBox = 0.1;                           // and as close by
+constexpr std::uint64_t kLineKey = 0x756e636f7665726cull;  // [key]
 
 Box widened(const Box& box, double share = kMargin) {
   const double margin = share * box.diagonal();

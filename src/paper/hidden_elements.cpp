@@ -11,7 +11,7 @@ namespace deltalux::paper {
 namespace {
 
 constexpr double kLeastCovered = 0.05;  // solid angle of a polygon about the region's middle: less hides little
-constexpr double kSlack = 1e-5;         // of the coordinates: what must lie between, for what rounding does
+constexpr double kSlack = 1e-5;         // of the coordinates: what must lie between, for what rounding does [rounding]
 constexpr int kFinest = 2;              // subdivisions of the input level that are told apart
 constexpr std::size_t kMostEdges = 8;   // polygons with more are taken by their triangles
 

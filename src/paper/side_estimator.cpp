@@ -12,7 +12,7 @@ constexpr std::size_t kMost = 64;                           // paths of one side
 constexpr std::size_t kFewest = 24, kFewestOfTriangle = 8;  // a mesh's triangles speak for each other
 constexpr int kBounces = 3;
 constexpr std::size_t kPicked = 3;     // lights a vertex looks at
-constexpr int kPanes = 8;              // panes that a ray passes before it is given up
+constexpr int kPanes = 64;             // panes that a ray passes before it is given up [limit]
 constexpr float kSwitchedOff = 1e-3f;  // of what a light is worth that is off
 
 Rgb scaleOf(const Light& light) { return isBlack(light.scale) ? Rgb(kSwitchedOff) : light.scale; }

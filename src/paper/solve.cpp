@@ -15,7 +15,7 @@ namespace {
 // sign. Smaller ones cost memory first: half the error, two thirds more links.
 constexpr double kLinkError = 4;
 constexpr double kFactor = 0.35;      // from round to round
-constexpr int kMaxIterations = 1024;  // halls of white plaster settle in some fifty
+constexpr int kMaxIterations = 1024;  // halls of white plaster settle in some fifty [limit]
 
 RgbSum directPower(const hierarchy::Elements& e) {
   return parallelSum<RgbSum>(e.inputs.size(), 4096, [&](std::size_t i) {

@@ -10,7 +10,7 @@ namespace deltalux::paper {
 
 namespace {
 
-constexpr float kBoxSlack = 1e-5f;  // of the coordinates: boxes are grown by what single precision loses
+constexpr float kBoxSlack = 1e-5f;  // of the coordinates: boxes are grown by what single precision loses [rounding]
 
 bool segmentMeets(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& ray) {
   float near = ray.tNear, far = ray.tFar;
@@ -31,7 +31,7 @@ bool segmentMeets(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& ra
 /// box. The centres of those that do lie where the segment meets the box as it is larger by their largest radius: no
 /// others count, and they may be smaller.
 bool ballsMeet(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& axis, float from, float to) {
-  constexpr float kWorth = 0.8f, kOutward = 1.0001f, kSmallest = 1e-12f;
+  constexpr float kWorth = 0.8f, kOutward = 1.0001f, kSmallest = 1e-12f;  // [rounding]
   Vec3f enter, leave, scale;
   for (int i = 0; i < 3; ++i) {
     const float d = axis.direction[i], inverse = 1.0f / std::copysign(std::max(std::abs(d), kSmallest), d);

@@ -14,7 +14,7 @@ namespace {
 constexpr double kFar = 3.0;           // radii from a sphere's centre beyond which points in it are drawn alone
 constexpr double kFarRectangle = 3.0;  // the same for rectangles, whose solid angle is known
 constexpr double kWide = 1.5;          // sr: wider cones are not worth one
-constexpr double kLeeway = 1.05;       // times a sphere's radius: those of curved cells are found by samples
+constexpr double kLeeway = 1.05;       // times a sphere's radius: those of curved cells are found by samples [rounding]
 
 bool seenBySolidAngle(const Vec3& from, const Rectangle& r) {
   const Vec3 toCenter = r.at({0.5, 0.5}) - from;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t kPoints = 8;     // of each cell
 constexpr std::size_t kMostLights = 64;  // that are sampled at a point
 constexpr int kBounces = 4;
-constexpr int kPanes = 8;
+constexpr int kPanes = 64;       // [limit]
 constexpr double kAround = 0.5;  // of the mean around a cell: what its points missed may still be there
 constexpr double kFloor = 0.02;  // the same of the whole scene's mean
 
@@ -147,7 +147,7 @@ CoarseExitance coarseExitance(const Scene& scene, const tracing::RayTracer& trac
   for (const RadixNode& n : senders.nodes())
     if (n.isLeaf()) keys[n.begin] = n.key;
 
-  constexpr std::size_t kBlock = 64;
+  constexpr std::size_t kBlock = 64;  // [task]
   std::vector<Found> found(count);
   std::vector<std::uint64_t> rays((count + kBlock - 1) / kBlock, 0);
   parallelBlocks(count, kBlock, [&](std::size_t begin, std::size_t end) {

@@ -120,7 +120,7 @@ DsLinks refineDsLinks(const Scene& scene, const tracing::RayTracer& tracer, cons
   const double threshold = settings.share * coarse(total);
 
   while (!level.empty()) {
-    constexpr std::size_t kBlock = 64;
+    constexpr std::size_t kBlock = 64;  // [task]
     std::vector<Verdict> verdicts(level.size());
     rays.assign((level.size() + kBlock - 1) / kBlock, 0);
     parallelBlocks(level.size(), kBlock, [&](std::size_t begin, std::size_t end) {

@@ -9,7 +9,7 @@ namespace deltalux::particles {
 namespace {
 
 constexpr float kAverted = 0.05f;   // of a sample that falls where its sender does not shine
-constexpr double kVeryFar = 1e100;  // where a spotlight's focal offset no longer matters
+constexpr double kVeryFar = 1e100;  // where a spotlight's focal offset no longer matters [sentinel]
 
 }  // namespace
 

@@ -31,7 +31,7 @@ class Looks {
   bool uneven() const { return squares_ * count_ > (1 + kUneven * kUneven) * sum_ * sum_ || sum_ == 0; }
 
  private:
-  static constexpr double kHopeful = 0.5;  // looks that are taken to have arrived although none did
+  static constexpr double kHopeful = 0.5;  // that arrived of one more look [Jeffreys46: prior] [defined]
   static constexpr double kUneven = 0.5;   // spread of looks, relative to their mean, that is worth a refinement
 
   int count_ = 0, arrived_ = 0;

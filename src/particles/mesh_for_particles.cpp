@@ -43,7 +43,7 @@ struct Fallen {
 /// Impacts on sides that do not keep their mesh, in the order of the particles.
 std::vector<Fallen> fallenOn(const hierarchy::Elements& elements, const Scene& scene, const Particles& p,
                              const std::vector<bool>& keep) {
-  constexpr std::size_t kBlock = 4096;
+  constexpr std::size_t kBlock = 4096;  // [task]
   std::vector<std::vector<Fallen>> found((p.paths() + kBlock - 1) / kBlock);
   const hierarchy::SideLocator locator(elements, scene);
   parallelFor(p.paths(), kBlock, [&](std::size_t path) {
@@ -138,7 +138,7 @@ std::vector<bool> sidesThatKeepTheirMesh(const Scene& scene, const Particles& p,
       to[2 * p.primitive[i].index() + (p.triangleAndSide[i] & 1)] += power * gray(p.throughput[i]);
   };
   for (const RetracedPath& r : update.paths) add(r.path, fresh);
-  constexpr std::size_t kParts = 8;  // summed apart
+  constexpr std::size_t kParts = 8;  // summed apart [task]
   std::vector<std::vector<double>> parts(kParts, all);
   parallelFor(kParts, 1, [&](std::size_t part) {
     for (std::size_t path = part * p.paths() / kParts; path < (part + 1) * p.paths() / kParts; ++path)

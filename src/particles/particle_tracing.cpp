@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::uint64_t kFirstParticles = 1 << 10;  // that tell what each costs
 constexpr std::uint64_t kMostGrowth = 1 << 6;       // how much further their cost is trusted
-constexpr double kMargin = 1e-5;  // of the far distance: rays start and end a little off the points they join
+constexpr double kMargin =
+    1e-5;  // of the far distance: rays start and end a little off the points they join [rounding]
 
 /// Whether a change from one to the other leaves all particles as they are.
 bool emitAlike(const Material& a, const Material& b) {
@@ -210,7 +211,7 @@ std::vector<std::uint32_t> ParticleTracing::touched(const Particles& p, std::spa
         for (std::uint32_t path = l.firstPath; path < l.firstPath + l.paths; ++path) paths.push_back(path);
 
   const std::vector<std::uint64_t>& words = watch_->words();
-  constexpr std::size_t kBlock = 128;
+  constexpr std::size_t kBlock = 128;  // [task]
   std::vector<std::vector<std::uint32_t>> found((words.size() + kBlock - 1) / kBlock);
   parallelFor(words.size(), kBlock, [&](std::size_t w) {
     for (std::uint64_t rest = words[w]; rest; rest &= rest - 1) {

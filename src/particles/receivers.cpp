@@ -9,8 +9,8 @@ namespace deltalux::particles {
 
 namespace {
 
-constexpr double kReceiverCellsOfScene = 4096;  // cells that the whole scene's area would make
-constexpr std::uint64_t kSeed = 0x7265636569766572ull;
+constexpr double kReceiverCellsOfScene = 4096;          // cells that the whole scene's area would make
+constexpr std::uint64_t kSeed = 0x7265636569766572ull;  // [key]
 
 double lobe(const SpecularLobe& l) { return maxChannel(l.reflectance); }
 

@@ -16,7 +16,7 @@ constexpr double kCellsOfScene = 1024;   // diffuse cells that the whole scene's
 constexpr double kLampsOfScene = 16384;  // the same for emitters
 constexpr int kMostLampHalvings = 6;
 constexpr int kSkyHalvings = 8;
-constexpr std::uint64_t kSurfaceSeed = 0x737572666163657aull, kLightSeed = 0x6c69676874737a7aull;
+constexpr std::uint64_t kSurfaceSeed = 0x737572666163657aull, kLightSeed = 0x6c69676874737a7aull;  // [key]
 
 bool isDiffuse(const Material& m, bool front) {
   return !isBlack(diffuseReflectance(m, front)) || !isBlack(diffuseTransmittance(m));

@@ -9,8 +9,8 @@ namespace deltalux::particles {
 
 namespace {
 
-constexpr double kByChance = 2;  // times what surfaces could send: more is no mere chance
-constexpr std::size_t kElementBlock = 64;
+constexpr double kByChance = 2;            // times what surfaces could send: more is no mere chance
+constexpr std::size_t kElementBlock = 64;  // [task]
 
 /// By which what comes back exceeds what a patch of that area may get.
 double excess(const Feedback& f, double area, const hierarchy::ElementLight& light) {

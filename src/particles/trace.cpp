@@ -239,7 +239,7 @@ class Tracing {
 /// Room for what `count` paths make when `done` of them have made what there is by now.
 template <class... Arrays>
 void reserveFor(std::size_t count, std::size_t done, std::size_t before, Arrays&... arrays) {
-  constexpr double kSpare = 1.05;
+  constexpr double kSpare = 1.05;  // [task]
   const auto reserve = [&](auto& array) {
     const double more = kSpare * static_cast<double>(array.size() - before) * static_cast<double>(count - done) /
                         static_cast<double>(done);
@@ -252,7 +252,7 @@ void reserveFor(std::size_t count, std::size_t done, std::size_t before, Arrays&
 void trace(const Scene& scene, const tracing::RayTracer& tracer, const ParticleEmission& emission, int maxDepth,
            Particles& p, std::span<const std::uint32_t> only, std::size_t count) {
   DELTALUX_CHECK(maxDepth < 0xffff, "at most 65534 events");
-  constexpr std::size_t kTogether = 128;  // blocks whose memory is used again by the next
+  constexpr std::size_t kTogether = 128;  // blocks whose memory is used again by the next [task]
   Tracing tracing(scene, tracer, emission, p, maxDepth, only);
   std::vector<PathBlock> blocks(std::min(kTogether, (count + kPathBlock - 1) / kPathBlock));
   const std::size_t vertices = p.vertices.size(), impacts = p.impactSlots();

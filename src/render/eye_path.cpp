@@ -11,7 +11,7 @@ namespace deltalux::rendering {
 
 namespace {
 constexpr float kFaint = 1e-3f;  // a path that carries less ends
-constexpr std::uint64_t kShadowKey = 1 << 8, kOtherSideKey = 1 << 9, kScatterKey = 1 << 10;
+constexpr std::uint64_t kShadowKey = 1 << 8, kOtherSideKey = 1 << 9, kScatterKey = 1 << 10;  // [key]
 
 /// Whether a surface without its diffuse part sends light more than one way.
 bool isLeftToChance(const scene::Bsdf& specular) {

@@ -13,7 +13,7 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr std::size_t kBlock = 512;
+constexpr std::size_t kBlock = 512;            // [task]
 constexpr float kDisagree = 0.3f;              // relative difference that asks whether something stands between
 constexpr float kLift = 0.1f;                  // of the smaller leaf's size: height at which that is looked for
 constexpr int kExposureRays = 16;              // that tell how much of a torn leaf is in sight of its centre

@@ -9,10 +9,10 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr std::size_t kSitesBlock = 512;
-constexpr float kSamePlane = 0.9998f;  // cosine between polygons that make one wall
-constexpr float kSmoothMesh = 0.766f;  // cosine between triangles that a mesh means to be round: 40 degrees
-constexpr float kOffPlane = 1e-3f;     // of the smaller leaf's size: still one plane
+constexpr std::size_t kSitesBlock = 512;  // [task]
+constexpr float kSamePlane = 0.9998f;     // cosine between polygons that make one wall
+constexpr float kSmoothMesh = 0.766f;     // cosine between triangles that a mesh means to be round: 40 degrees
+constexpr float kOffPlane = 1e-3f;        // of the smaller leaf's size: still one plane
 
 BoxF floatBox(const Box& box) { return box.empty() ? BoxF{} : BoxF{Vec3f(box.lower), Vec3f(box.upper)}; }
 

@@ -11,8 +11,8 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr int kTile = 32;  // pixels a side: neighbours see the same elements
-constexpr std::uint64_t kSurveyKey = 1 << 16;
+constexpr int kTile = 32;                      // pixels a side: neighbours see the same elements [task]
+constexpr std::uint64_t kSurveyKey = 1 << 16;  // [key]
 constexpr int kLearningShare = 2, kFewestLearning = 4, kMostLearning = 64;  // rays of a pixel over those to learn from
 
 /// Numbers pixels along a curve that keeps neighbours together: a pixel takes its stratified numbers from where its

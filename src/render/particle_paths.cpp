@@ -13,8 +13,8 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr std::size_t kNearest = 400;  // impacts that are looked at, as many as the light there is estimated from
-constexpr std::size_t kPathBlock = 4096;
+constexpr std::size_t kNearest = 400;     // impacts that are looked at, as many as the light there is estimated from
+constexpr std::size_t kPathBlock = 4096;  // [task]
 
 struct Landed {
   double squared;  // of its distance

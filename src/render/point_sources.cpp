@@ -8,8 +8,8 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr int kLeafPoints = 32, kLeafRays = 256;  // to learn from, where nothing is known of a leaf's own pixels
-constexpr std::uint64_t kLeafKey = 0x61696d5f5f5full;
+constexpr int kLeafPoints = 32, kLeafRays = 256;       // to learn from, where nothing is known of a leaf's own pixels
+constexpr std::uint64_t kLeafKey = 0x61696d5f5f5full;  // [key]
 
 }  // namespace
 

@@ -13,22 +13,22 @@ namespace deltalux {
 
 namespace {
 
-constexpr std::uint32_t kNobody = 0xffffffffu;
-constexpr std::size_t kAhead = 16;       // pixels whose samples are fetched ahead
-constexpr std::size_t kGroup = 8;        // samples of which the oldest makes room [WDP99]
-constexpr float kNearer = 0.9f;          // depth of a neighbour over a sample's from which it stands before it
-constexpr float kCovered = 0.6f;         // share of such neighbours that a sample does not shine through
-constexpr int kFewestNeighbours = 3;     // that can tell
-constexpr std::uint16_t kMostRays = 64;  // of a pixel that are averaged
-constexpr std::uint32_t kAwaited = 4;    // frames until a ray is asked for again
-constexpr float kOffCentre = 1.0f;       // [pixels] by which a ray's hit may miss its pixel by rounding
-constexpr int kPredicted = 4;            // pixels a side of the cells that are looked at ahead [WDG02]
-constexpr float kOldAge = 64;            // frames
+constexpr std::uint32_t kNobody = 0xffffffffu;  // [sentinel]
+constexpr std::size_t kAhead = 16;              // pixels whose samples are fetched ahead [task]
+constexpr std::size_t kGroup = 8;               // samples of which the oldest makes room [WDP99] [defined]
+constexpr float kNearer = 0.9f;                 // depth of a neighbour over a sample's from which it stands before it
+constexpr float kCovered = 0.6f;                // share of such neighbours that a sample does not shine through
+constexpr int kFewestNeighbours = 3;            // that can tell
+constexpr std::uint16_t kMostRays = 64;         // of a pixel that are averaged
+constexpr std::uint32_t kAwaited = 4;           // frames until a ray is asked for again
+constexpr float kOffCentre = 1.0f;  // [pixels] by which a ray's hit may miss its pixel by rounding [rounding]
+constexpr int kPredicted = 4;       // pixels a side of the cells that are looked at ahead [WDG02] [defined]
+constexpr float kOldAge = 64;       // frames
 // Priorities: nothing there, filled from all around, a sample just come from another view, and an old one; one of a
 // pixel's own that is left to chance.
 constexpr float kEmpty = 1.0f, kFilled = 0.6f, kOld = 0.5f, kYoung = 0.1f, kNoisy = 0.1f;
 
-constexpr float kOutdated = 0.5f * std::numeric_limits<float>::max();  // depth: all else is before it
+constexpr float kOutdated = 0.5f * std::numeric_limits<float>::max();  // depth: all else is before it [sentinel]
 
 bool sameView(const View& a, const View& b) {
   return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.up == b.up &&

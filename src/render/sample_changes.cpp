@@ -19,11 +19,11 @@ namespace rendering {
 
 namespace {
 
-constexpr float kVisibleStep = 1.0f / 512;  // relative change of irradiance that shows: half a step of eight bits
+constexpr float kVisibleStep = 1.0f / 512;  // change of irradiance that shows: half a step of eight bits [defined]
 constexpr float kFaintest = 1.0f / 32;      // of the mean irradiance: what is darker is compared with that
 constexpr std::size_t kPlaces = 64;         // that are told apart
 constexpr std::size_t kNewPlaces = 8;       // of one refresh
-constexpr std::size_t kSiteBlock = 512;
+constexpr std::size_t kSiteBlock = 512;     // [task]
 
 /// What differs from what was noted, apart from the light of leaves.
 struct Difference {

@@ -12,8 +12,8 @@ namespace deltalux::scene {
 
 namespace {
 
-constexpr double kMinSolidAngle = 1e-3;  // below, area sampling is as good and keeps more digits
-constexpr std::size_t kMaxTrianglesBySolidAngle = 8;
+constexpr double kMinSolidAngle = 1e-3;  // below, area sampling is as good and keeps more digits [rounding]
+constexpr std::size_t kMaxTrianglesBySolidAngle = 8;  // [tuned]
 
 /// A direction within 1 - cos <= `depth` of `axis`, uniform in solid angle.
 Vec3 sampleCap(const Vec3& axis, double depth, const Vec2& u) {

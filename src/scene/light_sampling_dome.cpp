@@ -7,8 +7,8 @@
 namespace deltalux::scene {
 
 namespace {
-constexpr int kLooks = 3;               // per cell and dimension, when the table is made
-constexpr double kUniformShare = 0.05;  // of the density: no cell is ever impossible
+constexpr int kLooks = 3;               // per cell and dimension, when the table is made [tuned]
+constexpr double kUniformShare = 0.05;  // of the density: no cell is ever impossible [tuned]
 }  // namespace
 
 DomeTable::DomeTable(const DomeLight& dome) : frame_(dome.axis), depth_(1.0 - std::cos(dome.halfAngle)) {

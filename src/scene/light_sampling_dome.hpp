@@ -20,7 +20,7 @@ class DomeTable {
   double pdf(const Vec3& towards) const;
 
  private:
-  static constexpr int kSectors = 64, kRings = 32;
+  static constexpr int kSectors = 64, kRings = 32;  // [tuned]
 
   Vec3 direction(double azimuth, double height) const;
 

@@ -12,11 +12,11 @@ namespace deltalux::io::radiance {
 namespace {
 
 constexpr int kPlaces = 8, kNormals = 16;  // over a surface, in each parameter: of what is averaged, of its facing
-constexpr double kLeastCosine = 1e-6;      // of a flat source's intensity, seen edge-on
+constexpr double kLeastCosine = 1e-6;      // of a flat source's intensity, seen edge-on [rounding]
 constexpr double kGrazing = 1e-3;          // parts of a curved surface that face away more than this do not count
-constexpr double kNoticed = 0.01;          // relative; what is averaged away and differs by less is not reported
-constexpr std::size_t kAzimuths = 256;     // of the mean over the hemisphere, where the table has none
-constexpr long kEvaluationsOfACall = 50;   // of a table, that take as long as a call of an expression
+constexpr double kNoticed = 0.01;         // relative; what is averaged away and differs by less is not reported [shown]
+constexpr std::size_t kAzimuths = 256;    // of the mean over the hemisphere, where the table has none
+constexpr long kEvaluationsOfACall = 50;  // of a table, that take as long as a call of an expression [limit]
 
 std::optional<Vec3> normalOfFlat(const Shape& shape) {
   if (const auto* polygon = std::get_if<Polygon>(&shape)) return polygon->normal;
@@ -32,7 +32,7 @@ std::vector<SurfacePoint> placesOn(const Shape& shape, int n) {
 }
 
 Rgb scaled(const Rgb& radiance, const glm::dvec3& factor) {
-  constexpr double kLargest = 1e30;
+  constexpr double kLargest = 1e30;  // [limit]
   const glm::dvec3 result = glm::dvec3(radiance) * factor;
   for (int c = 0; c < 3; ++c)
     if (!(std::abs(result[c]) <= kLargest)) throw InputError("", 0, "its values are too large");

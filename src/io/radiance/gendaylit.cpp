@@ -11,7 +11,7 @@ namespace deltalux::io::radiance {
 
 namespace {
 
-constexpr double kSunHalfAngle = 0.2665;  // degrees, as gendaylit takes it
+constexpr double kSunHalfAngle = 0.2665;  // degrees, as gendaylit takes it [defined]
 
 struct DaylightRequest {
   enum class Given { Nothing, Condition, Irradiance, HorizontalIrradiance, Illuminance, Global };
@@ -27,7 +27,7 @@ struct DaylightRequest {
 /// Irradiance beyond the atmosphere on that day. [Spencer71]
 double outsideOf(const SkyTime& when) {
   if (when.angles) return kSolarConstant;
-  constexpr std::array<int, 12> kBefore{0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
+  constexpr std::array<int, 12> kBefore{0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};  // [defined]
   const int day = kBefore[static_cast<std::size_t>(when.time.month - 1)] + when.time.day;
   const double x = 2 * kPi * (day - 1) / 365;
   return kSolarConstant * (1.00011 + 0.034221 * std::cos(x) + 0.00128 * std::sin(x) + 0.000719 * std::cos(2 * x) +

@@ -9,9 +9,9 @@ namespace deltalux::io::radiance {
 
 namespace {
 
-constexpr double kAgreed = 1e-3;                                 // mean error between the angles, relative to the mean
-constexpr double kAlike = 1e-7;                                  // differences that are rounding, relative to the peak
-constexpr std::size_t kSteps = 90;                               // of the polar angle, to begin with: 2 degrees
+constexpr double kAgreed = 1e-3;    // mean error between the angles, relative to the mean
+constexpr double kAlike = 1e-7;     // differences that are none, relative to the peak [rounding]
+constexpr std::size_t kSteps = 90;  // of the polar angle, to begin with: 2 degrees
 constexpr std::size_t kMostSteps = 360, kMostStepsAlone = 1440;  // alone: without azimuth
 
 using Function = std::function<double(const Vec3&)>;

@@ -61,7 +61,7 @@ double rootBetween(const Condition& f, double a, double fa, double b, double fb)
 
 /// The extremum of f between two azimuths by golden sections, for a pair of roots that no sample separates.
 double extremumBetween(const Condition& f, double a, double b, double sign) {
-  constexpr double kGolden = 0.6180339887498949;
+  constexpr double kGolden = 0.6180339887498949;  // [defined]
   for (int i = 0; i < 40; ++i) {
     const double left = b - kGolden * (b - a), right = a + kGolden * (b - a);
     (sign * f(left) < sign * f(right) ? b : a) = sign * f(left) < sign * f(right) ? right : left;

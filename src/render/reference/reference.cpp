@@ -20,9 +20,9 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr std::uint32_t kBatch = 64;       // paths that share one stratified pattern
-constexpr std::uint64_t kMinBatches = 16;  // behind a standard error, while there are paths enough
-constexpr std::uint64_t kMaxPassBatches = 1024;
+constexpr std::uint32_t kBatch = 64;             // paths that share one stratified pattern
+constexpr std::uint64_t kMinBatches = 16;        // behind a standard error, while there are paths enough
+constexpr std::uint64_t kMaxPassBatches = 1024;  // [task]
 
 /// A power of two, smaller when few paths are asked for.
 std::uint32_t batchSize(std::uint64_t samples) {
@@ -236,7 +236,7 @@ Image ReferenceIntegrator::render(const View& view, int width, int height, Progr
     if (batches == 0) break;
     const double before = impl.fractionDone(schedule, secondsSince(start));
     const double after = impl.fractionAfter(schedule, batches, before);
-    constexpr std::size_t kBlock = 64;
+    constexpr std::size_t kBlock = 64;  // [task]
     reporter.phase("render", before, std::max(0.0, after - before), (pixels + kBlock - 1) / kBlock);
     parallelBlocks(pixels, kBlock, [&](std::size_t begin, std::size_t end) {
       if (reporter.stopped()) return;

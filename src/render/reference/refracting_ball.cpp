@@ -61,7 +61,7 @@ double rootOfMiss(const Miss& f, double a, double fa, double b) {
 
 /// The extremum of f between two angles by golden sections, for a pair of roots that no sample separates.
 double extremumOfMiss(const Miss& f, double a, double b, double sign) {
-  constexpr double kGolden = 0.6180339887498949;
+  constexpr double kGolden = 0.6180339887498949;  // [defined]
   for (int i = 0; i < 30; ++i) {
     const double left = b - kGolden * (b - a), right = a + kGolden * (b - a);
     if (sign * f(left) < sign * f(right))

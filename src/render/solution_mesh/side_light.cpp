@@ -9,9 +9,9 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr std::size_t kReadBlock = 256;
-constexpr float kInside = 0.02f;  // of the way to a torn leaf's middle
-constexpr std::uint32_t kNowhere = 0xffffffffu;
+constexpr std::size_t kReadBlock = 256;          // [task]
+constexpr float kInside = 0.02f;                 // of the way to a torn leaf's middle
+constexpr std::uint32_t kNowhere = 0xffffffffu;  // [sentinel]
 
 /// Where a vertex reads the field; no leaf: it is dark.
 struct ReadingPlace {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kFewestSteps = 8, kMostSteps = 128;  // round: powers of two, as leaves are
 constexpr double kSagitta = 3e-5;                  // of the scene: how far flat pieces may be off a curved surface
-constexpr double kApart = 1e-5;                    // of the parameters: cuts nearer to a leaf's border are left out
+constexpr double kApart = 1e-5;                    // of the parameters: cuts nearer to a border are left out [rounding]
 
 double largestRadius(const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
