@@ -5,6 +5,8 @@
 #include <numeric>
 #include <optional>
 
+#include "hierarchy/tuning.hpp"
+
 namespace deltalux::io {
 
 namespace {
@@ -145,7 +147,8 @@ std::vector<Shape> planarFaces(Mesh mesh) {
     }
     return shapes;
   };
-  if (mesh.triangles.size() > kMaxFacetedTriangles || !mesh.texcoords.empty() || !isFlatShaded(mesh)) return asMesh();
+  if (mesh.triangles.size() > hierarchy::tuning::kInputs || !mesh.texcoords.empty() || !isFlatShaded(mesh))
+    return asMesh();
   const std::vector<FaceCorners> triangles = weldedTriangles(mesh);
   const std::vector<std::size_t> face = facesOf(mesh, triangles, sizeOf(mesh));
   std::vector<Shape> shapes;

@@ -6,6 +6,7 @@
 #include "io/radiance/perez.hpp"
 #include "io/radiance/sky_pattern.hpp"
 #include "io/radiance/sky_time.hpp"
+#include "io/tuning.hpp"
 
 namespace deltalux::io::radiance {
 
@@ -49,10 +50,9 @@ Daylight erbs(double global, double outside, double sineOfAltitude) {
 
 /// Irradiances whose illuminances these are: efficacies depend on the irradiances in turn.
 Daylight irradianceOf(const Daylight& illuminance, double sunZenith, double outside, double water) {
-  constexpr double kFirstGuess = 93;  // [lm/W]
-  constexpr int kRounds = 8;
+  constexpr double kFirstGuess = 93;  // [lm/W], of a sun and sky about [defined]
   Daylight result{illuminance.directNormal / kFirstGuess, illuminance.diffuse / kFirstGuess};
-  for (int i = 0; i < kRounds; ++i) {
+  for (int i = 0; i < tuning::kEfficacyRounds; ++i) {
     const Daylight K = efficacies(conditionOf(result, sunZenith, outside), water);
     result = {K.directNormal > 0 ? illuminance.directNormal / K.directNormal : 0, illuminance.diffuse / K.diffuse};
   }
@@ -97,16 +97,16 @@ void readOptionOf(ObjectMaker& maker, const std::string& option, DaylightRequest
 double horizontalIrradiance(const PerezSky& sky) {
   DomeLight dome;
   dome.distribution = sky;
-  constexpr int kRings = 128, kSectors = 256;
+  const int rings = tuning::kSkyRings, sectors = 2 * rings;
   double sum = 0;
-  for (int i = 0; i < kRings; ++i) {
-    const double sine = std::sqrt((i + 0.5) / kRings), cosine = std::sqrt(1 - sine * sine);
-    for (int k = 0; k < kSectors; ++k) {
-      const double azimuth = 2 * kPi * (k + 0.5) / kSectors;
+  for (int i = 0; i < rings; ++i) {
+    const double sine = std::sqrt((i + 0.5) / rings), cosine = std::sqrt(1 - sine * sine);
+    for (int k = 0; k < sectors; ++k) {
+      const double azimuth = 2 * kPi * (k + 0.5) / sectors;
       sum += skyRadiance(dome, Vec3(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine)).r;
     }
   }
-  return kPi * sum / (kRings * kSectors);
+  return kPi * sum / (rings * sectors);
 }
 
 /// What the request amounts to in the unit of the output, and the sky's condition.
