@@ -25,6 +25,8 @@ using Borders = std::array<Slots, 4>;
 
 class CellRaster {
  public:
+  static constexpr float kWhole = 0.99f;  // of the largest area: less is cut by an outline [rounding]
+
   explicit CellRaster(const CellGrid&);
 
   std::size_t slots() const { return areas_.size(); }

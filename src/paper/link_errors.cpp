@@ -10,7 +10,7 @@ namespace deltalux::paper {
 namespace {
 
 constexpr double kBinsPerOctave = 4, kLowest = -12;  // [layout]
-constexpr double kParts = 4;  // [defined]
+constexpr double kParts = 4;                         // links that one is split into [defined]
 
 }  // namespace
 

@@ -52,7 +52,8 @@ bool ballsMeet(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& axis,
   return within > kWorth * radius || meets(within);
 }
 
-constexpr float kWidest = 1.0f;  // angle of a beam, in radians: wider ones meet everything
+constexpr float kWidest =
+    1.0f;  // angle of a beam, in radians, as far as tangent() is one: wider ones meet all [defined]
 
 float tangent(float angle) { return angle / (1.0f - 0.36f * angle * angle); }  // from above
 
@@ -101,11 +102,10 @@ bool SpaceChange::meets(const Vec3f& a, float radiusA, const Vec3f& b, float rad
 }
 
 std::optional<double> SpaceChange::seenFrom(const Vec3f& center, float radius, Vec3& axis) const {
-  constexpr double kWide = 0.9;  // sine
   const Vec3 d = 0.5 * (Vec3(parts_.all().lower) + Vec3(parts_.all().upper)) - Vec3(center);
   const double distance = glm::length(d),
                size = 0.5 * glm::length(Vec3(parts_.all().upper) - Vec3(parts_.all().lower)) + radius;
-  if (empty() || !(size < kWide * distance)) return std::nullopt;
+  if (empty() || !(size < std::sin(kWidest) * distance)) return std::nullopt;
   axis = d / distance;
   return std::asin(size / distance);
 }

@@ -7,7 +7,6 @@
 namespace deltalux::paper {
 
 inline constexpr std::size_t kMaxSamples = 32;  // [layout]
-inline constexpr int kFewSamples = 4;           // of links that bring little, or are split for their kernel
 
 struct VisibilityEstimate {
   Rgb V{0.0f};

@@ -7,8 +7,10 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "base/per_thread.hpp"
+#include "base/tuning.hpp"
 #include "particles/bounce.hpp"
 #include "particles/path_block.hpp"
+#include "particles/tuning.hpp"
 
 namespace deltalux::particles {
 
@@ -199,11 +201,8 @@ class Tracing {
 
   /// Russian roulette on what the path carries relative to what it began with; colours are kept.
   bool survives(Walker& w, double u) const {
-    constexpr int kPatience = 8;
-    constexpr double kWorth = 0.25;        // share of it that is still followed without a question
-    constexpr double kMostSurvival = 0.9;  // so that light caught between perfect surfaces ends some day
-    double chance = std::min(1.0, double(maxChannel(w.throughput)) / (kWorth * w.first));
-    if (w.depth > kPatience) chance = std::min(chance, kMostSurvival);
+    double chance = std::min(1.0, double(maxChannel(w.throughput)) / (tuning::kWorth * w.first));
+    if (w.depth > tuning::kPatience) chance = std::min(chance, deltalux::tuning::kMostSurvival);
     if (!(u < chance)) return false;
     w.throughput *= static_cast<float>(1 / chance);
     return true;
