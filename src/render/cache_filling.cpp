@@ -4,14 +4,13 @@
 #include <bit>
 
 #include "base/parallel.hpp"
+#include "render/tuning.hpp"
 
 namespace deltalux::rendering {
 
 namespace {
 
 constexpr std::size_t kRows = 16;  // of a block [task]
-// How well a pixel is known that is filled: at most, of its neighbours; of what is within reach.
-constexpr float kByNeighbours = 0.9f, kWithinReach = 0.3f;
 
 struct Filling {
   const CacheFrame& frame;
@@ -44,10 +43,10 @@ struct Filling {
     Rgb L(0.0f);
     const auto crosswise = [](int dx, int dy) { return dx == 0 || dy == 0 ? 2.0f : 1.0f; };
     if (const float w = near ? mean(x, y, 1, crosswise, L) : 0.0f; w > 0)
-      return {L, kByNeighbours * (kWithinReach + (1 - kWithinReach) * w / kAll)};
+      return {L, tuning::kWithinReach + (1 - tuning::kWithinReach) * w / kAll};
     const auto alike = [](int, int) { return 1.0f; };
     const float w = mean(x, y, HeldPixels::kReach, alike, L);
-    return {L, kByNeighbours * kWithinReach * w / kMost};
+    return {L, tuning::kWithinReach * w / kMost};
   }
 };
 
