@@ -6,7 +6,7 @@
 namespace deltalux {
 
 namespace {
-constexpr std::uint32_t kLeafBoxes = 4;
+constexpr std::uint32_t kLeafBoxes = 4;  // [task]
 }
 
 BoxTree::BoxTree(std::vector<BoxF> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {

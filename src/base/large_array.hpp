@@ -55,9 +55,9 @@ class LargePages {
   }
 
  private:
-  static constexpr std::size_t kPage = std::size_t(1) << 21;
-  static constexpr std::size_t kLarge = 2 * kPage;                          // smaller ones gain nothing
-  static constexpr std::size_t kMost = (std::size_t(1) << 48) / sizeof(T);  // no system has more
+  static constexpr std::size_t kPage = std::size_t(1) << 21;                // [task]
+  static constexpr std::size_t kLarge = 2 * kPage;                          // smaller ones gain nothing [task]
+  static constexpr std::size_t kMost = (std::size_t(1) << 48) / sizeof(T);  // no system has more [limit]
 };
 
 template <class T>

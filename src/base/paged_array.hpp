@@ -48,7 +48,7 @@ class PagedArray {
   }
 
  private:
-  static constexpr std::size_t kPage = 256;
+  static constexpr std::size_t kPage = 256;  // [task]
   using Page = std::array<T, kPage>;
 
   Page filled() const {

@@ -9,7 +9,7 @@ namespace deltalux {
 template <class T>
 void prefetch(std::span<T> what) {
 #if defined(__GNUC__) || defined(__clang__)
-  constexpr std::size_t kLine = 64;
+  constexpr std::size_t kLine = 64;  // [task]
   const char* const begin = reinterpret_cast<const char*>(what.data());
   for (std::size_t at = 0; at < what.size_bytes(); at += kLine) __builtin_prefetch(begin + at);
 #endif

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <optional>
 
+#include "caustics/tuning.hpp"
 #include "caustics/walls.hpp"
 
 namespace deltalux::caustics {
 
 namespace {
-
-constexpr double kEdgeMatters = 0.5;  // of what most of the light looks like: differences that are an edge
 
 std::vector<float> channelOf(const CellLight& light, int channel) {
   std::vector<float> result(light.E.size());
@@ -37,7 +36,7 @@ class Smoothing {
     Slots first = told[0];
     const EdgeStopping walls = blurredWalls(raster_, told);
     HeatFlow(raster_, walls.bandwidth, &walls.openness).apply(first, 1.0);
-    const double darkness = rule.error * (kEdgeMatters * medianOfFlux(raster_.areas(), first) + rule.darkest);
+    const double darkness = rule.error * (tuning::kMatters * medianOfFlux(raster_.areas(), first) + rule.darkest);
     const Borders openness = sharpWalls(raster_, first, darkness);
     Bandwidths widths = chooseBandwidths(raster_, HeatFlow(raster_, {}, &openness), told, rule);
     flow_.emplace(raster_, widths.conductivity, &openness);

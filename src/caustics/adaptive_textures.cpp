@@ -7,26 +7,18 @@
 #include "caustics/choice.hpp"
 #include "caustics/resolution.hpp"
 #include "caustics/surface_impacts.hpp"
+#include "caustics/tuning.hpp"
 #include "caustics/veil.hpp"
 
 namespace deltalux::caustics {
 
 namespace {
 
-constexpr int kFirstTexels = 16 * 16;        // of the grid that resolution starts from
-constexpr int kChoiceTexels = 48 * 48;       // at most, to choose by
-constexpr int kCoarseTexels = 128 * 128;     // at most, to find regions with and to show the rest
-constexpr int kFineTexels = 256 * 256;       // at most, of one texture
-constexpr double kCoarsePerTexel = 12;       // particles in a coarse texel where the light falls
-constexpr double kFinePerTexel = 2;          // in a fine one: smaller ones tell noise from light no better
-constexpr std::size_t kLeastParticles = 64;  // of a region of its own
-constexpr int kMargin = 2;                   // coarse texels around a region
-constexpr double kMatters = 0.5;             // of the target error: differences that a region is made for
+constexpr int squared(int side) { return side * side; }
 
 /// Counts of texels are of a few: light that differs a little is cut alike, so that it compares.
 int steady(double texels) {
-  constexpr double kStep = 0.25;  // between counts, as powers of two
-  return static_cast<int>(std::exp2(kStep * std::round(std::log2(texels) / kStep)));
+  return static_cast<int>(std::exp2(tuning::kStep * std::round(std::log2(texels) / tuning::kStep)));
 }
 
 /// Cuts the part into texels that hold `perTexel` particles where they are dense, from `least` to `most` of them.
@@ -47,7 +39,7 @@ int coarsen(const ChartSurface& surface, ChartPart& part) {
   const auto count = [&] { return double(part.texels.x) * part.texels.y; };
   const auto wanted = [&] {
     const Vec2 size = part.region.size();
-    return std::max(size.x * size.y / texelArea(part, kCoarsePerTexel), double(kFirstTexels));
+    return std::max(size.x * size.y / texelArea(part, tuning::kEnough), double(squared(tuning::kFirstSide)));
   };
   int halvings = 0;
   while (count() >= 4 * wanted() && surface.halve(part)) ++halvings;
@@ -80,7 +72,8 @@ class AdaptiveTextures {
       if (placed[c].empty()) continue;
       const ChartSurface surface(shape_, result_.charts, c);
       parts_[c] = surface.whole(glm::ivec2(1), std::move(placed[c]));
-      resolved_[c] = resolve(surface, parts_[c], kCoarsePerTexel, kFirstTexels, kChoiceTexels);
+      resolved_[c] =
+          resolve(surface, parts_[c], tuning::kEnough, squared(tuning::kFirstSide), squared(tuning::kChoiceSide));
       const CellGrid grid = surface.grid(parts_[c]);
       const CellLight light = collect(grid, parts_[c].impacts);
       total += departure(grid, light);
@@ -98,7 +91,8 @@ class AdaptiveTextures {
     for (std::uint32_t c = 0; c < parts_.size(); ++c) {
       if (parts_[c].impacts.empty()) continue;
       const ChartSurface surface(shape_, result_.charts, c);
-      if (!resolved_[c]) resolve(surface, parts_[c], kCoarsePerTexel, kChoiceTexels, kCoarseTexels);
+      if (!resolved_[c])
+        resolve(surface, parts_[c], tuning::kEnough, squared(tuning::kChoiceSide), squared(tuning::kCoarseSide));
       const std::size_t first = result_.textures.size();
       putAll(surface, parts_[c]);
       keepFlux(std::span(result_.textures).subspan(first));
@@ -148,15 +142,15 @@ class AdaptiveTextures {
   std::vector<ChartPart> takeRegionsOut(const ChartSurface& surface, ChartPart& whole, const CellGrid& grid,
                                         const AdaptiveEstimate& coarse, std::vector<FadingBorder>& borders) const {
     const std::vector<float> E = grayOf(coarse.E);
-    const double difference = kMatters * rule_.error * (medianOfFlux(grid.areas(), E) + rule_.background);
-    const std::vector<TexelBox> boxes = markedBoxes(grid, cellsOffMedian(grid, E, difference), kMargin);
+    const double difference = tuning::kMatters * rule_.error * (medianOfFlux(grid.areas(), E) + rule_.background);
+    const std::vector<TexelBox> boxes = markedBoxes(grid, cellsOffMedian(grid, E, difference), tuning::kMargin);
     std::vector<std::uint32_t> particles(whole.areas.size(), 0);
     for (const ChartImpact& impact : whole.impacts) ++particles[grid.texelNear(impact.st)];
     std::vector<ChartPart> regions;
     for (const TexelBox& box : boxes) {
-      if (particlesIn(box, grid, particles) < kLeastParticles) continue;
+      if (particlesIn(box, grid, particles) < static_cast<std::size_t>(tuning::kRegion)) continue;
       regions.push_back(surface.takeOut(whole, grid, box, glm::ivec2(1)));
-      borders.emplace_back(grid, box, kMargin);
+      borders.emplace_back(grid, box, tuning::kMargin);
     }
     return regions;
   }
@@ -178,7 +172,7 @@ class AdaptiveTextures {
   }
 
   void putRegion(const ChartSurface& surface, ChartPart& region, const FadingBorder& border, const Veil& veil) {
-    resolve(surface, region, kFinePerTexel, kFirstTexels, kFineTexels);
+    resolve(surface, region, tuning::kStray, squared(tuning::kFirstSide), squared(tuning::kFineSide));
     const CellGrid grid = surface.grid(region);
     if (grid.size() == 0) return;
     const CellLight light = collect(grid, region.impacts);

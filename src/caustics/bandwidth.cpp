@@ -2,24 +2,15 @@
 
 #include <algorithm>
 
+#include "caustics/tuning.hpp"
 #include "caustics/vector_math.hpp"
 
 namespace deltalux::caustics {
 
 namespace {
 
-constexpr double kNarrowest = 0.5;      // standard deviation in cells
-constexpr double kWidest = 6;           // in cells
-constexpr double kFactor = 1.6;         // between widths
-constexpr double kConfidence = 2.25;    // standard deviations of a difference that noise explains, had it Gaussian
-                                        // kernels: 2.4 of those of ours
-constexpr double kLeastExpected = 4.0;  // that a kernel expects when it is asked
-constexpr float kEnough = 16;           // particles that tell how noisy they are
-constexpr double kCut = 0.9;            // of the mean area: less is cut by an outline
-constexpr double kFew = 0.02;           // of the cells: not worth another level
-constexpr double kBlend = 3.0;          // standard deviation in cells, of the blending of widths
-constexpr float kTiny = 1e-30f;
-constexpr std::size_t kChunk = 256;  // slots whose numbers stay close by
+constexpr float kTiny = 1e-30f;      // [rounding]
+constexpr std::size_t kChunk = 256;  // slots whose numbers stay close by [task]
 
 /// What a level's kernel has in common with the narrower ones, for cells of one area.
 struct Overlaps {
@@ -33,8 +24,9 @@ struct Overlaps {
     for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
       const double narrow = kernelOverlap(levels[k].width, levels[k].width, cell);
       const double both = kernelOverlap(levels[k].width, wide.width, meanArea);
-      asked.push_back(static_cast<float>(kLeastExpected * narrow * meanArea));
-      factor.push_back(static_cast<float>(kConfidence * kConfidence * (narrow + wide.overlap - 2 * both) * meanArea));
+      asked.push_back(static_cast<float>(tuning::kLeastExpected * narrow * meanArea));
+      factor.push_back(static_cast<float>(tuning::kConfidence * tuning::kConfidence *
+                                          (narrow + wide.overlap - 2 * both) * meanArea));
     }
   }
 };
@@ -44,13 +36,13 @@ class WidthSearch {
  public:
   WidthSearch(const CellRaster& raster, const BandwidthRule& rule)
       : raster_(raster),
-        allowed_(static_cast<float>(BandwidthRule::kQuiet * rule.error)),
+        allowed_(static_cast<float>(tuning::kMatters * rule.error)),
         darkest_(static_cast<float>(rule.darkest)),
-        log_(raster.slots(), static_cast<float>(std::log(kNarrowest))),
+        log_(raster.slots(), static_cast<float>(std::log(tuning::kNarrowest))),
         noise_(raster.slots(), 0.0f),
         around_(raster.slots(), -1.0f),
         open_(raster.slots(), 0.0f) {
-    const double cut = kCut * raster.meanArea();
+    const double cut = CellRaster::kWhole * raster.meanArea();
     for (std::size_t i = 0; i < raster.slots(); ++i) {
       if (raster.areas()[i] <= 0) continue;
       ++cells_;
@@ -76,7 +68,7 @@ class WidthSearch {
       open_[i] = 0;
       return !stays;
     });
-    return static_cast<double>(left + cut_.size()) <= kFew * static_cast<double>(cells_);
+    return static_cast<double>(left + cut_.size()) <= tuning::kFew * static_cast<double>(cells_);
   }
 
   /// Logarithms of the widths in cells.
@@ -105,7 +97,8 @@ class WidthSearch {
     }
     float *__restrict const width = log_.data() + begin, *__restrict const around = around_.data() + begin,
                            *__restrict const open = open_.data() + begin, *__restrict const rest = noise_.data() + begin;
-    const float own = overlaps.own, enough = kEnough * own, allowed = allowed_, darkest = darkest_;
+    const float own = overlaps.own, enough = static_cast<float>(tuning::kEnough) * own, allowed = allowed_,
+                darkest = darkest_;
     float left = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const float going = (1 - denied[i]) * open[i];
@@ -136,14 +129,15 @@ class WidthSearch {
 
 Bandwidths chooseBandwidths(const CellRaster& raster, const HeatFlow& even, const Channels& light,
                             const BandwidthRule& rule) {
-  ScaleSpace space(raster, even, light, kWidest, kFactor);
+  ScaleSpace space(raster, even, light, tuning::kWidest, tuning::kWidthFactor);
   WidthSearch search(raster, rule);
   while (space.widen() && !search.judge(space.levels())) {
   }
   // Choices are noisy too: their logarithms blend with their neighbours'.
   Slots D = std::move(search.logs());
   raster.even(D);
-  even.apply(D, 0.5 * kBlend * kBlend * raster.meanArea());
+  const double blend = 0.5 * tuning::kWidest;
+  even.apply(D, 0.5 * blend * blend * raster.meanArea());
   const auto half = static_cast<float>(0.5 * raster.meanArea());
   for (float& d : D) d = half * expOf(2 * d);
   return {std::move(D), std::move(search.noise())};

@@ -14,8 +14,7 @@
 namespace deltalux::caustics {
 
 struct BandwidthRule {
-  static constexpr double kQuiet = 0.5;  // of the target error: noise that a kernel need not grow to reduce
-  double error = 0.05;                   // relative noise that is small enough
+  double error = 0.05;  // relative noise that is small enough
   // Gray irradiance of other light, that differences and noise are compared with too [W/m2].
   double background = 0;  // on average
   double darkest = 0;     // where there is little of it: nowhere is noise larger than what is allowed there

@@ -7,7 +7,7 @@ namespace deltalux::caustics {
 
 namespace {
 
-constexpr double kFluxTolerance = 5e-3;
+constexpr double kFluxTolerance = 5e-3;  // [rounding]
 
 /// The nearest copy of s around a closed chart from which the region runs on.
 double unwrapped(double s, const Region& region, double turn) {

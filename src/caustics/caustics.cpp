@@ -7,13 +7,12 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "caustics/adaptive_textures.hpp"
+#include "caustics/tuning.hpp"
 #include "particles/side_index.hpp"
 
 namespace deltalux::caustics {
 
 namespace {
-
-constexpr double kDarkest = 0.1;  // of a side's area
 
 /// Sorts the impacts by side, in the order that they are in; runs of impacts on one side.
 std::vector<std::span<const particles::Impact>> bySide(std::vector<particles::Impact>& impacts) {
@@ -91,7 +90,7 @@ OtherLight otherLight(const Scene& scene, const hierarchy::Elements& elements, c
     double area = 0, below = 0;
     for (end = begin; end < parts.size() && parts[end].side == parts[begin].side; ++end) area += parts[end].area;
     std::size_t k = begin;
-    while (k + 1 < end && (below += parts[k].area) < kDarkest * area) ++k;
+    while (k + 1 < end && (below += parts[k].area) < tuning::kDarkest * area) ++k;
     result.darkest[parts[begin].side] = parts[k].E;
   }
   return result;

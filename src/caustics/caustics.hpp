@@ -14,7 +14,7 @@ struct Caustics {
   std::vector<SurfaceCaustics> surfaces;                  // ascending by primitive, front before back
   std::vector<std::array<std::uint32_t, 2>> ofPrimitive;  // index of front and back into `surfaces`, or kNone
 
-  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kNone = 0xffffffffu;  // [sentinel]
 
   /// The textures of a side; nullptr where the mesh shows the particles.
   const SurfaceCaustics* of(PrimitiveId primitive, bool front) const {

@@ -3,13 +3,12 @@
 #include <algorithm>
 
 #include "base/check.hpp"
+#include "caustics/tuning.hpp"
 
 namespace deltalux::caustics {
 
 namespace {
-constexpr float kSliver = 0.4f;      // of a texel: less surface joins a neighbour
-constexpr double kThin = 0.5;        // width over height from which texels stand alone
-constexpr double kWholeTurn = 1e-9;  // of the chart's width
+constexpr double kWholeTurn = 1e-9;  // of the chart's width [rounding]
 }  // namespace
 
 CellGrid::CellGrid(const Chart& chart, const Region& region, int width, int height, std::span<const float> areas)
@@ -39,7 +38,7 @@ int CellGrid::groupAt(int row) const {
   const Vec2 texel = texelSize();
   const double across = texel.x * chart_.stretch(region_.lower.y + (row + 0.5) * texel.y);
   int group = 1;
-  while (group < width_ && group * across < kThin * texel.y) group *= 2;
+  while (group < width_ && group * across < tuning::kPart * texel.y) group *= 2;
   return group;
 }
 
@@ -68,7 +67,7 @@ void CellGrid::joinSlivers() {
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
       const std::size_t i = texelAt(x, y);
-      if (!(areas[i] > 0) || areas[i] >= kSliver * whole) continue;
+      if (!(areas[i] > 0) || areas[i] >= tuning::kPart * whole) continue;
       std::size_t best = i;
       const auto consider = [&](int nx, int ny) {
         if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) return;

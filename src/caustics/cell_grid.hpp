@@ -18,7 +18,7 @@ namespace deltalux::caustics {
 
 class CellGrid {
  public:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kNone = 0xffffffffu;  // [sentinel]
 
   /// `areas`: of the surface under each texel (coverage.hpp); 0 where there is none. A region as wide as a closed chart
   /// closes too.

@@ -5,9 +5,8 @@
 namespace deltalux::caustics {
 
 namespace {
-constexpr std::size_t kVector = 16;  // values
-constexpr float kWhole = 0.99f;      // of the largest area: less is cut by an outline
-constexpr float kOneTexel = 1.01f;   // times its area: more is several texels
+constexpr std::size_t kVector = 16;  // values [task]
+constexpr float kOneTexel = 1.01f;   // times its area: more is several texels [rounding]
 }  // namespace
 
 CellRaster::CellRaster(const CellGrid& grid)

@@ -25,6 +25,8 @@ using Borders = std::array<Slots, 4>;
 
 class CellRaster {
  public:
+  static constexpr float kWhole = 0.99f;  // of the largest area: less is cut by an outline [rounding]
+
   explicit CellRaster(const CellGrid&);
 
   std::size_t slots() const { return areas_.size(); }
@@ -58,7 +60,7 @@ class CellRaster {
   float mostPerArea(const Slots& values) const;
 
  private:
-  static constexpr std::size_t kRim = 16;  // slots before the first row and after the last
+  static constexpr std::size_t kRim = 16;  // slots before the first row and after the last [layout]
   struct Group {
     std::uint32_t first, count;  // slots that are one cell
   };

@@ -26,7 +26,7 @@ Chart rectangleAround(const Polygon& p, const Vec3& alongS) {
 
 /// The smallest rectangle around a polygon: it has an edge along one of its convex hull's.
 Charts chartsOfShape(const Polygon& p) {
-  constexpr double kClearly = 0.999;  // smaller than the one found before
+  constexpr double kClearly = 0.999;  // smaller than the one found before [rounding]
   Chart smallest = rectangleAround(p, glm::normalize(p.edgeU));
   const std::size_t step = 1 + p.vertices.size() / 64;  // many-sided ones are round
   for (std::size_t i = 0; i < p.vertices.size(); i += step) {

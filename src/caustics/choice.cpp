@@ -3,14 +3,9 @@
 #include <algorithm>
 
 #include "caustics/heat_flow.hpp"
+#include "caustics/tuning.hpp"
 
 namespace deltalux::caustics {
-
-namespace {
-constexpr double kCoarse = 1.0 / 8;  // of the surface's size: what a mesh of few patches can show
-constexpr double kFewest = 10;       // equal particles
-constexpr double kSignificance = 4;  // standard deviations
-}  // namespace
 
 double contrast(const CellLight& light) {
   if (light.gray.empty()) return 0;
@@ -51,7 +46,7 @@ Departure departure(const CellGrid& grid, const CellLight& light) {
   smoothed[0] = inGrains(light.gray, grain);
   smoothed[1] = inGrains(light.squares, grain * grain);
   smoothed[2] = inGrains(light.fourths, grain * grain * grain * grain);
-  const double reach = kCoarse * std::sqrt(result.area);
+  const double reach = tuning::kCoarse * std::sqrt(result.area);
   HeatFlow(raster, {}).apply(smoothed, 0.5 * reach * reach);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const double area = grid.area(i);
@@ -79,10 +74,10 @@ Departure departureBetween(std::span<const PartLight> parts) {
   return result;
 }
 
-bool tooFew(double flux, double squaredFlux) { return flux * flux <= kFewest * squaredFlux; }
+bool tooFew(double flux, double squaredFlux) { return flux * flux <= tuning::kEnough * squaredFlux; }
 
 bool deservesTexture(const Departure& d, double error, double background) {
-  if (!(d.area > 0) || d.excess <= kSignificance * std::sqrt(d.precision)) return false;
+  if (!(d.area > 0) || d.excess <= tuning::kSignificance * std::sqrt(d.precision)) return false;
   const double spread = std::sqrt(std::max(d.squares, 0.0) / d.area);
   return spread > error * (d.flux / d.area + background);
 }

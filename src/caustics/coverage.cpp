@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "hierarchy/tuning.hpp"
+
 namespace deltalux::caustics {
 
 namespace {
-
-constexpr int kSamples = 8;  // a side of a texel
 
 /// Texels of a region, and where they lie.
 struct Raster {
@@ -42,9 +42,10 @@ std::vector<float> sampledAreas(const Raster& r, const std::vector<char>& marked
         continue;
       }
       int inside = 0;
-      for (int k = 0; k < kSamples * kSamples; ++k)
-        inside += covers(r.at(x + (k % kSamples + 0.5) / kSamples, y + (k / kSamples + 0.5) / kSamples));
-      areas[i] = static_cast<float>(whole * inside / (kSamples * kSamples));
+      for (int k = 0; k < hierarchy::tuning::kGrid * hierarchy::tuning::kGrid; ++k)
+        inside += covers(r.at(x + (k % hierarchy::tuning::kGrid + 0.5) / hierarchy::tuning::kGrid,
+                              y + (k / hierarchy::tuning::kGrid + 0.5) / hierarchy::tuning::kGrid));
+      areas[i] = static_cast<float>(whole * inside / (hierarchy::tuning::kGrid * hierarchy::tuning::kGrid));
     }
   return areas;
 }
@@ -84,7 +85,7 @@ class Outline {
   }
 
  private:
-  static constexpr double kRounding = 1e-6;
+  static constexpr double kRounding = 1e-6;  // [rounding]
 
   std::size_t indexOf(int x, int y) const { return static_cast<std::size_t>(y) * (width_ + 2) + x; }
 
@@ -152,7 +153,7 @@ std::vector<float> areasOf(const Mesh& m, const Chart& chart, std::size_t index,
     for (int k = 0; k < 3; ++k) {
       SurfacePoint p;
       p.position = m.positions[m.triangles[t][k]];
-      corner[k] = double(kSamples) * r.toTexels(chart.place(p));
+      corner[k] = double(hierarchy::tuning::kGrid) * r.toTexels(chart.place(p));
     }
     const auto turn = [](const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; };
     const double flat = std::abs(turn(corner[1] - corner[0], corner[2] - corner[0]));
@@ -161,15 +162,16 @@ std::vector<float> areasOf(const Mesh& m, const Chart& chart, std::size_t index,
     const Vec2 low = glm::min(corner[0], glm::min(corner[1], corner[2]));
     const Vec2 high = glm::max(corner[0], glm::max(corner[1], corner[2]));
     const int x0 = std::max(0, static_cast<int>(low.x - 0.5)), y0 = std::max(0, static_cast<int>(low.y - 0.5));
-    const int x1 = std::min(r.width * kSamples - 1, static_cast<int>(high.x));
-    const int y1 = std::min(r.height * kSamples - 1, static_cast<int>(high.y));
+    const int x1 = std::min(r.width * hierarchy::tuning::kGrid - 1, static_cast<int>(high.x));
+    const int y1 = std::min(r.height * hierarchy::tuning::kGrid - 1, static_cast<int>(high.y));
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
         const Vec2 p(x + 0.5, y + 0.5);
         const double a = turn(corner[1] - corner[0], p - corner[0]), b = turn(corner[2] - corner[1], p - corner[1]),
                      c = turn(corner[0] - corner[2], p - corner[2]);
         if (std::min({a, b, c}) < 0 && std::max({a, b, c}) > 0) continue;
-        areas[static_cast<std::size_t>(y / kSamples) * r.width + x / kSamples] += perSample;
+        areas[static_cast<std::size_t>(y / hierarchy::tuning::kGrid) * r.width + x / hierarchy::tuning::kGrid] +=
+            perSample;
         sampled += perSample;
       }
     projected += area;

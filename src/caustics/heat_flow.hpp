@@ -29,9 +29,8 @@ class HeatFlow {
   void apply(Channels& E, double time) const;
 
  private:
-  static constexpr double kOrder = 3.5;
-  static constexpr double kDamping = 1;         // of the range of modes, as far as half of them go in a time of 1
-  static constexpr std::size_t kWorth = 16384;  // slots, from which on rows are shared by threads
+  static constexpr double kOrder = 3.5;         // [defined]
+  static constexpr std::size_t kWorth = 16384;  // slots, from which on rows are shared by threads [task]
 
   struct Factors {
     float flow, now, before;  // of what flows, of the polynomial of before, and the one before it

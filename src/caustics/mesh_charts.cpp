@@ -5,11 +5,11 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/tuning.hpp"
+
 namespace deltalux::caustics {
 
 namespace {
-
-constexpr double kSpread = 0.7071;  // cosine between a triangle and its chart
 
 Vec3 areaVector(const Mesh& m, std::size_t triangle) {
   const auto& [a, b, c] = m.triangles[triangle];
@@ -95,7 +95,7 @@ Charts meshCharts(const Mesh& m) {
     charts.ofTriangle[seed] = chart;
     for (std::size_t i = 0; i < members.size(); ++i)
       for (const std::uint32_t next : neighbours[members[i]])
-        if (charts.ofTriangle[next] == none && glm::dot(normals[next], normals[seed]) > kSpread) {
+        if (charts.ofTriangle[next] == none && glm::dot(normals[next], normals[seed]) > deltalux::tuning::kSmooth) {
           charts.ofTriangle[next] = chart;
           members.push_back(next);
         }

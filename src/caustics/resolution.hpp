@@ -15,7 +15,7 @@
 namespace deltalux::caustics {
 
 /// Normalised box kernel in two dimensions: the integral of its square.
-inline constexpr double kBoxKernel = 0.25;
+inline constexpr double kBoxKernel = 0.25;  // [defined]
 
 /// d of (7), at least 0.
 int paperResolution(double particles, double epsilon, double kernel = kBoxKernel);

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 
-namespace deltalux::caustics {
+#include "caustics/tuning.hpp"
 
-namespace {
-constexpr double kFirst = 0.5;         // in cells
-constexpr double kWidestShare = 0.25;  // in the square root of the grid's area
-}  // namespace
+namespace deltalux::caustics {
 
 double kernelOverlap(double widthA, double widthB, double area) {
   return 1 / (2 * kPi * (widthA * widthA + widthB * widthB) + area);
@@ -16,7 +13,7 @@ double kernelOverlap(double widthA, double widthB, double area) {
 ScaleSpace::ScaleSpace(const CellRaster& raster, const HeatFlow& even, Channels light, double widest, double factor)
     : flow_(even),
       area_(raster.meanArea()),
-      limit_(std::min(widest * std::sqrt(area_), kWidestShare * std::sqrt(raster.totalArea()))),
+      limit_(std::min(widest * std::sqrt(area_), tuning::kWidestShare * std::sqrt(raster.totalArea()))),
       factor_(factor),
       levels_(1) {
   levels_[0] = {0.0, kernelOverlap(0, 0, area_), std::move(light)};
@@ -24,7 +21,7 @@ ScaleSpace::ScaleSpace(const CellRaster& raster, const HeatFlow& even, Channels 
 
 bool ScaleSpace::widen() {
   const ScaleLevel& last = levels_.back();
-  const double width = last.width > 0 ? factor_ * last.width : kFirst * std::sqrt(area_);
+  const double width = last.width > 0 ? factor_ * last.width : tuning::kNarrowest * std::sqrt(area_);
   if (width > limit_) return false;
   ScaleLevel next{width, kernelOverlap(width, width, area_), last.light};
   flow_.apply(next.light, 0.5 * (width * width - last.width * last.width));

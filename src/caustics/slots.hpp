@@ -9,7 +9,7 @@ namespace deltalux::caustics {
 template <class T>
 struct LineAllocator {
   using value_type = T;
-  static constexpr std::align_val_t kLine{64};
+  static constexpr std::align_val_t kLine{64};  // [layout]
 
   LineAllocator() = default;
   template <class U>

@@ -4,16 +4,10 @@
 #include <bit>
 #include <cmath>
 
+#include "caustics/tuning.hpp"
 #include "particles/side_index.hpp"
 
 namespace deltalux::caustics {
-
-namespace {
-
-constexpr double kPerTile = 64;  // particles
-constexpr double kMost = 16;     // tiles across
-
-}  // namespace
 
 SurfaceTiles::SurfaceTiles(const Scene& scene, const particles::Particles& p) : scene_(scene) {
   sides_.resize(2 * scene.primitives.size());
@@ -22,8 +16,8 @@ SurfaceTiles::SurfaceTiles(const Scene& scene, const particles::Particles& p) : 
     for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) ++impacts[particles::sideIndex(p, i)];
   for (std::size_t side = 0; side < sides_.size(); ++side)
     if (impacts[side] > 0)
-      cut(side,
-          std::bit_floor(static_cast<std::uint32_t>(std::clamp(std::sqrt(impacts[side] / kPerTile), 1.0, kMost))));
+      cut(side, std::bit_floor(static_cast<std::uint32_t>(
+                    std::clamp(std::sqrt(impacts[side] / tuning::kRegion), 1.0, double(tuning::kFirstSide)))));
 }
 
 void SurfaceTiles::cut(std::size_t side, std::uint32_t across) {

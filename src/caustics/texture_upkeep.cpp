@@ -6,26 +6,22 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "caustics/choice.hpp"
+#include "caustics/tuning.hpp"
 #include "particles/side_index.hpp"
+#include "particles/tuning.hpp"
 
 namespace deltalux::caustics {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr double kChangeMatters = 0.1;    // of the target error: differences that are a change
-constexpr double kMattersToChoice = 0.5;  // where there is no texture
-constexpr double kNoise = 0.25;           // of the noise of a tile's flux: smaller differences are no change
-constexpr double kStrays = 2;             // particles that are no change where there are few
-constexpr double kOtherNoise = 1.25;      // times more or less noise matters: another reconstruction
-constexpr float kTexels = 256;            // across a side, at most: impacts that far apart are different ones
-constexpr std::size_t kParts = 8;         // of all impacts, summed apart
+constexpr std::uint32_t kNone = 0xffffffffu;  // [sentinel]
+constexpr std::size_t kParts = 8;             // of all impacts, summed apart [task]
 
 /// 1 for impacts at one place, 0 for those that textures tell apart.
 float sameness(const particles::Particles& p, std::uint32_t a, std::uint32_t b) {
   if (p.primitive[a] != p.primitive[b] || p.triangleAndSide[a] != p.triangleAndSide[b]) return 0.0f;
   const glm::vec2 d = glm::abs(p.uv[a] - p.uv[b]);
-  return std::max(0.0f, 1 - kTexels * std::max(d.x, d.y));
+  return std::max(0.0f, 1 - float(tuning::kFineSide) * std::max(d.x, d.y));
 }
 
 /// body(part, begin, end) over kParts ranges of [0, count), in parallel.
@@ -77,7 +73,7 @@ TextureUpkeep::Report TextureUpkeep::follow(const particles::ParticleUpdate& upd
   report.judged = static_cast<std::uint64_t>(std::count(sides.begin(), sides.end(), 1));
   for (SurfaceCaustics& s : caustics.surfaces)
     if (const std::size_t side = particles::sideIndex(s.primitive, s.front); !sides[side])
-      report.scaled += rescale(s, fluxOf(side), kChangeMatters * error_);
+      report.scaled += rescale(s, fluxOf(side), particles::tuning::kChangeMatters * error_);
   report.rebuilt = remakeCaustics(caustics, parts_.scene, parts_.elements, landedOn(sides, powers), error_, sides);
   remember(sides, background);
   return report;
@@ -166,13 +162,13 @@ bool TextureUpkeep::fewParticles(const SurfaceTiles::Side& side) const {
 bool TextureUpkeep::changed(std::size_t side, double background, bool textured) const {
   const SurfaceTiles::Side& s = tiles_.sides()[side];
   if (s.across == 0 || (!textured && fewParticles(s))) return false;
-  const double error = (textured ? kChangeMatters : kMattersToChoice) * error_;
+  const double error = (textured ? particles::tuning::kChangeMatters : tuning::kMatters) * error_;
   std::vector<Tile> level(tile_.begin() + s.first, tile_.begin() + s.first + s.count());
   double area = s.area;
   for (std::uint32_t across = s.across;; across /= 2, area *= 4) {
     const auto differs = [&](const Tile& t) {
       const double now = gray(t.now), grain = now > 0 ? t.squares / now : 0.0;
-      const double noise = std::max(kNoise * std::sqrt(t.squares), kStrays * grain);
+      const double noise = std::max(tuning::kNoticed * std::sqrt(t.squares), tuning::kStray * grain);
       return t.difference > std::max(error * (now + background * area), noise);
     };
     if (std::any_of(level.begin(), level.end(), differs)) return true;
@@ -184,7 +180,7 @@ bool TextureUpkeep::changed(std::size_t side, double background, bool textured) 
   const double factor = gray(now) / gray(then), other = background * area;
   if (gray(glm::abs(now - factor * then)) > error * (gray(now) + other)) return true;  // another colour
   const double noisier = (gray(now) + other) / (factor * (gray(then) + looks_[side].background * area));
-  return noisier > kOtherNoise || noisier < 1 / kOtherNoise;
+  return noisier > tuning::kOtherNoise || noisier < 1 / tuning::kOtherNoise;
 }
 
 /// By side; on each in the order of the particles.

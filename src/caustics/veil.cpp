@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "caustics/tuning.hpp"
+
 namespace deltalux::caustics {
 
 namespace {
-
-constexpr double kNoticed = 0.25;  // of the target error: noise from which on the veil is asked
-constexpr double kBears = 1.0;     // standard deviations by which it may differ
 
 Vec2 centreOf(const Region& region, int width, int height, int x, int y) {
   return region.lower + region.size() / Vec2(width, height) * Vec2(x + 0.5, y + 0.5);
@@ -65,8 +64,9 @@ void Veil::over(const CellGrid& grid, const FadingBorder& border, const Bandwidt
     const Rgb veil = all_.sample(st);
     const double difference = gray(veil) - gray(E), noise = std::max<double>(own.noise[i], 1e-30);
     const double allowed = rule.error * (gray(E) + rule.darkest);
-    const double asked = smoothStep((noise / std::max(allowed, 1e-30) - kNoticed) / (BandwidthRule::kQuiet - kNoticed));
-    const double bearsOut = std::exp(-std::pow(difference / (kBears * noise), 2));
+    const double asked =
+        smoothStep((noise / std::max(allowed, 1e-30) - tuning::kNoticed) / (tuning::kMatters - tuning::kNoticed));
+    const double bearsOut = std::exp(-std::pow(difference / noise, 2));
     E += static_cast<float>(asked * bearsOut) * (veil - E);
     if (const double fades = border.at(st); fades > 0) E += static_cast<float>(fades) * (shown_.sample(st) - E);
   }

@@ -3,23 +3,19 @@
 #include <algorithm>
 #include <array>
 
+#include "base/tuning.hpp"
+#include "caustics/tuning.hpp"
 #include "caustics/vector_math.hpp"
+#include "particles/tuning.hpp"
 
 namespace deltalux::caustics {
 
 namespace {
 
-constexpr double kParticles = 30;       // of a kernel that edges are looked for with
-constexpr double kWidestKernel = 6;     // of its kernel, in cells
-constexpr double kWidthFactor = 2;      // between widths
-constexpr double kContrast = 2;         // jumps of a blurred edge, in units of noise
-constexpr double kSharpParticles = 16;  // whose noise a sharp edge must stand out from,
-constexpr double kSharpContrast = 1.5;  // and by how much
-constexpr float kLeast = 1e-3f;         // openness of a closed wall
-constexpr float kTinyWeight = 1e-30f;
-constexpr std::size_t kSlotChunk = 256;  // slots whose numbers stay close by
+constexpr float kTinyWeight = 1e-30f;    // [rounding]
+constexpr std::size_t kSlotChunk = 256;  // slots whose numbers stay close by [task]
 
-/// Of all slots, each with the kernel that holds kParticles.
+/// Of all slots, each with the kernel that holds particles::tuning::kDetail.
 struct Estimates {
   Slots root;     // of E
   Slots overlap;  // of the kernel, times the mean cell's area
@@ -30,7 +26,7 @@ struct Estimates {
 void estimateChunk(const std::vector<ScaleLevel>& levels, double area, std::size_t begin, std::size_t count,
                    Estimates& to) {
   constexpr float few = 0.1f;
-  const auto wanted = static_cast<float>(kParticles);
+  const auto wanted = static_cast<float>(particles::tuning::kDetail);
   float before[kSlotChunk], estimate[kSlotChunk], level[kSlotChunk], grain[kSlotChunk], open[kSlotChunk],
       last[kSlotChunk];
   for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -109,7 +105,8 @@ Borders opennessBy(const CellRaster& raster, double contrast, const Squared& squ
     const auto factor = static_cast<float>((b < 2 ? 1 : 0.5) / (contrast * contrast));
     const std::size_t across = raster.across()[b];
     float* const to = openness[b].data();
-    for (std::size_t i = begin; i < end; ++i) to[i] = std::max(kLeast, expOf(-factor * squared(i, i + across)));
+    for (std::size_t i = begin; i < end; ++i)
+      to[i] = std::max(deltalux::tuning::kNegligible, expOf(-factor * squared(i, i + across)));
   }
   return openness;
 }
@@ -118,7 +115,7 @@ Borders opennessBy(const CellRaster& raster, double contrast, const Squared& squ
 
 EdgeStopping blurredWalls(const CellRaster& raster, const Channels& light) {
   const HeatFlow even(raster, {});
-  ScaleSpace space(raster, even, light, kWidestKernel, kWidthFactor);
+  ScaleSpace space(raster, even, light, tuning::kWidest, tuning::kWidthFactor);
   while (space.widen()) {
   }
   const Estimates estimates = estimatesOf(raster, space.levels());
@@ -128,7 +125,7 @@ EdgeStopping blurredWalls(const CellRaster& raster, const Channels& light) {
   const auto half = static_cast<float>(raster.meanArea() / (8 * kPi));
   for (std::size_t i = 0; i < raster.slots(); ++i) walls.bandwidth[i] = half / overlap[i];
   constexpr auto cell = static_cast<float>(4 * kPi);
-  walls.openness = opennessBy(raster, kContrast, [=](std::size_t a, std::size_t b) {
+  walls.openness = opennessBy(raster, tuning::kConfidence, [=](std::size_t a, std::size_t b) {
     const float jump = 2 * (root[a] - root[b]);
     // Over the kernel's width, not over the one cell.
     const float widths = std::max(1 / (cell * std::max(overlap[a], overlap[b])), 0.25f);
@@ -142,8 +139,8 @@ Borders sharpWalls(const CellRaster& raster, const Slots& E, double darkness) {
   const auto least = static_cast<float>(darkness);
   for (float& r : roots) r = std::sqrt(r + least);
   const float* const root = roots.data();
-  const auto noise = static_cast<float>(2 * std::sqrt(kSharpParticles));
-  return opennessBy(raster, kSharpContrast, [=](std::size_t a, std::size_t b) {
+  const auto noise = static_cast<float>(2 * std::sqrt(tuning::kEnough));
+  return opennessBy(raster, tuning::kSharp, [=](std::size_t a, std::size_t b) {
     const float jump = noise * (1 - std::min(root[a], root[b]) / std::max(std::max(root[a], root[b]), kTinyWeight));
     return jump * jump;
   });

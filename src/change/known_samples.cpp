@@ -13,7 +13,7 @@ namespace deltalux::change {
 
 namespace {
 
-constexpr std::size_t kKnownLeaves = 256;  // of a task
+constexpr std::size_t kKnownLeaves = 256;  // of a task [task]
 
 BoxF boxOf(const hierarchy::ElementGeometry& g) { return {g.lower, g.upper}; }
 BoxF at(const Vec3f& p) { return {p, p}; }
@@ -101,7 +101,7 @@ bool holdSkyRays(const MovedSpace& space, const hierarchy::Elements& elements, h
   using Fate = direct::SkyRay::Fate;
   const BoxF box = boxOf(elements.shape(patch));
   if (space.touches(box)) return false;
-  std::array<char, direct::tuning::kSkyRays> near{};
+  std::array<char, direct::tuning::kManyRays> near{};
   LineSieve(space, box, lines::kDirectionError).mark(codes, std::span(near).first(codes.size()));
   bool all = true;
   for (std::size_t k = 0; k < codes.size(); ++k) {

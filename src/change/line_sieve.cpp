@@ -10,7 +10,7 @@ namespace deltalux::change {
 
 namespace {
 
-constexpr std::size_t kAtOnce = 64;
+constexpr std::size_t kAtOnce = 64;  // [task]
 
 }  // namespace
 

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tuning.hpp"
+
 namespace deltalux::change {
 
 namespace {
 
-constexpr std::size_t kMost = 8;  // boxes of what was, and of what is: more tell more, and take longer
-constexpr double kMargin = 1e-5;  // that boxes are wider by, in shares of the scene's extent: roundings of origins
+constexpr double kMargin = 1e-5;  // that boxes are wider by, in the scene's extent: roundings of origins [rounding]
 
 /// Of the parameters in [begin, end] at which a line is within the slab; none where begin > end then.
 void clip(float lower, float upper, float origin, float direction, float& begin, float& end) {
@@ -37,7 +38,7 @@ float surface(const BoxF& box) {
   return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-/// Boxes that hold all of these, some kMost: the largest is split, at the middle of its boxes.
+/// Boxes that hold all of these, some kBoxes: the largest is split, at the middle of its boxes.
 std::vector<BoxF> fewBoxes(std::vector<BoxF> boxes) {
   struct Group {
     std::size_t begin, end;
@@ -50,7 +51,7 @@ std::vector<BoxF> fewBoxes(std::vector<BoxF> boxes) {
   };
   if (boxes.empty()) return {};
   std::vector<Group> groups{groupOf(0, boxes.size())};
-  while (groups.size() < kMost) {
+  while (groups.size() < tuning::kBoxes) {
     const auto largest = std::ranges::max_element(
         groups, {}, [](const Group& g) { return g.end - g.begin > 1 ? surface(g.box) : -1.0f; });
     const Group g = *largest;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/batch_mean.hpp"
+#include "base/tuning.hpp"
 #include "direct/tuning.hpp"
 
 namespace deltalux::direct {
@@ -157,7 +158,8 @@ void Aim::divide(const Square& square, std::span<Look> looks, std::vector<Square
   for (const Look& l : looks) sum += l.E * l.E;
   now.strength = std::sqrt((sum + tuning::kDoubt * square.guess * square.guess) /
                            (static_cast<float>(looks.size()) + tuning::kDoubt));
-  if (square.size <= tuning::kSmallest || now.share() < tuning::kFaintShare * total() || !uneven(square, looks)) {
+  if (square.size <= tuning::kSmallest || now.share() < deltalux::tuning::kNegligible * total() ||
+      !uneven(square, looks)) {
     for (const Look& l : looks) kept.push_back({static_cast<std::uint32_t>(squares.size()), l.u, l.E});
     squares.push_back(now);
     return;

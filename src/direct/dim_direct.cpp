@@ -10,7 +10,7 @@ namespace deltalux::direct {
 
 namespace {
 
-constexpr std::uint64_t kDimKey = 0x64696d5f5f5f5f5full;
+constexpr std::uint64_t kDimKey = 0x64696d5f5f5f5f5full;  // [key]
 
 }  // namespace
 

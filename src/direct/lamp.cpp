@@ -9,8 +9,8 @@ namespace deltalux::direct {
 
 namespace {
 
-constexpr float kGrazing = 1e-9f;  // in place of a cosine of 0 that is not proven
-constexpr float kRounding = 1e-5f;
+constexpr float kGrazing = 1e-9f;   // in place of a cosine of 0 that is not proven [rounding]
+constexpr float kRounding = 1e-5f;  // [rounding]
 
 float sineOf(float cosine) { return std::sqrt(std::max(0.0f, 1 - cosine * cosine)); }
 

@@ -10,7 +10,7 @@ namespace deltalux::direct {
 
 namespace {
 
-constexpr double kWidened = 1 + 1e-5;
+constexpr double kWidened = 1 + 1e-5;  // [rounding]
 
 Vec3f centerOf(const Lamp& lamp) { return 0.5f * (lamp.lower + lamp.upper); }
 

@@ -16,7 +16,7 @@ struct Beam {
 };
 
 Beam beamOf(const scene::LightSampler& sampler, LightId id, const Vec3& axis, const auto& intensity) {
-  constexpr int kRings = 48, kAround = 16;
+  constexpr int kRings = tuning::kBeamRings, kAround = tuning::kBeamAround;
   const Frame frame(axis);
   std::array<double, kRings + 1> brightest{};
   Beam beam;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tuning.hpp"
 #include "direct/open_light.hpp"
 #include "direct/tuning.hpp"
 #include "hierarchy/leaf_sequence.hpp"
@@ -11,13 +12,13 @@ namespace deltalux::direct {
 
 namespace {
 
-constexpr int kMostPoints = 64;
-constexpr std::uint64_t kLampKey = 0x6c616d70735f5full, kDrawKey = 0x647261775f5f5full;
-static_assert(tuning::kUnshadowedPoints <= kMostPoints && tuning::kSunPilots + tuning::kMixedSunRays <= kMostPoints);
+constexpr int kMostPoints = 64;                                                          // [layout]
+constexpr std::uint64_t kLampKey = 0x6c616d70735f5full, kDrawKey = 0x647261775f5f5full;  // [key]
+static_assert(tuning::kRays <= kMostPoints && tuning::kSunPilots + tuning::kMixedSunRays <= kMostPoints);
 
 /// In inverse proportion to the error: the area where rays disagree shrinks with the mesh as well.
 int raysFor(double error, int normal) {
-  return std::clamp(static_cast<int>(std::lround(normal * tuning::kBaseError / error)), tuning::kFaintRays,
+  return std::clamp(static_cast<int>(std::lround(normal * deltalux::tuning::kUsualError / error)), tuning::kFaintRays,
                     kMostPoints - tuning::kSunPilots);
 }
 
@@ -134,10 +135,10 @@ DirectSampler::DirectSampler(const hierarchy::Elements& elements, const Scene& s
       tracer_(tracer),
       lamps_(lamps),
       lampRays_(raysFor(error, tuning::kLampRays)),
-      mixedRays_(raysFor(error, tuning::kMixedRays)),
-      mixedSunRays_(std::max(tuning::kSunRays, raysFor(error, tuning::kMixedSunRays))),
-      openDrawn_(raysFor(error, tuning::kOpenDrawn)),
-      mixedDrawn_(raysFor(error, tuning::kMixedDrawn)) {}
+      mixedRays_(raysFor(error, tuning::kRays)),
+      mixedSunRays_(std::max(tuning::kRays, raysFor(error, tuning::kMixedSunRays))),
+      openDrawn_(raysFor(error, tuning::kRays)),
+      mixedDrawn_(raysFor(error, tuning::kManyRays)) {}
 
 namespace {
 
@@ -155,7 +156,7 @@ struct Draws {
       : key(combineKeys(pointsKey, kDrawKey)), offset(toUnit(key)), numbers(combineKeys(key, 1)) {}
   /// By the golden ratio [Roberts18], which has nothing in common with the places of the points.
   double choice(std::size_t point) const {
-    constexpr double kGolden = 0.61803398874989485;
+    constexpr double kGolden = 0.61803398874989485;  // [defined]
     const double u = offset + kGolden * static_cast<double>(point);
     return u - std::floor(u);
   }
@@ -259,7 +260,7 @@ Rgb DirectSampler::unshadowed(const Lamp& lamp, Points& points, int wanted) cons
 void DirectSampler::ask(const Lamp& lamp, double potential, const LampSight& above, Points& points,
                         std::vector<Asked>& asked) const {
   Asked& a = asked.emplace_back(Asked{&lamp, potential, !lamp.sun && above.missed(lamp.id), {}, {}});
-  shoot(lamp, points, lamp.sun ? tuning::kSunPilots : a.missed ? tuning::kMissedPilots : tuning::kLampPilots, a.pilot);
+  shoot(lamp, points, lamp.sun ? tuning::kSunPilots : a.missed ? tuning::kFaintRays : tuning::kLampPilots, a.pilot);
 }
 
 /// The samples that count, where about as much light as `found` was found.
@@ -268,10 +269,10 @@ void DirectSampler::finish(double found, Points& points, Asked& a) const {
   const Tally& pilot = a.pilot;
   const double open = pilot.shot > 0 ? gray(pilot.open) / pilot.samples : a.potential;
   const bool mixed = pilot.mixed() || (a.missed && pilot.passed > 0);
-  int wanted = lamp.sun ? (mixed ? mixedSunRays_ : tuning::kSunRays) : mixed ? mixedRays_ : lampRays_;
+  int wanted = lamp.sun ? (mixed ? mixedSunRays_ : tuning::kRays) : mixed ? mixedRays_ : lampRays_;
   if (!lamp.sun && !(open > tuning::kMatters * found)) wanted = tuning::kFaintRays;
-  a.missed = a.missed && pilot.passed == 0 && wanted > tuning::kMissedRays;
-  if (a.missed) wanted = tuning::kMissedRays;
+  a.missed = a.missed && pilot.passed == 0 && wanted > tuning::kFaintRays;
+  if (a.missed) wanted = tuning::kFaintRays;
   Tally& t = a.tally;
   t.first = pilot.samples;
   shoot(lamp, points, wanted, t);
@@ -291,7 +292,7 @@ std::uint32_t DirectSampler::askAgain(double all, Points& points, Asked& a) cons
   if (!(open > 0)) return 0;
   Tally fresh;
   fresh.first = a.tally.first + a.tally.samples;
-  shoot(*a.lamp, points, a.lamp->sun ? tuning::kUnseenSunRays : 2 * open > all ? tuning::kUnseenRays : 1, fresh);
+  shoot(*a.lamp, points, a.lamp->sun ? tuning::kFewRays : 2 * open > all ? tuning::kUnseenRays : 1, fresh);
   if (fresh.samples == 0) return 0;  // there are no more points
   fresh.unshadowed = a.tally.unshadowed, fresh.measured = a.tally.measured;
   a.missed = true, a.tally = fresh;
@@ -305,7 +306,7 @@ Rgb DirectSampler::refined(const Asked& a, double light, const hierarchy::Elemen
   if (a.lamp->sun || a.missed) return E;  // a ratio of so few would favour what is seen where it is faint
   const bool much = gray(t.lit) > tuning::kMuch * light * t.samples, varied = t.shot < t.samples || nearBy(*a.lamp, g);
   const Rgb open =
-      t.measured ? t.unshadowed : unshadowed(*a.lamp, points, much && varied ? kMostPoints : tuning::kUnshadowedPoints);
+      t.measured ? t.unshadowed : unshadowed(*a.lamp, points, much && varied ? kMostPoints : tuning::kRays);
   for (int c = 0; c < 3; ++c) E[c] = t.open[c] > 0 ? open[c] * static_cast<float>(t.lit[c] / t.open[c]) : 0.0f;
   return E;
 }
@@ -316,7 +317,7 @@ void DirectSampler::askDrawn(const LampSight& above, double& found, Points& poin
                              std::vector<Asked>& asked) const {
   drawn.matter = drawn.cut.restMost > tuning::kMatters * found;
   if (!drawn.matter) return;
-  shootDrawn(points, above.missedDrawn() ? tuning::kMissedDrawn : tuning::kDrawnPilots, drawn, drawn.pilot);
+  shootDrawn(points, above.missedDrawn() ? tuning::kFewRays : tuning::kLampRays, drawn, drawn.pilot);
   found += drawn.pilot.mean();
   drawn.piloted = drawn.passed.size();
   for (const auto& [r, lit] : drawn.passed)
@@ -329,7 +330,7 @@ void DirectSampler::finishDrawn(const LampSight& above, Points& points, Drawn& d
   const Tally& pilot = drawn.pilot;
   int wanted = tuning::kFaintRays;  // one for all that may bring next to nothing
   if (drawn.matter && pilot.passed == 0)
-    wanted = above.missedDrawn() ? tuning::kMissedDrawn : tuning::kHiddenDrawn;
+    wanted = above.missedDrawn() ? tuning::kFewRays : tuning::kLampRays;
   else if (drawn.matter)
     wanted = pilot.mixed() ? mixedDrawn_ : openDrawn_;
   // The pilots' points again where there are no more: without what is asked on its own now.
@@ -346,7 +347,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   if (!points.have(1)) return result;
   Drawn drawn{g, cutFor(g, above), {}, 0, {}, false, {}, {}};
   std::vector<Asked> asked;
-  asked.reserve(lamps_.suns().size() + drawn.cut.lamps.size() + tuning::kDrawnPilots);
+  asked.reserve(lamps_.suns().size() + drawn.cut.lamps.size() + tuning::kLampRays);
   for (const std::uint32_t i : lamps_.suns())
     if (const double most = potential(lamps_.all()[i], g); most > 0) ask(lamps_.all()[i], most, above, points, asked);
   for (const LampTree::Reaching& r : drawn.cut.lamps) ask(lamps_.all()[r.lamp], r.potential, above, points, asked);

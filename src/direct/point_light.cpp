@@ -12,16 +12,16 @@ namespace {
 
 /// Like a sun of its size.
 Lamp narrow(LightId id, const DomeLight& dome, const Rgb& scale) {
-  constexpr int kGrid = 8;
   Lamp lamp;
   lamp.id = id, lamp.sun = true, lamp.axis = dome.axis, lamp.halfAngle = dome.halfAngle;
   const Frame frame(dome.axis);
   const double least = std::cos(dome.halfAngle), angle = 2 * kPi * (1 - least);
-  for (int k = 0; k < kGrid * kGrid; ++k) {
-    const double z = least + (1 - least) * (k % kGrid + 0.5) / kGrid, phi = 2 * kPi * (k / kGrid + 0.5) / kGrid;
+  for (int k = 0; k < tuning::kGrid * tuning::kGrid; ++k) {
+    const double z = least + (1 - least) * (k % tuning::kGrid + 0.5) / tuning::kGrid,
+                 phi = 2 * kPi * (k / tuning::kGrid + 0.5) / tuning::kGrid;
     const double r = std::sqrt(std::max(0.0, 1 - z * z));
     const Vec3 w = frame.toWorld({r * std::cos(phi), r * std::sin(phi), z});
-    lamp.most += angle / (kGrid * kGrid) * gray(scale * skyRadiance(dome, w));
+    lamp.most += angle / (tuning::kGrid * tuning::kGrid) * gray(scale * skyRadiance(dome, w));
   }
   return lamp;
 }
@@ -47,13 +47,13 @@ PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer)
       continue;
     }
     Sky sky{LightId(i), *dome, light.scale};
-    constexpr int kGrid = 8;
     for (int cell = 0; cell < SkyCells::kCount; ++cell)
-      for (int k = 0; k < kGrid * kGrid; ++k)
+      for (int k = 0; k < tuning::kGrid * tuning::kGrid; ++k)
         sky.strength[static_cast<std::size_t>(cell)] +=
-            gray(sky.scale * skyRadiance(*dome, Vec3(SkyCells::direction(cell, (k % kGrid + 0.5) / kGrid,
-                                                                         (k / kGrid + 0.5) / kGrid)))) /
-            (kGrid * kGrid);
+            gray(sky.scale *
+                 skyRadiance(*dome, Vec3(SkyCells::direction(cell, (k % tuning::kGrid + 0.5) / tuning::kGrid,
+                                                             (k / tuning::kGrid + 0.5) / tuning::kGrid)))) /
+            (tuning::kGrid * tuning::kGrid);
     skies_.push_back(std::move(sky));
   }
   for (int cell = 0; cell < SkyCells::kCount; ++cell) {
@@ -64,8 +64,8 @@ PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer)
       looks_[c][static_cast<std::size_t>(corner)] = SkyCells::direction(cell, corner & 1, corner >> 1);
   }
   const auto place = [](int cell) {
-    return morton(static_cast<std::uint32_t>(cell % tuning::kSkyAzimuths),
-                  static_cast<std::uint32_t>(cell / tuning::kSkyAzimuths));
+    return morton(static_cast<std::uint32_t>(cell % tuning::kSkySide),
+                  static_cast<std::uint32_t>(cell / tuning::kSkySide));
   };
   std::sort(curve_.begin(), curve_.end(), [&](int a, int b) { return place(a) < place(b); });
 }

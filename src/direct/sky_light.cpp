@@ -14,8 +14,8 @@ namespace deltalux::direct {
 
 namespace {
 
-constexpr int kHeights = tuning::kSkyHeights, kAzimuths = tuning::kSkyAzimuths;
-constexpr std::uint64_t kSkyKey = 0x736b795f5f5full;
+constexpr int kHeights = tuning::kSkySide, kAzimuths = tuning::kSkySide;
+constexpr std::uint64_t kSkyKey = 0x736b795f5f5full;  // [key]
 
 /// Power of two nearest to a share.
 float octave(float share) { return std::exp2(std::round(std::log2(std::clamp(share, tuning::kLeastOpen, 1.0f)))); }
@@ -77,12 +77,12 @@ Skies::Skies(const Scene& scene) {
     domes_.push_back({std::get<DomeLight>(scene.lights[i].emitter), alike ? nominal[i] : scene.lights[i].scale});
   for (int cell = 0; cell < SkyCells::kCount; ++cell)
     for (const double corner : {0.25, 0.75}) add(key_, radiance(SkyCells::direction(cell, corner, corner)));
-  constexpr int kGrid = 8;
   for (int cell = 0; cell < SkyCells::kCount; ++cell)
-    for (int i = 0; i < kGrid * kGrid; ++i)
+    for (int i = 0; i < tuning::kGrid * tuning::kGrid; ++i)
       strength_[static_cast<std::size_t>(cell)] +=
-          gray(radiance(SkyCells::direction(cell, (i % kGrid + 0.5) / kGrid, (i / kGrid + 0.5) / kGrid))) /
-          (kGrid * kGrid);
+          gray(radiance(SkyCells::direction(cell, (i % tuning::kGrid + 0.5) / tuning::kGrid,
+                                            (i / tuning::kGrid + 0.5) / tuning::kGrid))) /
+          (tuning::kGrid * tuning::kGrid);
 }
 
 Rgb Skies::radiance(const Vec3f& direction) const {

@@ -15,7 +15,7 @@ namespace deltalux::direct {
 
 /// The sphere in cells of equal solid angle: heights times azimuths.
 struct SkyCells {
-  static constexpr int kCount = tuning::kSkyHeights * tuning::kSkyAzimuths;
+  static constexpr int kCount = tuning::kSkySide * tuning::kSkySide;
   static int of(const Vec3f& direction);
   static Vec3f direction(int cell, double a, double b);
   static constexpr double solidAngle() { return 4 * kPi / kCount; }

@@ -4,19 +4,25 @@
 
 namespace deltalux::direct::tuning {
 
-/// Error that the numbers below are for.
-constexpr double kBaseError = 0.05;
-/// Shadow rays of a leaf to the sun: those that tell whether others disagree, and as many more, or more than that where
-/// they do. Fewer: penumbrae and edges of sunlight are grainy.
-constexpr int kSunPilots = 8, kSunRays = 16, kMixedSunRays = 56;
-/// The same to a lamp, and how many where it hardly matters. Fewer: lamps' shadows are grainy.
-constexpr int kLampPilots = 3, kLampRays = 4, kMixedRays = 16, kFaintRays = 1;
+/// Shadow rays of a leaf at the usual error: to the sun, to a lamp where rays disagree, to those that are drawn; and
+/// points that the unshadowed light of a lamp is averaged over. Fewer: shadows are grainy, and light near lamps.
+constexpr int kRays = 16;
+/// The same to a sky, and to lamps that are drawn where rays disagree. Fewer: grain beside windows, and where many
+/// faint lamps shine.
+constexpr int kManyRays = 32;
+/// Rays to the sun that tell whether others disagree, and how many more where they do. Fewer: penumbrae and edges of
+/// sunlight are grainy.
+constexpr int kSunPilots = 8, kMixedSunRays = 56;
+/// The same to a lamp; how many where all agree, which are as many as tell whether others are worth it of those that
+/// are drawn, or that are left where none of these passes; and how many where it hardly matters, or where all rays of
+/// the patch have missed it that this one is a part of. Fewer: lamps' shadows are grainy; edges of light are noticed
+/// late. More: rays at walls.
+constexpr int kLampPilots = 3, kLampRays = 4, kFaintRays = 1;
 /// A lamp matters where, unshadowed, it brings more than this share of what has been found. Higher: faint lamps'
 /// shadows are lost.
 constexpr double kMatters = 0.01;
-/// Points that the unshadowed light of a lamp is averaged over, four times as many where it is more than a share of the
-/// light there and is near or not all lie in its beam; and how near that is, in radii of both. Fewer: grain near lamps.
-constexpr int kUnshadowedPoints = 16;
+/// Share of the light there from which on unshadowed light of a lamp is averaged over four times as many points where
+/// it is near or not all lie in its beam; and how near that is, in radii of both. More, less: grain near lamps.
 constexpr double kMuch = 0.1;
 constexpr float kNearBy = 8;
 /// Lamps that are asked one by one, those that may bring more than such a share of what all may bring, less where the
@@ -24,15 +30,10 @@ constexpr float kNearBy = 8;
 /// may bring. Fewer, more: noise where many lamps are equally bright. More, less: rays to lamps that hardly matter.
 constexpr std::size_t kLampsAsked = 24;
 constexpr double kAskedShare = 1.0 / 32, kFirstShare = 1.0 / 256, kSeenRank = 16;
-/// Shadow rays to those that are drawn: that tell whether others are worth it, and how many where none of those passes,
-/// all pass, or some. Fewer: grain where many faint lamps shine.
-constexpr int kDrawnPilots = 4, kHiddenDrawn = 4, kOpenDrawn = 16, kMixedDrawn = 32;
-/// The same to a lamp, and to those that are drawn, that all rays of the patch have missed that this one is a part of.
-/// Fewer: edges of its light are noticed late. More: rays at walls.
-constexpr int kMissedPilots = 1, kMissedRays = 1, kMissedDrawn = 2;
 /// Rays that tell the light of a lamp at a patch that is kept as none of all before has seen it, where it may bring
-/// most of what is not known, and of the sun. Fewer: specks where light comes through narrow gaps. More: rays at walls.
-constexpr int kUnseenRays = 6, kUnseenSunRays = 2;
+/// most of what is not known; of the sun, and of those that are drawn where the patch above has missed them. Fewer:
+/// specks where light comes through narrow gaps. More: rays at walls.
+constexpr int kUnseenRays = 6, kFewRays = 2;
 /// Split where direct light varies over quadrants, times area, by more than this many errors of the light there.
 /// Higher: shadows' edges are blurred.
 constexpr double kVariation = 2;
@@ -46,10 +47,14 @@ constexpr double kNarrow = 1.0;
 /// Light below which variation is not looked for, in shares of the scene's mean irradiance.
 constexpr double kFloor = 0.02;
 
-/// Cells of the sphere that visibility estimates are kept by: along height, and around.
-constexpr int kSkyHeights = 16, kSkyAzimuths = 16;
-/// Shadow rays of a leaf to the sky. Fewer: grain beside windows.
-constexpr int kSkyRays = 32;
+/// Cells of the sphere that visibility estimates are kept by: along height, and as many around. Fewer: rays beside the
+/// window. More: cells that hardly any line tells of.
+constexpr int kSkySide = 16;
+/// Looks a side that the radiance of a cell, or of a narrow sky, is averaged over. Fewer: bright spots are missed.
+constexpr int kGrid = 8;
+/// Directions that the width of a lamp's beam is found by: polar angles, and azimuths of each. Fewer: narrow beams are
+/// taken for wide.
+constexpr int kBeamRings = 48, kBeamAround = 16;
 /// Lines that tell visibility below one element. Fewer: guides of chance.
 constexpr int kGuideLines = 4096;
 /// Prior of a cell's visibility estimate: lines, and those of them that leave the scene; and the least estimate, of a
@@ -72,11 +77,10 @@ constexpr float kMostShare = 0.25f;
 /// Rays that what was thought of a square before counts for. Fewer: a few rays by chance take it for dark.
 constexpr float kDoubt = 2;
 /// A square is divided from so many rays on, where the variance between its quarters is so many times that within;
-/// not below this side, in shares of the source, nor where it gets fewer of all rays than this. Fewer, less: squares by
-/// chance. More: rays at the wall around the window.
+/// not below this side, in shares of the source, nor where it gets a negligible share of all rays. Fewer, less: squares
+/// by chance. More: rays at the wall around the window.
 constexpr std::size_t kFewestLooks = 6;
 constexpr double kUneven = 3, kSmallest = 1.0 / 64;
-constexpr float kFaintShare = 1e-3f;
 /// Rays of one independent estimate of a meter, and estimates before any judgement. Fewer: standard errors by chance.
 constexpr int kBatch = 64, kFewestBatches = 8;
 

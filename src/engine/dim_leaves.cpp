@@ -16,7 +16,7 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr std::size_t kRoomLeaves = 1024, kDimLeaves = 16;  // of a task
+constexpr std::size_t kRoomLeaves = 1024, kDimLeaves = 16;  // of a task [task]
 
 /// What the leaves' own lines say of what others send them [W/m2, gray].
 std::vector<float> roughIndirect(const LineSolve& x, const hierarchy::LeafTable& leaves,

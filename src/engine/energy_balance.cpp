@@ -1,4 +1,5 @@
 #include "engine/energy_balance.hpp"
+#include "engine/tuning.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +17,9 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr std::size_t kRays = 1 << 18;
-constexpr std::size_t kBlock = 1024;
-constexpr int kPanes = 64;
-constexpr std::uint64_t kKey = 0x62616c616e63657aull;
+constexpr std::size_t kBlock = 1024;                   // [task]
+constexpr int kPanes = 64;                             // [limit]
+constexpr std::uint64_t kKey = 0x62616c616e63657aull;  // [key]
 
 struct Surfaces {
   RgbSum direct{0.0}, absorbed{0.0};  // [W]
@@ -97,42 +97,43 @@ Outcome ofSentLight(const hierarchy::Elements& elements, std::size_t parts, cons
 Outcome diffuseLight(const Solution& s) {
   const hierarchy::Elements& elements = s.elements;
   const auto whole = [&](std::size_t e) { return double(elements.geometry[e].area); };
-  Outcome all = ofSentLight(elements, kRays, whole, [&](hierarchy::ElementId leaf, RgbSum flux, std::size_t i) {
-    const auto index = static_cast<std::uint32_t>(i);
-    const UnitPair at = scrambledSobol(index, kKey), to = scrambledSobol(index, ~kKey);
-    const hierarchy::PatchPoint x = hierarchy::samplePatch(elements, s.scene, leaf, at.x, at.y);
-    tracing::Ray ray;
-    ray.direction = Vec3f(cosineDirection(Frame(Vec3(x.normal)), to.x, to.y));
-    ray.origin = tracing::offsetOrigin(x.position, x.normal, ray.direction);
-    Outcome outcome;
-    for (int pane = 0; pane < kPanes; ++pane) {
-      const tracing::Hit hit = s.tracer->closestHit(ray);
-      if (!hit) {
-        outcome.escaped = flux;
-        break;
-      }
-      const Material& material = s.scene.materialOf(hit.primitive);
-      if (!passesStraight(material)) {
-        if (scene::stopsLight(material) && !elements.side(hit.primitive, hit.triangle, hit.front).valid())
-          outcome.gaps += flux;
-        break;
-      }
-      const double cosine = std::abs(glm::dot(Vec3(hit.normal), Vec3(ray.direction)));
-      const RgbSum passes(straightTransmittance(material, cosine));
-      if (isPane(material)) {
-        // What they reflect is particles' light, or nobody's.
-        const RgbSum reflects(s.settings.diffuseOnly
-                                  ? Rgb(0.0f)
-                                  : scene::mirrorReflectance(scene::makeBsdf(material, hit.front), cosine));
-        outcome.panes += flux * (1.0 - passes - reflects);
-      } else if (!elements.side(hit.primitive, hit.triangle, hit.front).valid()) {
-        outcome.gaps += flux * (1.0 - passes);
-      }
-      flux *= passes;
-      ray.origin = tracing::offsetOrigin(hit.position, hit.normal, ray.direction);
-    }
-    return outcome;
-  });
+  Outcome all =
+      ofSentLight(elements, tuning::kLedgerRays, whole, [&](hierarchy::ElementId leaf, RgbSum flux, std::size_t i) {
+        const auto index = static_cast<std::uint32_t>(i);
+        const UnitPair at = scrambledSobol(index, kKey), to = scrambledSobol(index, ~kKey);
+        const hierarchy::PatchPoint x = hierarchy::samplePatch(elements, s.scene, leaf, at.x, at.y);
+        tracing::Ray ray;
+        ray.direction = Vec3f(cosineDirection(Frame(Vec3(x.normal)), to.x, to.y));
+        ray.origin = tracing::offsetOrigin(x.position, x.normal, ray.direction);
+        Outcome outcome;
+        for (int pane = 0; pane < kPanes; ++pane) {
+          const tracing::Hit hit = s.tracer->closestHit(ray);
+          if (!hit) {
+            outcome.escaped = flux;
+            break;
+          }
+          const Material& material = s.scene.materialOf(hit.primitive);
+          if (!passesStraight(material)) {
+            if (scene::stopsLight(material) && !elements.side(hit.primitive, hit.triangle, hit.front).valid())
+              outcome.gaps += flux;
+            break;
+          }
+          const double cosine = std::abs(glm::dot(Vec3(hit.normal), Vec3(ray.direction)));
+          const RgbSum passes(straightTransmittance(material, cosine));
+          if (isPane(material)) {
+            // What they reflect is particles' light, or nobody's.
+            const RgbSum reflects(s.settings.diffuseOnly
+                                      ? Rgb(0.0f)
+                                      : scene::mirrorReflectance(scene::makeBsdf(material, hit.front), cosine));
+            outcome.panes += flux * (1.0 - passes - reflects);
+          } else if (!elements.side(hit.primitive, hit.triangle, hit.front).valid()) {
+            outcome.gaps += flux * (1.0 - passes);
+          }
+          flux *= passes;
+          ray.origin = tracing::offsetOrigin(hit.position, hit.normal, ray.direction);
+        }
+        return outcome;
+      });
   all.gaps -= sentUnderCovers(elements);
   return all;
 }
@@ -140,28 +141,28 @@ Outcome diffuseLight(const Solution& s) {
 /// The same where light is exchanged by lines, which go on over mirrors, gloss and glass: by some of those lines,
 /// traced again.
 Outcome lineLight(const Solution& s) {
-  constexpr std::size_t kLines = 1 << 19;
   const hierarchy::Elements& elements = s.elements;
   const lines::SurfaceResponses responses(s.scene, !s.settings.diffuseOnly);
   const lines::LineTracer tracer(s.scene, *s.tracer, responses);
   const hierarchy::LeafTable leaves(elements);
   const auto open = [&](std::size_t e) { return double(elements.geometry[e].litArea()); };
-  return ofSentLight(elements, kLines, open, [&](hierarchy::ElementId leaf, const RgbSum& flux, std::size_t i) {
-    Outcome outcome;
-    const std::uint32_t at = leaves.indexOf[leaf.index()], count = s.lines.countOf(at);
-    if (count == 0) return outcome;
-    // The next of its lines that is there.
-    auto k = static_cast<std::uint32_t>(toUnit(combineKeys(kKey, i)) * count);
-    for (std::uint32_t tries = 0; tries < count && s.lines.end[s.lines.first[at] + k] == lines::kCovered; ++tries)
-      k = (k + 1) % count;
-    const hierarchy::LeafSequence points(elements, s.scene, leaf);
-    const hierarchy::PatchPoint x = points.point(k);
-    const lines::LineEnd end = tracer.follow(x.position, x.normal, lines::LineDirections(points.key())(k, x.normal),
-                                             lines::LineDirections::random(points.key(), k));
-    outcome.panes = flux * RgbSum(end.absorbed);
-    if (end.fate == lines::LineFate::Escaped) outcome.escaped = flux * RgbSum(end.weight);
-    return outcome;
-  });
+  return ofSentLight(
+      elements, tuning::kLedgerLines, open, [&](hierarchy::ElementId leaf, const RgbSum& flux, std::size_t i) {
+        Outcome outcome;
+        const std::uint32_t at = leaves.indexOf[leaf.index()], count = s.lines.countOf(at);
+        if (count == 0) return outcome;
+        // The next of its lines that is there.
+        auto k = static_cast<std::uint32_t>(toUnit(combineKeys(kKey, i)) * count);
+        for (std::uint32_t tries = 0; tries < count && s.lines.end[s.lines.first[at] + k] == lines::kCovered; ++tries)
+          k = (k + 1) % count;
+        const hierarchy::LeafSequence points(elements, s.scene, leaf);
+        const hierarchy::PatchPoint x = points.point(k);
+        const lines::LineEnd end = tracer.follow(x.position, x.normal, lines::LineDirections(points.key())(k, x.normal),
+                                                 lines::LineDirections::random(points.key(), k));
+        outcome.panes = flux * RgbSum(end.absorbed);
+        if (end.fate == lines::LineFate::Escaped) outcome.escaped = flux * RgbSum(end.weight);
+        return outcome;
+      });
 }
 
 struct Specular {

@@ -3,18 +3,19 @@
 
 #include "base/sort_unique.hpp"
 #include "engine/state.hpp"
+#include "engine/tuning.hpp"
 
 namespace deltalux {
 
 StepReport Engine::State::frame(double seconds) {
-  constexpr double kPlanned = 0.92;  // of a frame: what is left keeps it in time where work takes longer than learned
   const engine::Clock time;
   StepReport step;
   const std::uint64_t traced = tracer().traced();
   const engine::SceneUpdate now = pending;
   takeIn(step);
   if (byLines())
-    followWithShadows(now, [&] { return kPlanned * seconds - time.seconds(); }, step);
+    followWithShadows(
+        now, [&] { return engine::tuning::kPlanned * seconds - time.seconds(); }, step);
   else  // all else waits for the update
     groups.rebuild(tracer(), solution->scene, now.primitives());
   step.deferred += waiting.moved.size() + waiting.dimmed.size() + waiting.movedLights.size() + waiting.materials.size();

@@ -9,8 +9,8 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr std::size_t kLeavesOfTask = 1024;
-constexpr std::size_t kSkyRays = direct::tuning::kSkyRays;
+constexpr std::size_t kLeavesOfTask = 1024;  // [task]
+constexpr std::size_t kSkyRays = direct::tuning::kManyRays;
 
 bool sameSight(const direct::LampSight& a, const direct::LampSight& b) {
   return a.asked == b.asked && a.seen == b.seen && a.drawnAsked == b.drawnAsked && a.drawnSeen == b.drawnSeen;

@@ -18,10 +18,10 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr std::size_t kLeaves = 1024, kSkyLeaves = 16;  // of a task
-constexpr double kWidest = 8;                           // standard errors, beyond which no error lies
-constexpr int kSteps = 24;                              // of a bisection
-constexpr int kErrorSteps = 64 * 20;                    // of errors of leaves, in 64ths of an octave
+constexpr std::size_t kLeaves = 1024, kSkyLeaves = 16;  // of a task [task]
+constexpr double kWidest = 8;                           // standard errors, beyond which no error lies [limit]
+constexpr int kSteps = 24;                              // of a bisection [rounding]
+constexpr int kErrorSteps = 64 * 20;                    // of errors of leaves, in 64ths of an octave [layout]
 
 /// What each leaf sends of the light of its sources but for skies, at their nominal scales [W, gray].
 std::vector<float> powerOf(const LineSolve& x, const hierarchy::LeafTable& leaves) {
@@ -36,7 +36,7 @@ std::vector<float> powerOf(const LineSolve& x, const hierarchy::LeafTable& leave
 
 /// Sky light of every leaf, undimmed; that of leaves which nothing has changed for is taken from before.
 KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::TracedLines& traced) {
-  constexpr std::size_t kEach = direct::tuning::kSkyRays;
+  constexpr std::size_t kEach = direct::tuning::kManyRays;
   KnownSky sky;
   sky.at.resize(leaves.size()), sky.skies = x.skies.key();
   if (x.skies.empty()) return sky;

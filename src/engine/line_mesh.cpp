@@ -11,7 +11,7 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr std::size_t kPatches = 16;  // of a task
+constexpr std::size_t kPatches = 16;  // of a task [task]
 
 /// By the points that are known to be open; a little where none is, so that the leaf shows what is beside it.
 void setExposed(LineSolve& x, hierarchy::ElementId patch) {
@@ -150,7 +150,7 @@ bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const s
         continue;
       }
       // Corners of what sees far are no narrow places.
-      const float wide = lines::tuning::kOfWhole * x.samples.scale[chosen[i].index()].mean;
+      const float wide = static_cast<float>(lines::tuning::kSurroundings) * x.samples.scale[chosen[i].index()].mean;
       for (std::size_t c = 0; c < elements.at(chosen[i]).childCount; ++c) {
         const hierarchy::ElementId part = elements.child(chosen[i], c);
         float& path = elements.geometry[part.index()].meanFreePath;

@@ -1,4 +1,5 @@
 #include "engine/line_motion.hpp"
+#include "engine/tuning.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,7 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr std::size_t kMotionLeaves = 256, kLightLeaves = 8;  // of a task
-constexpr std::size_t kFewestLeaves = 64;                     // that follow in any frame, so that it gets on
-constexpr double kPasses = 2;                                 // that a frame keeps time for
+constexpr std::size_t kMotionLeaves = 256, kLightLeaves = 8;  // of a task [task]
 
 /// What suns and lamps may bring to a leaf [W/m2, gray].
 double potentialOf(const direct::Lamps& lamps, const hierarchy::ElementGeometry& g) {
@@ -168,11 +167,11 @@ void LineMotion::follow(Solution& s, const std::function<double()>& secondsLeft)
   bool fewest = true;
   while (waiting_ > 0) {
     const Clock lighting;
-    const double seconds = secondsLeft() - kPasses * pass_.seconds();
+    const double seconds = secondsLeft() - tuning::kPassesOfFrame * pass_.seconds();
     // Not all at once, so that what a leaf takes is learned while there is time.
     const auto fit = static_cast<std::size_t>(std::max(0.0, 0.5 * seconds) / leaf_.seconds());
-    if (fit < kFewestLeaves && !fewest) break;
-    const std::vector<std::uint32_t> next = mostWorth(std::max(kFewestLeaves, fit));
+    if (fit < tuning::kFewestLeaves && !fewest) break;
+    const std::vector<std::uint32_t> next = mostWorth(std::max(tuning::kFewestLeaves, fit));
     light(s, lamps, next);
     leaf_.learn(lighting.seconds(), static_cast<double>(next.size()));
     fewest = false;
@@ -182,7 +181,7 @@ void LineMotion::follow(Solution& s, const std::function<double()>& secondsLeft)
     const lines::IterationReport report = lines::iterate(*s.memory->exchange, light_, lines::tuning::kConverged, 1);
     pass_.learn(passing.seconds());
     if (gray(report.residual) <= lines::tuning::kConverged * gray(report.emitted)) break;
-  } while (secondsLeft() > kPasses * pass_.seconds());
+  } while (secondsLeft() > tuning::kPassesOfFrame * pass_.seconds());
   parallelFor(leaves_.size(), kMotionLeaves, [&](std::size_t i) {
     hierarchy::ElementLight& l = s.elements.radiometry[leaves_[i].index()];
     l.indirect = light_.indirect[i], l.B = light_.B[i];

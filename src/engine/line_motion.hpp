@@ -9,6 +9,7 @@
 #include "direct/lamps.hpp"
 #include "engine/relight.hpp"
 #include "engine/scene_update.hpp"
+#include "engine/tuning.hpp"
 #include "lines/iterate.hpp"
 #include "particles/transfer.hpp"
 #include "solution/solution.hpp"
@@ -23,11 +24,10 @@ class LearnedCost {
   double seconds() const { return seconds_; }
   /// `count` pieces took so long.
   void learn(double seconds, double count = 1) {
-    if (count > 0) seconds_ += kNew * (seconds / count - seconds_);
+    if (count > 0) seconds_ += tuning::kNewCost * (seconds / count - seconds_);
   }
 
  private:
-  static constexpr double kNew = 0.5;
   double seconds_;
 };
 

@@ -1,4 +1,5 @@
 #include "engine/line_solve.hpp"
+#include "engine/tuning.hpp"
 
 #include <algorithm>
 #include <deltalux/error.hpp>
@@ -20,18 +21,14 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr double kMeshTime = 0.5;  // share of all time after which the mesh is split no more
-constexpr double kLineTime = 0.8;  // share of the time that is left then that lines may take
-
 void checkInterrupted(Progress* progress) {
   if (progress && progress->stopRequested()) throw Interrupted();
 }
 
 /// Into cells of which shadow rays to a point choose.
 void divideSkies(hierarchy::Elements& elements, const Scene& scene) {
-  constexpr int kLevels = 4;
   std::vector<hierarchy::ElementId> cells = elements.distant;
-  for (int level = 0; level < kLevels; ++level) {
+  for (int level = 0; level < tuning::kSkyLevels; ++level) {
     std::vector<hierarchy::ElementId> parts;
     for (const hierarchy::ElementId e : cells)
       if (hierarchy::subdivide(elements, scene, e))
@@ -63,7 +60,7 @@ bool traceParticles(Solution& s, const TimeBudget& budget) {
   const particles::ParticleSettings settings = particleSettings(s.settings);
   const std::uint64_t wanted = settings.count;
   particles::ParticleTracing tracing(s.scene, *s.tracer, settings);
-  s.particles = budget.limited() ? tracing.traceWithin(kParticleTime * budget.seconds()) : tracing.trace();
+  s.particles = budget.limited() ? tracing.traceWithin(tuning::kParticleTime * budget.seconds()) : tracing.trace();
   DELTALUX_VALIDATED(validate(s.particles, s.scene));
   return tracing.count() >= wanted;
 }
@@ -176,7 +173,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
   checkInterrupted(progress);
   const bool meshed = refineMesh(x, receivingInputs(s.elements), [&] {
     checkInterrupted(progress);
-    return budget.limited() && budget.left() < (1 - kMeshTime) * budget.seconds();
+    return budget.limited() && budget.left() < (1 - tuning::kMeshTime) * budget.seconds();
   });
   if (!budget.up()) refineForParticles(x);
   x.transfer.emplace(s.particles, s.elements, s.scene);
@@ -195,7 +192,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
     const double leaves = static_cast<double>(hierarchy::LeafTable(s.elements).size());
     const double rate = static_cast<double>(s.report.counts.raysVisibility) /
                         std::max(meshSeconds + s.report.times.visibility + s.report.times.hierarchy, 1e-3);
-    const double affordable = kLineTime * std::max(budget.left(), 0.0) * rate / std::max(leaves, 1.0);
+    const double affordable = tuning::kLineTime * std::max(budget.left(), 0.0) * rate / std::max(leaves, 1.0);
     base = static_cast<std::uint32_t>(
         std::clamp(affordable, double(lines::tuning::kFirstLines), static_cast<double>(wanted)));
   }

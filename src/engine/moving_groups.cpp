@@ -1,4 +1,5 @@
 #include "engine/moving_groups.hpp"
+#include "engine/tuning.hpp"
 
 #include <algorithm>
 
@@ -18,7 +19,7 @@ void MovingGroups::separate(tracing::RayTracer& tracer, const Scene& scene, std:
 }
 
 void MovingGroups::setApart(tracing::RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> primitives) {
-  if (separated_ == kMost) {
+  if (separated_ == tuning::kMostGroups) {
     tracer.rejoin();
     groups_.clear(), separated_ = 0;
   }

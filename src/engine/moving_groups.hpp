@@ -18,8 +18,6 @@ class MovingGroups {
     return p.index() < groups_.size() ? groups_[p.index()] : tracing::GroupId(0);
   }
 
-  static constexpr int kMost = 16;
-
   void setApart(tracing::RayTracer&, const Scene&, std::span<const PrimitiveId>);
 
   std::vector<tracing::GroupId> groups_;  // by primitive

@@ -6,6 +6,7 @@
 #include "base/check.hpp"
 #include "engine/particle_settings.hpp"
 #include "engine/state.hpp"
+#include "engine/tuning.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/pull.hpp"
 #include "paper/coarse_solution.hpp"
@@ -13,14 +14,6 @@
 #include "particles/reached_sides.hpp"
 
 namespace deltalux {
-
-namespace {
-
-constexpr double kFirstError = 64.0;  // of the links, relative to the last, in the first round
-constexpr double kHasty = 8.0;        // first round when time is limited, against the first otherwise
-constexpr double kPreview = 8.0;      // the same, for a first look: its picture is there in a second or two
-
-}  // namespace
 
 void Engine::State::paperRound(Progress* progress) {
   Solution& s = *solution;
@@ -43,7 +36,7 @@ void Engine::State::paperRound(Progress* progress) {
 
   nextError = paper::nextError(oracle.error, least);
   if (budget.limited()) {
-    const double left = budget.left() - engine::kEndingTime * budget.seconds();
+    const double left = budget.left() - engine::tuning::kEndingTime * budget.seconds();
     nextError = budget.reach(paper::LinkErrors(s.links, s.elements, oracle), oracle.error, nextError, left);
   }
   finished = last || refined.stopped || !(nextError < oracle.error);
@@ -73,7 +66,10 @@ void Engine::State::prepare(Progress* progress) {
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.counts.raysVisibility += coarse.rays;
   s.report.times.hierarchy += time.seconds() - s.report.times.particles;
-  nextError = linksJudged().error * kFirstError * (previewed ? kPreview : budget.limited() ? kHasty : 1.0);
+  nextError = linksJudged().error * engine::tuning::kFirstError *
+              (previewed          ? engine::tuning::kHasty
+               : budget.limited() ? engine::tuning::kHasty
+                                  : 1.0);
   if (progress) progress->report("hierarchy", 1.0);
 }
 
@@ -83,7 +79,8 @@ void Engine::State::trace() {
   const engine::Clock time;
   const particles::ParticleSettings settings = engine::particleSettings(s.settings);
   tracing.emplace(s.scene, *s.tracer, settings);
-  s.particles = budget.limited() ? tracing->traceWithin(engine::kParticleTime * budget.seconds()) : tracing->trace();
+  s.particles =
+      budget.limited() ? tracing->traceWithin(engine::tuning::kParticleTime * budget.seconds()) : tracing->trace();
   curtailed = tracing->count() < settings.count;
   if (curtailed) s.settings.particles = tracing->count();  // updates trace as many
   DELTALUX_VALIDATED(validate(s.particles, s.scene));

@@ -4,18 +4,13 @@
 
 #include "base/check.hpp"
 #include "engine/state.hpp"
+#include "engine/tuning.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/side_index.hpp"
 
 namespace deltalux {
-
-namespace {
-
-constexpr double kBrighter = 8.0;  // times as bright as it was, a light may become before it is solved for anew
-
-}  // namespace
 
 void Engine::State::paperUpdate(const engine::SceneUpdate& edits, StepReport& step, Progress* progress) {
   Solution& s = *solution;
@@ -61,7 +56,7 @@ bool Engine::State::outshines(const engine::SceneUpdate& edits) const {
   const Solution& s = *solution;
   return std::any_of(edits.dimmed.begin(), edits.dimmed.end(), [&](LightId light) {
     return light.index() >= s.sampledScale.size() ||  // it was not there
-           gray(s.scene[light].scale) > kBrighter * gray(s.sampledScale[light.index()]);
+           gray(s.scene[light].scale) > engine::tuning::kHasty * gray(s.sampledScale[light.index()]);
   });
 }
 

@@ -10,7 +10,7 @@
 namespace deltalux::engine {
 
 namespace {
-constexpr std::size_t kRelitLeaves = 1024;  // of a task
+constexpr std::size_t kRelitLeaves = 1024;  // of a task [task]
 }  // namespace
 
 LampsOfLeaves lampsOf(const PatchSamples& samples, std::span<const DimLeaf> dimLeaves,
@@ -39,7 +39,7 @@ void relight(Solution& s, const hierarchy::LeafTable& leaves, lines::Exchange& e
     l.direct = exchange.area(i) > 0 ? direct.E + dimming.skies * sky.at[i].E : Rgb(0.0f);
     light.source[i] = l.direct + l.particle, light.indirect[i] = l.indirect;
   });
-  const lines::IterationReport iterated = lines::iterate(exchange, light, converged, lines::tuning::kMostPasses);
+  const lines::IterationReport iterated = lines::iterate(exchange, light, converged, lines::kMostPasses);
   s.report.counts.iterations += static_cast<std::uint64_t>(iterated.passes);
   s.deviation.resize(n);
   exchange.deviation(light.B, s.deviation);

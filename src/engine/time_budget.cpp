@@ -1,14 +1,9 @@
 #include "engine/time_budget.hpp"
+#include "engine/tuning.hpp"
 
 #include <algorithm>
 
 namespace deltalux::engine {
-
-namespace {
-
-constexpr double kStep = 0.84;  // between errors that are considered
-
-}  // namespace
 
 void TimeBudget::learn(double seconds, double predicted, double made) {
   if (made > 0) secondsPerLink_ = seconds / made;
@@ -18,7 +13,7 @@ void TimeBudget::learn(double seconds, double predicted, double made) {
 double TimeBudget::reach(const paper::LinkErrors& errors, double from, double least, double seconds) const {
   double error = from;
   while (error > least) {
-    const double next = std::max(least, error * kStep);
+    const double next = std::max(least, error * tuning::kErrorStep);
     if (cost(errors.madeBy(next)) > seconds) break;
     error = next;
   }

@@ -7,9 +7,6 @@
 
 namespace deltalux::engine {
 
-constexpr double kParticleTime = 0.3;  // share of all time that particles may take
-constexpr double kEndingTime = 0.15;   // the same of what comes after the last round over links: light, textures
-
 class TimeBudget {
  public:
   /// `seconds` in all, of which some are spent already; 0: no limit.

@@ -5,6 +5,7 @@
 #include "base/check.hpp"
 #include "engine/particle_settings.hpp"
 #include "engine/state.hpp"
+#include "engine/tuning.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/pull.hpp"
 #include "lines/tuning.hpp"
@@ -132,11 +133,10 @@ particles::ParticleUpdate Engine::State::followWithParticles(const SceneChange& 
 }
 
 bool Engine::State::gapsAreMany() const {
-  constexpr double kMostGaps = 1.5;  // size of particles with gaps, to that without
   const particles::Particles& p = solution->particles;
   std::size_t used = 0;
   for (const particles::PathRange& r : p.range) used += r.vertices;
-  return static_cast<double>(p.vertices.size()) > kMostGaps * static_cast<double>(used);
+  return static_cast<double>(p.vertices.size()) > engine::tuning::kMostGaps * static_cast<double>(used);
 }
 
 void Engine::State::closeGaps() {

@@ -9,16 +9,14 @@
 #include "base/random.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/patch.hpp"
+#include "hierarchy/tuning.hpp"
 #include "scene/edit/plan.hpp"
 
 namespace deltalux::hierarchy {
 
 namespace {
 
-constexpr std::size_t kLeafGroups = 4;  // surfaces that a cluster may hold directly without looking at their sizes
-constexpr float kSlot = 0.5f;           // least mean free path, relative to that of the surroundings
-constexpr double kLarge = 0.5;          // a surface this large against its cluster stays in it
-constexpr std::uint64_t kSceneKey = 1, kLightKey = 2, kFacesKey = 3, kGrownKey = 64;
+constexpr std::uint64_t kSceneKey = 1, kLightKey = 2, kFacesKey = 3, kGrownKey = 64;  // [key]
 
 /// The sides of one surface (front, back) travel together.
 struct Group {
@@ -69,29 +67,29 @@ std::pair<std::vector<Group>, std::vector<Group>> halve(std::vector<Group> group
 std::unique_ptr<Node> cluster(std::vector<Group> groups) {
   auto node = std::make_unique<Node>();
   for (const Group& g : groups) node->box.extend(g.box);
-  if (groups.size() <= kLeafGroups) {
+  if (groups.size() <= tuning::kLeafGroups) {
     node->groups = std::move(groups);
     return node;
   }
-  const double limit = kLarge * node->box.diagonal();
+  const double limit = tuning::kLarge * node->box.diagonal();
   const auto small =
       std::stable_partition(groups.begin(), groups.end(), [&](const Group& g) { return g.box.diagonal() > limit; });
   const auto largeCount = static_cast<std::size_t>(small - groups.begin());
   std::vector<Group> rest(std::make_move_iterator(small), std::make_move_iterator(groups.end()));
   groups.erase(small, groups.end());
-  if (largeCount > 4 * kLeafGroups) {
+  if (largeCount > 4 * tuning::kLeafGroups) {
     // Many that are all large (a stack of boards): size does not tell them apart, so position must.
     rest.insert(rest.end(), std::make_move_iterator(groups.begin()), std::make_move_iterator(groups.end()));
     groups.clear();
   }
   node->groups = std::move(groups);
-  if (rest.size() <= kLeafGroups && !node->groups.empty()) {
+  if (rest.size() <= tuning::kLeafGroups && !node->groups.empty()) {
     for (Group& g : rest) node->groups.push_back(std::move(g));
   } else if (!rest.empty()) {
     // Two binary splits at once: four children a level halve the depth of the link tree.
     auto [a, b] = halve(std::move(rest));
     for (auto* half : {&a, &b}) {
-      if (half->size() > 4 * kLeafGroups) {
+      if (half->size() > 4 * tuning::kLeafGroups) {
         auto [c, d] = halve(std::move(*half));
         node->clusters.push_back(cluster(std::move(c)));
         node->clusters.push_back(cluster(std::move(d)));
@@ -218,7 +216,7 @@ class Builder {
   void widenPaths(ElementId e, float above = 0, float twiceAbove = 0) {
     ElementGeometry& g = elements_.geometry[e.index()];
     const float own = g.meanFreePath;
-    g.meanFreePath = std::max(own, kSlot * twiceAbove);
+    g.meanFreePath = std::max(own, tuning::kSlot * twiceAbove);
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i)
       widenPaths(elements_.child(e, i), own, std::max(above, own));
   }

@@ -11,6 +11,7 @@
 #include "hierarchy/element.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/plane_points.hpp"
+#include "hierarchy/tuning.hpp"
 #include "scene/edit/plan.hpp"
 #include "scene/stops_light.hpp"
 
@@ -18,13 +19,7 @@ namespace deltalux::hierarchy {
 
 namespace {
 
-constexpr double kGap = 0.02;         // between a surface and what stands on it, in the height of the latter
-constexpr double kUpright = 0.3;      // sine of how far a wall may lean
-constexpr double kAligned = 0.01;     // by which a line may leave its axis, in its length
-constexpr double kShortest = 0.01;    // length of a line, in that of the surface
-constexpr double kTogether = 1e-4;    // lines that are closer count as one: parts of a wall, its two faces when thin
-constexpr float kWellInside = 0.02f;  // least distance of a split from the ends
-constexpr float kCrossed = 0.5f;      // least share of a patch that a line has to cross
+constexpr double kTogether = 1e-6;  // lines that are closer count as one [rounding]
 
 /// A flat face of a surface that stops light.
 struct Face {
@@ -121,18 +116,18 @@ class ContactLines::Search {
 
   static std::vector<BoxF> boxesOf(const std::vector<Face>& faces) {
     std::vector<BoxF> boxes;
-    for (const Face& f : faces) boxes.push_back(around(f.corners, kGap));
+    for (const Face& f : faces) boxes.push_back(around(f.corners, tuning::kTouching));
     return boxes;
   }
 
   /// Adds where a face meets the plane, if it rises from it to the side of `up`.
   static void addFoot(const Face& face, const PlaneFrame& plane, const PlanePoints& points, const Vec3& up,
                       std::array<std::vector<Line>, 2>& lines) {
-    if (std::abs(glm::dot(face.normal, up)) > kUpright) return;
+    if (std::abs(glm::dot(face.normal, up)) > tuning::kUpright) return;
     const auto heightOf = [&](const Vec3& p) { return glm::dot(p - plane.origin, up); };
     double height = 0;
     for (const Vec3& p : face.corners) height = std::max(height, heightOf(p));
-    const double close = kGap * height;
+    const double close = tuning::kTouching * height;
     Vec2 lower(kInfinity), upper(-kInfinity);
     for (std::size_t i = 0; i < face.corners.size(); ++i) {
       const Vec3 &a = face.corners[i], &b = face.corners[(i + 1) % face.corners.size()];
@@ -157,8 +152,8 @@ class ContactLines::Search {
       const double at = 0.5 * (lower[axis] + upper[axis]);
       const double from = std::max(lower[along], 0.0), to = std::min(upper[along], 1.0);
       const double strays = (upper[axis] - lower[axis]) * size[axis];
-      if (at > 0 && at < 1 && to - from >= kShortest &&
-          strays <= kAligned * (upper[along] - lower[along]) * size[along])
+      if (at > 0 && at < 1 && to - from >= tuning::kTouching &&
+          strays <= tuning::kTouching * (upper[along] - lower[along]) * size[along])
         lines[static_cast<std::size_t>(axis)].push_back(
             {static_cast<float>(at), static_cast<float>(from), static_cast<float>(to), static_cast<float>(height)});
     }
@@ -197,7 +192,7 @@ ContactLines::ContactLines(const Elements& elements, const Scene& scene) {
 std::optional<float> ContactLines::across(const Range& r, float height) const {
   const std::size_t i = 2 * std::size_t(r.plane) + static_cast<std::size_t>(r.axis);
   if (i >= end_.size()) return std::nullopt;  // a surface that an edit has brought into the light
-  const float margin = kWellInside * (r.to - r.from), middle = 0.5f * (r.from + r.to);
+  const float margin = static_cast<float>(tuning::kTouching) * (r.to - r.from), middle = 0.5f * (r.from + r.to);
   const auto last = lines_.begin() + end_[i];
   auto line = std::lower_bound(lines_.begin() + (i > 0 ? end_[i - 1] : 0), last, r.from + margin,
                                [](const Line& l, float at) { return l.at < at; });
@@ -207,7 +202,7 @@ std::optional<float> ContactLines::across(const Range& r, float height) const {
     float crossed = 0;
     for (; line != last && line->at == at; ++line)
       if (line->height >= height) crossed += std::max(0.0f, std::min(line->to, r.high) - std::max(line->from, r.low));
-    if (crossed < kCrossed * (r.high - r.low)) continue;
+    if (crossed < tuning::kCrossed * (r.high - r.low)) continue;
     if (!nearest || std::abs(at - middle) < std::abs(*nearest - middle)) nearest = at;
   }
   return nearest;

@@ -7,7 +7,7 @@ namespace deltalux::hierarchy {
 
 DirectionWindow::DirectionWindow(const Elements& elements, const Scene& scene, ElementId distant, const Vec3& w,
                                  double angle) {
-  constexpr double kMargin = 1e-3;
+  constexpr double kMargin = 1e-3;  // [rounding]
   const PatchDomain& d = elements.domain[distant.index()];
   u0_ = d.u0, du_ = d.u1 - d.u0, v0_ = d.v0, dv_ = d.v1 - d.v0;
   const auto& emitter = scene[elements.light[distant.index()]].emitter;

@@ -9,8 +9,8 @@
 
 namespace deltalux::hierarchy {
 
-inline constexpr int kHarmonics = 9;
-inline constexpr float kConstantHarmonic = 0.28209479f;
+inline constexpr int kHarmonics = 9;                     // [defined]
+inline constexpr float kConstantHarmonic = 0.28209479f;  // [defined]
 
 /// Values of the nine basis functions at the unit vector `w`.
 inline std::array<float, kHarmonics> harmonics(const Vec3f& w) {
@@ -29,7 +29,7 @@ inline std::array<float, kHarmonics> harmonics(const Vec3f& w) {
 /// Convolution weights of the clamped cosine: pi, 2 pi / 3, pi / 4 for orders 0, 1, 2.
 inline constexpr std::array<float, kHarmonics> kClampedCosine = {3.14159265f, 2.09439510f, 2.09439510f,
                                                                  2.09439510f, 0.78539816f, 0.78539816f,
-                                                                 0.78539816f, 0.78539816f, 0.78539816f};
+                                                                 0.78539816f, 0.78539816f, 0.78539816f};  // [defined]
 
 /// Mean of the basis functions over a set of normals: all that a patch's orientation means to a DirectionalRgb.
 struct NormalMoments {

@@ -8,16 +8,14 @@
 
 #include "base/morton.hpp"
 #include "base/parallel.hpp"
+#include "hierarchy/tuning.hpp"
 #include "scene/edit/plan.hpp"
 
 namespace deltalux::hierarchy {
 
 namespace {
 
-constexpr std::size_t kFine = 512;             // faces from which on a mesh is fine
-constexpr std::uint32_t kInputs = 64;          // patches of the input level that a mesh has at least,
-constexpr std::uint32_t kFewestOfInput = 256;  // but for this many faces in each
-constexpr int kBits = 20, kCurveBits = 3 * kBits;
+constexpr int kBits = 20, kCurveBits = 3 * kBits;  // [layout]
 
 /// Which of the six axes a normal is nearest to.
 std::uint64_t wayOf(const Vec3& n) {
@@ -35,7 +33,7 @@ std::uint64_t codeOf(const Vec3& center, const Vec3& normal, const Vec3& origin,
 }  // namespace
 
 FaceOrder::FaceOrder(PrimitiveId primitive, const Mesh& mesh) : primitive_(primitive) {
-  constexpr std::size_t kBlock = 4096;
+  constexpr std::size_t kBlock = 4096;  // [task]
   const std::size_t n = mesh.triangles.size();
   Box box;
   for (const Vec3& p : mesh.positions) box.extend(p);
@@ -73,7 +71,7 @@ std::uint32_t FaceOrder::middleOf(const FaceRange& r) const {
 }
 
 std::vector<FaceRange> FaceOrder::inputs() const {
-  const std::uint32_t most = std::max(faces() / kInputs, kFewestOfInput);
+  const std::uint32_t most = std::max(faces() / tuning::kInputs, tuning::kFewestOfInput);
   std::vector<FaceRange> done, open{{0, faces()}};
   while (!open.empty()) {
     const FaceRange r = open.back();
@@ -119,7 +117,7 @@ std::vector<FaceOrder> faceOrders(const Scene& scene) {
   for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
     const PrimitiveId primitive(i);
     const auto* mesh = std::get_if<Mesh>(&scene::edits::restShape(scene, primitive));
-    if (mesh && mesh->triangles.size() >= kFine) orders.emplace_back(primitive, *mesh);
+    if (mesh && mesh->triangles.size() >= 2 * tuning::kFewestOfInput) orders.emplace_back(primitive, *mesh);
   }
   return orders;
 }

@@ -11,7 +11,7 @@ namespace deltalux::hierarchy {
 
 class LeafSequence {
  public:
-  static constexpr std::size_t kBatch = 16;
+  static constexpr std::size_t kBatch = 16;  // [task]
 
   /// The elements and the scene must outlive this.
   LeafSequence(const Elements& elements, const Scene& scene, ElementId leaf)
@@ -37,7 +37,7 @@ class LeafSequence {
   }
 
  private:
-  static constexpr std::uint64_t kPlaces = 0x706c616365735f5full;
+  static constexpr std::uint64_t kPlaces = 0x706c616365735f5full;  // [key]
 
   const Elements& elements_;
   const Scene& scene_;

@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "hierarchy/element.hpp"
+#include "hierarchy/tuning.hpp"
 
 namespace deltalux::hierarchy {
 
 /// Irradiance per radiosity of all around, of which a patch sends back a little less than there is.
 inline float mostReturned(const ElementLight& light) {
-  constexpr float kShare = 0.98f;  // of what a closed cavity of such patches would send
-  return kShare / std::max(maxChannel(light.rho + light.tau), 1e-3f);
+  return tuning::kMostReturned / std::max(maxChannel(light.rho + light.tau), 1e-3f);
 }
 
 }  // namespace deltalux::hierarchy

@@ -7,14 +7,13 @@
 #include "base/random.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/outline.hpp"
+#include "hierarchy/tuning.hpp"
 
 namespace deltalux::hierarchy {
 
 namespace {
 
-constexpr int kMaxDepth = 14;         // four bits below the 2 * 14 that addresses use
-constexpr double kLongAndThin = 1.6;  // aspect above which a patch is halved rather than quartered
-constexpr double kWall = 0.2;         // least height of what a patch is split along, in the patch's side
+constexpr int kMaxDepth = 14;  // four bits below the 2 * 14 that addresses use [layout]
 
 double areaScale(const PlaneFrame& f) { return glm::length(glm::cross(f.edgeU, f.edgeV)); }
 
@@ -130,22 +129,22 @@ void shapeCurved(Elements& elements, const Scene& scene, ElementId e) {
   const double du = d.u1 - d.u0, dv = d.v1 - d.v0;
 
   // A grid of points and normals bounds the patch, widened by how far the surface bulges between grid points.
-  constexpr int kGrid = 8;
-  std::array<Vec3f, (kGrid + 1) * (kGrid + 1)> normals;
+  std::array<Vec3f, (tuning::kGrid + 1) * (tuning::kGrid + 1)> normals;
   Box box;
   Vec3f mean(0.0f), center(0.0f);
   NormalMoments moments;
   float weights = 0;
   const auto* cone = std::get_if<Cone>(&shape);
-  for (int j = 0; j <= kGrid; ++j) {
-    for (int i = 0; i <= kGrid; ++i) {
-      const double v = d.v0 + dv * j / kGrid;
-      const SurfacePoint p = pointAt(shape, {d.u0 + du * i / kGrid, v});
+  for (int j = 0; j <= tuning::kGrid; ++j) {
+    for (int i = 0; i <= tuning::kGrid; ++i) {
+      const double v = d.v0 + dv * j / tuning::kGrid;
+      const SurfacePoint p = pointAt(shape, {d.u0 + du * i / tuning::kGrid, v});
       const Vec3f normal = sign * Vec3f(p.normal);
-      normals[static_cast<std::size_t>(j * (kGrid + 1) + i)] = normal;
+      normals[static_cast<std::size_t>(j * (tuning::kGrid + 1) + i)] = normal;
       box.extend(p.position);
       const float radius = cone ? static_cast<float>(cone->radius0 + v * (cone->radius1 - cone->radius0)) : 1.0f;
-      const float w = radius * (i == 0 || i == kGrid ? 0.5f : 1.0f) * (j == 0 || j == kGrid ? 0.5f : 1.0f);
+      const float w =
+          radius * (i == 0 || i == tuning::kGrid ? 0.5f : 1.0f) * (j == 0 || j == tuning::kGrid ? 0.5f : 1.0f);
       const auto y = harmonics(normal);
       for (int k = 0; k < kHarmonics; ++k) moments.m[k] += w * y[k];
       mean += w * normal;
@@ -157,7 +156,7 @@ void shapeCurved(Elements& elements, const Scene& scene, ElementId e) {
   elements.moments[e.index()] = moments;
   g.center = center / weights;
   const Box whole = bounds(shape);
-  const Turn turn = turnOf(shape, d, kGrid);
+  const Turn turn = turnOf(shape, d, tuning::kGrid);
   const double bulge = (1 - std::cos(std::min(kPi / 2, 0.5 * turn.angle))) * turn.radius;
   box = {glm::max(box.lower - bulge, whole.lower), glm::min(box.upper + bulge, whole.upper)};
   setExtent(g, box);
@@ -209,7 +208,7 @@ struct FaceSpread {
 };
 
 void shapeFaces(Elements& elements, const Scene& scene, ElementId e) {
-  constexpr std::size_t kBlock = 2048;
+  constexpr std::size_t kBlock = 2048;  // [task]
   const auto& mesh = std::get<Mesh>(scene[elements.domain[e.index()].primitive].shape);
   const FaceOrder& order = elements.orderOf(e);
   const FaceRange range = elements.facesOf(e);
@@ -280,14 +279,13 @@ void shapeDistant(Elements& elements, const Scene& scene, ElementId e) {
   const double halfAngle = sun ? sun->angularRadius : dome->halfAngle;
   g.area = static_cast<float>(4 * kPi * std::pow(std::sin(0.5 * halfAngle), 2) * (d.u1 - d.u0) * (d.v1 - d.v0));
 
-  constexpr int kGrid = 8;
   Vec3f mean(0.0f);
   RgbSum radiance(0.0);
-  for (int j = 0; j < kGrid; ++j) {
-    for (int i = 0; i < kGrid; ++i) {
-      const Vec3f w = directionOf(elements, scene, e, (i + 0.5) / kGrid, (j + 0.5) / kGrid);
+  for (int j = 0; j < tuning::kGrid; ++j) {
+    for (int i = 0; i < tuning::kGrid; ++i) {
+      const Vec3f w = directionOf(elements, scene, e, (i + 0.5) / tuning::kGrid, (j + 0.5) / tuning::kGrid);
       mean += w;
-      radiance += RgbSum(sun ? sun->radiance : skyRadiance(*dome, Vec3(w))) / double(kGrid * kGrid);
+      radiance += RgbSum(sun ? sun->radiance : skyRadiance(*dome, Vec3(w))) / double(tuning::kGrid * tuning::kGrid);
     }
   }
   r.B = Rgb(radiance) * light.scale;
@@ -298,14 +296,14 @@ void shapeDistant(Elements& elements, const Scene& scene, ElementId e) {
   const double distance = 100.0 * std::max(elements.sceneBox.diagonal(), 1e-6);
   const Vec3 origin = elements.sceneBox.empty() ? Vec3(0.0) : elements.sceneBox.center();
   Box box;
-  for (int j = 0; j <= kGrid; ++j) {
-    for (int i = 0; i <= kGrid; ++i) {
-      const Vec3f w = directionOf(elements, scene, e, double(i) / kGrid, double(j) / kGrid);
+  for (int j = 0; j <= tuning::kGrid; ++j) {
+    for (int i = 0; i <= tuning::kGrid; ++i) {
+      const Vec3f w = directionOf(elements, scene, e, double(i) / tuning::kGrid, double(j) / tuning::kGrid);
       g.normalCone = std::min(g.normalCone, glm::dot(w, g.center));
       box.extend(origin + distance * Vec3(w));
     }
   }
-  const double step = halfAngle * 2 * std::max(d.u1 - d.u0, d.v1 - d.v0) / kGrid;
+  const double step = halfAngle * 2 * std::max(d.u1 - d.u0, d.v1 - d.v0) / tuning::kGrid;
   const double bulge = distance * (1 - std::cos(std::min(kPi / 2, step)));
   setExtent(g, {box.lower - bulge, box.upper + bulge});
   g.radius = static_cast<float>(std::acos(std::clamp(g.normalCone, -1.0f, 1.0f)));  // angular, for distant elements
@@ -321,7 +319,7 @@ Walls wallsAcross(const Elements& elements, const Scene& scene, ElementId e) {
   if (!elements.at(e).flat) return {};
   const PatchDomain& d = elements.domain[e.index()];
   const Vec2 size = worldSize(elements, scene, e);
-  const auto height = static_cast<float>(kWall * std::sqrt(size.x * size.y));
+  const auto height = static_cast<float>(tuning::kWall * std::sqrt(size.x * size.y));
   return {elements.contacts.across({d.frame, 0, d.u0, d.u1, d.v0, d.v1}, height),
           elements.contacts.across({d.frame, 1, d.v0, d.v1, d.u0, d.u1}, height)};
 }
@@ -364,8 +362,9 @@ Parts partsOf(const Elements& elements, const Scene& scene, ElementId e) {
   float um = 0.5f * (whole.u0 + whole.u1), vm = 0.5f * (whole.v0 + whole.v1);
   if (parent.kind == ElementKind::Patch) {
     const Vec2 size = worldSize(elements, scene, e);
-    splitU = size.x * kLongAndThin > size.y;
-    splitV = size.y * kLongAndThin > size.x;
+    // Halved rather than quartered where halves are nearer to squares.
+    splitU = 2 * size.x * size.x > size.y * size.y;
+    splitV = 2 * size.y * size.y > size.x * size.x;
     if (const Walls walls = wallsAcross(elements, scene, e); walls) {
       splitU = walls.u.has_value(), splitV = walls.v.has_value();
       um = walls.u.value_or(um), vm = walls.v.value_or(vm);
@@ -469,7 +468,7 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
 }
 
 std::vector<char> subdivide(Elements& elements, const Scene& scene, std::span<const ElementId> all, KnownParts* known) {
-  constexpr std::size_t kBlock = 64;  // elements of a task
+  constexpr std::size_t kBlock = 64;  // elements of a task [task]
   std::vector<char> split(all.size(), true);
   std::vector<Parts> parts(all.size());
   parallelFor(all.size(), kBlock, [&](std::size_t i) {

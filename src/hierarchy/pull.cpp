@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "hierarchy/patch.hpp"
+#include "hierarchy/tuning.hpp"
 
 namespace deltalux::hierarchy {
 
 namespace {
 
-constexpr float kDarkest = 0.1f, kBrightest = 2.0f;  // tolerance of a leaf relative to its surface's first estimate
-constexpr float kLeast = 1e-12f;
+constexpr float kLeast = 1e-12f;  // [rounding]
 
 /// The same place on the other side of a surface, at no finer level; invalid when that side has no element.
 ElementId otherSide(const Elements& elements, ElementId leaf) {
@@ -56,8 +56,8 @@ void pullIrradiance(Elements& elements, std::size_t i) {
   ElementLight& light = elements.radiometry[i];
   if (t.childCount == 0) {
     // The first estimate is free of the leaks that a coarse solution has, so it bounds what may be tolerated.
-    light.tolerance = std::clamp(gray(light.direct + light.indirect + light.particle), kDarkest * light.typical,
-                                 kBrightest * light.typical);
+    light.tolerance = std::clamp(gray(light.direct + light.indirect + light.particle), tuning::kDarkest * light.typical,
+                                 tuning::kBrightest * light.typical);
     return;
   }
   RgbSum direct(0.0), indirect(0.0), particle(0.0);

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kLargestCoordinate = 1e9;  // coordinates beyond are mistakes
+constexpr double kLargestCoordinate = 1e9;  // coordinates beyond are mistakes [limit]
 
 /// Reads the entries of one file.
 class EntryReader {

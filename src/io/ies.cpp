@@ -17,7 +17,7 @@ void checkFlux(const io::IesRecord& record, const Photometry& photometry, const 
                std::vector<std::string>& warnings) {
   const double rated = record.lampCount * record.lumensPerLamp;
   const double flux = luminousFlux(photometry);
-  constexpr double kSlack = 1.1;
+  constexpr double kSlack = 1.1;  // [limit]
   if (rated > 0 && flux > kSlack * rated) {
     warnings.push_back(name + ": the candelas amount to " + std::to_string(std::lround(flux)) + " lm, its lamps to " +
                        std::to_string(std::lround(rated)) + " lm; check the candela multiplier");
@@ -34,7 +34,7 @@ PhotometryFile readPhotometry(std::string_view text, const std::string& name, co
   IesRecord record = parseIes(text, name, folder);
   PhotometryFile file;
   file.photometry = completePhotometry(record, name);
-  constexpr double kLargest = 1e15;  // lm
+  constexpr double kLargest = 1e15;  // lm [limit]
   if (!(luminousFlux(file.photometry) <= kLargest)) {
     throw InputError(name, 0, "its candela values are too large", "check the candela multiplier");
   }

@@ -25,7 +25,7 @@ std::array<float, 256> tableOf(TexelEncoding encoding) {
 
 // No format packs more texels into a byte; a header that says so is a trap for memory.
 bool plausibleSize(double width, double height, std::size_t bytes) {
-  constexpr double kMaxTexels = 64e6, kTexelsPerByte = 1e4;
+  constexpr double kMaxTexels = 64e6, kTexelsPerByte = 1e4;  // [limit]
   return width > 0 && height > 0 && width * height <= kMaxTexels &&
          width * height <= kTexelsPerByte * static_cast<double>(bytes);
 }
@@ -38,7 +38,7 @@ struct Pixels {
 };
 
 std::optional<Pixels> decode(std::string_view bytes, int channels) {
-  constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
+  constexpr std::size_t kMaxBytes = std::size_t{1} << 30;  // [limit]
   if (bytes.empty() || bytes.size() > kMaxBytes) return std::nullopt;
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = static_cast<int>(bytes.size());

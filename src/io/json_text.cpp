@@ -33,7 +33,7 @@ int lineAt(std::string_view text, std::size_t position) {
 }
 
 void checkDepth(std::string_view text, const std::string& name, const char* hint) {
-  constexpr int kMaxDepth = 100;
+  constexpr int kMaxDepth = 100;  // [limit]
   int depth = 0;
   forEachOutsideStrings(text, [&](std::size_t i) {
     if (text[i] == '}' || text[i] == ']') --depth;

@@ -49,7 +49,7 @@ std::optional<double> parseDecimal(std::string_view word) {
 }
 
 std::string notANumber(std::string_view word) {
-  constexpr std::size_t kShown = 40;
+  constexpr std::size_t kShown = 40;  // [shown]
   double value = 0;
   const bool huge = readDecimal(word, value) == Reading::Huge;
   return "'" + std::string(word.substr(0, kShown)) + (word.size() > kShown ? "...' " : "' ") +

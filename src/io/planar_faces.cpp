@@ -5,12 +5,14 @@
 #include <numeric>
 #include <optional>
 
+#include "hierarchy/tuning.hpp"
+
 namespace deltalux::io {
 
 namespace {
 
 // Relative to the mesh's size, and in the sines of angles: what single precision leaves of a plane.
-constexpr double kFlat = 1e-6;
+constexpr double kFlat = 1e-6;  // [rounding]
 
 using FaceCorners = std::array<std::uint32_t, 3>;
 
@@ -145,7 +147,8 @@ std::vector<Shape> planarFaces(Mesh mesh) {
     }
     return shapes;
   };
-  if (mesh.triangles.size() > kMaxFacetedTriangles || !mesh.texcoords.empty() || !isFlatShaded(mesh)) return asMesh();
+  if (mesh.triangles.size() > hierarchy::tuning::kInputs || !mesh.texcoords.empty() || !isFlatShaded(mesh))
+    return asMesh();
   const std::vector<FaceCorners> triangles = weldedTriangles(mesh);
   const std::vector<std::size_t> face = facesOf(mesh, triangles, sizeOf(mesh));
   std::vector<Shape> shapes;

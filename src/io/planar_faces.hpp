@@ -10,13 +10,9 @@
 
 namespace deltalux::io {
 
-/// Above this a mesh stays a mesh: it is a modelled shape rather than a box, and few elements are worth more than
-/// fitting ones.
-inline constexpr std::size_t kMaxFacetedTriangles = 64;
-
 /// The polygons that `mesh` (its tables need not be filled in) consists of; or the mesh itself when it has more than
-/// kMaxFacetedTriangles triangles, texture coordinates, normals that are not those of its faces, or a face that is no
-/// simple polygon. Empty when nothing of it has area.
+/// hierarchy::tuning::kInputs triangles, texture coordinates, normals that are not those of its faces, or a face that
+/// is no simple polygon. Empty when nothing of it has area.
 std::vector<Shape> planarFaces(Mesh mesh);
 
 }  // namespace deltalux::io

@@ -19,7 +19,7 @@ namespace deltalux {
 
 namespace {
 constexpr std::array<const char*, 6> kNeeded{"x", "y", "z", "nx", "ny", "nz"};
-constexpr double kLargestColumn = 1e15;  // coordinate
+constexpr double kLargestColumn = 1e15;  // coordinate [limit]
 constexpr const char* kExpected = "a points file starts with a row x,y,z,nx,ny,nz";
 
 /// Fields of one line; a comma within double quotes belongs to its field. [RFC 4180, one line per record]

@@ -50,7 +50,7 @@ struct LeastDistance {
 /// Whether a shape may cover some area of another: flat ones where they are parallel, to within what a contact's
 /// thickness over its width may be; curved ones only where both are of a kind.
 bool mayLieOn(const Shape& other, const Shape& own, bool flat, const Vec3& normal) {
-  constexpr double kParallel = 1 - 1e-5;
+  constexpr double kParallel = 1 - 1e-5;  // [rounding]
   if (std::holds_alternative<Mesh>(other)) return true;
   const auto* polygon = std::get_if<Polygon>(&other);
   const auto* ring = std::get_if<Ring>(&other);

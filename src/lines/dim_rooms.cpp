@@ -13,7 +13,7 @@ namespace deltalux::lines {
 
 namespace {
 
-constexpr std::size_t kRoomLeaves = 1024;  // of a task
+constexpr std::size_t kRoomLeaves = 1024;  // of a task [task]
 
 /// Lines of leaves, but of those that have lines in another lot the ones from there.
 struct Lots {

@@ -15,8 +15,8 @@ namespace deltalux::lines {
 
 namespace {
 
-constexpr std::uint64_t kWalkKey = 0x77616c6b73ull;
-constexpr std::size_t kMostWalkSteps = 8;  // that are kept one by one
+constexpr std::uint64_t kWalkKey = 0x77616c6b73ull;  // [key]
+constexpr std::size_t kMostWalkSteps = 8;            // that are kept one by one [task]
 
 /// Many short steps are as well told by the box that they run in.
 void putIntoBox(LightWalks& walks) {
@@ -108,7 +108,7 @@ class LightSearch {
 
 std::vector<LightWalks> walkForLight(const hierarchy::Elements& elements, const LineTracer& tracer,
                                      const KnownWalks& known, std::uint64_t& rays) {
-  constexpr std::size_t kBlock = 16;
+  constexpr std::size_t kBlock = 16;  // [task]
   const Scene& scene = tracer.scene();
   const double hollow =
       std::min(tuning::kHollow / scene.metresPerUnit, tuning::kHollowOfScene * elements.sceneBox.diagonal());

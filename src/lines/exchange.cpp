@@ -11,10 +11,10 @@ namespace deltalux::lines {
 
 namespace {
 
-constexpr std::size_t kLeaves = 512, kFewLeaves = 32;  // of a task
-constexpr float kLeastEnd = 1e-6f;                     // in place of a chance of 0
-constexpr std::uint32_t kMostCount = 0xffff;
-constexpr std::size_t kLanes = 8;
+constexpr std::size_t kLeaves = 512, kFewLeaves = 32;  // of a task [task]
+constexpr float kLeastEnd = 1e-6f;                     // in place of a chance of 0 [rounding]
+constexpr std::uint32_t kMostCount = 0xffff;           // [layout]
+constexpr std::size_t kLanes = 8;                      // [task]
 
 template <class T>
 T sumOf(const std::array<T, kLanes>& lanes) {

@@ -11,7 +11,7 @@ namespace deltalux::lines {
 /// One of them: where it ended, whatever leaf that is on.
 struct FirstLine {
   static constexpr std::uint32_t kAgain = KnownLines::kAgain;  // in place of the primitive: to be traced once more
-  static constexpr std::uint32_t kFront = 1u << 31;
+  static constexpr std::uint32_t kFront = 1u << 31;            // [layout]
 
   std::uint32_t primitive = kAgain;  // or a LineMark
   std::uint32_t triangle = 0;        // and kFront

@@ -6,6 +6,8 @@ namespace deltalux::lines {
 
 namespace {
 
+constexpr int kMostSegments = 64;  // panes included, where surfaces overlap without end [limit]
+
 /// Passes the surface straight on: direction and position stay on the line.
 void passStraight(tracing::Ray& ray, const tracing::Hit& hit) {
   ray.origin = tracing::offsetOrigin(hit.position, hit.normal, ray.direction);
@@ -18,7 +20,7 @@ LineEnd LineTracer::follow(tracing::Ray ray, tracing::Hit hit, Rng random, std::
   const Dielectric* medium = nullptr;
   float passed = 0;  // length of straight passages before the first other surface
   int events = 0;
-  for (int segment = 0; segment < tuning::kMostSegments; ++segment) {
+  for (int segment = 0; segment < kMostSegments; ++segment) {
     if (segment > 0) hit = tracer_.closestHit(ray);
     if (way) way->push_back({ray.origin, ray.direction, hit ? hit.t : std::numeric_limits<float>::infinity()});
     if (!hit) {

@@ -13,7 +13,7 @@ namespace deltalux::lines {
 
 namespace {
 
-constexpr std::size_t kLeafBlock = 1024;
+constexpr std::size_t kLeafBlock = 1024;  // [task]
 
 /// The faces of a fine mesh that a patch holds, or is part of.
 hierarchy::FaceRange facesAround(const hierarchy::Elements& elements, hierarchy::ElementId patch,
@@ -94,14 +94,14 @@ double relativeChange(const Rgb& before, const Rgb& now) {
 /// Where light is still on its way when the rest has converged, as in dark rooms and on what an edit has moved: passes
 /// over those leaves alone. `next`: what the last pass makes of light.B.
 void iterateLate(Exchange& exchange, LeafLight& light, std::span<const Rgb> next) {
-  constexpr double kArrived = 0.5 * tuning::kLeafConverged;  // that a pass over all may find it to be there
+  const double arrived = tuning::kLate * tuning::kLeafConverged;
   std::vector<std::uint32_t> late;
   for (std::uint32_t i = 0; i < next.size(); ++i)
-    if (relativeChange(light.B[i], next[i]) > kArrived) late.push_back(i);
+    if (relativeChange(light.B[i], next[i]) > arrived) late.push_back(i);
   std::ranges::copy(next, light.B.begin());
   std::vector<Rgb> own(late.size());
   double most = kInfinity;
-  for (int pass = 0; pass < tuning::kMostPasses && most > kArrived; ++pass) {
+  for (int pass = 0; pass < kMostPasses && most > arrived; ++pass) {
     exchange.gather(light.B, light.indirect, late);
     most = 0;
     for (std::size_t k = 0; k < late.size(); ++k) {

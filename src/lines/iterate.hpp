@@ -21,6 +21,9 @@ struct LeafLight {
 /// As `leaves` says of reflectances; no light yet.
 LeafLight leafLight(const hierarchy::Elements&, const hierarchy::LeafTable&);
 
+/// More than any scene needs: halls of white plaster take some fifty.
+inline constexpr int kMostPasses = 2048;  // [limit]
+
 struct IterationReport {
   int passes = 0;
   RgbSum emitted{0.0};   // by diffuse surfaces of their sources' light [W, unit^2 as area]

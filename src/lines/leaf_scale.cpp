@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/tuning.hpp"
 #include "lines/tuning.hpp"
 
 namespace deltalux::lines {
@@ -100,7 +101,7 @@ bool tooWide(const hierarchy::ElementGeometry& g, const LeafScale& scale, double
   const bool wide = scale.mean > slot && dim > tuning::kSlotDim;
   if (scale.mean <= tuning::kSlot * g.radius && !wide) return false;
   const double wider = std::clamp(1 / std::sqrt(std::max(dim, 1e-12)), 1.0, tuning::kDimWidth);
-  const double finer = wider * std::sqrt(error / tuning::kBaseError);
+  const double finer = wider * std::sqrt(error / deltalux::tuning::kUsualError);
   return g.radius > tuning::kWidth * finer * scale.harmonic &&
          g.radius > tuning::kFinestWidth * finer * std::max(scale.mean, g.meanFreePath);
 }

@@ -14,7 +14,7 @@ struct LineCode {
 };
 
 /// In place of an infinite length.
-inline constexpr float kEndless = 3e38f;
+inline constexpr float kEndless = 3e38f;  // [sentinel]
 
 /// The upper half of a float above `t`: seven bits after the point, so at most a 64th too far.
 inline std::uint16_t reachCode(float t) {
@@ -37,7 +37,7 @@ inline LineCode lineCode(const Vec3f& w, float t) {
 inline float lengthOf(LineCode code) { return std::bit_cast<float>(static_cast<std::uint32_t>(code.reach) << 16); }
 
 /// Angle between a direction and its code, at most [radians].
-inline constexpr float kDirectionError = 0.02f;
+inline constexpr float kDirectionError = 0.02f;  // [layout]
 
 /// Not of unit length; within a degree of the coded one.
 inline Vec3f direction(LineCode code) {

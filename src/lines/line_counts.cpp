@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/random.hpp"
+#include "base/tuning.hpp"
 #include "hierarchy/patch.hpp"
 #include "lines/tuning.hpp"
 
@@ -11,12 +12,12 @@ namespace deltalux::lines {
 
 namespace {
 
-constexpr std::uint64_t kCountKey = 0x636f756e74735f5full;
+constexpr std::uint64_t kCountKey = 0x636f756e74735f5full;  // [key]
 
 }  // namespace
 
 std::uint32_t baseLines(double error) {
-  const double lines = tuning::kBaseLines * std::pow(tuning::kBaseError / error, 2);
+  const double lines = tuning::kBaseLines * std::pow(deltalux::tuning::kUsualError / error, 2);
   return static_cast<std::uint32_t>(std::clamp(lines, double(tuning::kFirstLines), 65536.0));
 }
 

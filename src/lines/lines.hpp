@@ -94,8 +94,8 @@ struct FirstLines;
 /// Lines that were traced before and are what they would be now, but for those that are marked to be traced again.
 struct KnownLines {
   static constexpr std::uint32_t kAgain = kFirstMark - 1, kEscapedAgain = kFirstMark - 2,
-                                 kExceptionAgain = kFirstMark - 3;
-  static constexpr std::uint32_t kLeafAgain = 1u << 31;  // set in the leaf where such a line ended
+                                 kExceptionAgain = kFirstMark - 3;  // [sentinel]
+  static constexpr std::uint32_t kLeafAgain = 1u << 31;             // set in the leaf where such a line ended [layout]
 
   static bool isAgain(std::uint32_t end) { return end < kFirstMark && (end & kLeafAgain) != 0; }
   /// The leaf, of those that there are now, where a straight line ended, whether it holds or not; kNone for others.
@@ -143,7 +143,7 @@ class LineDirections {
   static Rng random(std::uint64_t leafKey, std::uint32_t i) { return Rng(combineKeys(leafKey, kKey + 1), i); }
 
  private:
-  static constexpr std::uint64_t kKey = 0x6c696e65735f5full;
+  static constexpr std::uint64_t kKey = 0x6c696e65735f5full;  // [key]
   ScrambledSobol directions_;
   Vec3f normal_{0, 0, 1};  // the latest: of flat leaves the only one
   Frame frame_{Vec3(0, 0, 1)};

@@ -9,7 +9,7 @@ namespace deltalux::lines {
 
 namespace {
 
-constexpr std::size_t kOwnLeaves = 1024;  // of a task
+constexpr std::size_t kOwnLeaves = 1024;  // of a task [task]
 
 }  // namespace
 

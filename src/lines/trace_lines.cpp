@@ -10,7 +10,7 @@ namespace deltalux::lines {
 
 namespace {
 
-constexpr std::size_t kBlock = 32;  // leaves of a task
+constexpr std::size_t kBlock = 32;  // leaves of a task [task]
 constexpr std::size_t kBatch = hierarchy::LeafSequence::kBatch;
 
 /// What a task has found of its leaves.

@@ -7,7 +7,6 @@ namespace deltalux::lines::tuning {
 /// Lines of a leaf of mean area and power at an error of 5 %; their noise falls as one over the root. Fewer: blotches
 /// on indirect light. More: time and memory in proportion.
 constexpr double kBaseLines = 144;
-constexpr double kBaseError = 0.05;
 /// Octaves of lines below and above the base. Fewer below: narrow places take most of the time. More above: large
 /// leaves do.
 constexpr int kFewestOctaves = -2, kMostOctaves = 4;
@@ -26,8 +25,6 @@ constexpr int kFirstLines = 16;
 constexpr int kMostEvents = 8;
 /// Least chance that a line ends on what has any diffuse part. Less: the few lines that end on metal weigh much.
 constexpr float kLeastEnding = 0.2f;
-/// Segments of a line, panes included: a guard against surfaces that overlap without end.
-constexpr int kMostSegments = 64;
 /// Widest leaf, in harmonic mean distances of its lines, at an error of 5 %. Wider: indirect light is smeared out.
 constexpr double kWidth = 0.4;
 /// Narrowest leaf that is still split for its width, in mean distances about its surface. Narrower: corners fill with
@@ -42,12 +39,10 @@ constexpr double kSlot = 0.5;
 /// [m], and the same relative to the scene's diagonal. Larger: the floor of a wide room that no lamp shines on is one
 /// leaf. Less: gaps between logs fill with leaves.
 constexpr double kSlotWidth = 1, kSlotOfScene = 0.1, kSlotDim = 10;
-/// Least mean free path of a surface, relative to what is usual below a cluster so many above it. Less, fewer: narrow
-/// places fill with leaves.
+/// Least mean free path of a surface, relative to what is usual below a cluster so many above it, and of a part,
+/// relative to the mean distance of what it is part of. Less, fewer: narrow places and corners fill with leaves.
 constexpr double kSurroundings = 0.5;
 constexpr int kClustersUp = 3;
-/// The same of a part, relative to the mean distance of what it is part of. Less: corners fill with leaves.
-constexpr float kOfWhole = 0.5f;
 
 /// Walks that look for light from an input-level side, and their bounces; the first steps tell how wide the hollow is.
 /// Fewer: slots that light reaches after some bounces are taken for closed hollows.
@@ -71,15 +66,17 @@ constexpr float kMostMissed = 1.25f;
 constexpr int kScalingPasses = 8;
 /// Most and least that one leaf's exchange is scaled by. Wider: leaves with a handful of lines run away.
 constexpr float kMostScale = 4;
-/// Power that changes in the last pass, relative to emitted, and the most passes.
+/// Power that changes in the last pass, relative to emitted. Larger: halls of white plaster are too dark.
 constexpr double kConverged = 1e-6;
 /// The same of an update, which starts from the light there was.
 constexpr double kConvergedAgain = 1e-5;
 /// Most that a leaf's radiosity changes in the last pass, relative. Larger: dark rooms beside bright places are not
 /// done.
 constexpr double kLeafConverged = 6e-3;
+/// Share of that above which a leaf takes part in passes over late ones. Larger: passes over all must follow. Smaller:
+/// most leaves are late.
+constexpr double kLate = 0.5;
 /// The same of the coarse light, by which the mesh is refined. Larger: dark rooms are meshed for too little light.
 constexpr double kCoarseConverged = 1e-3;
-constexpr int kMostPasses = 2048;
 
 }  // namespace deltalux::lines::tuning

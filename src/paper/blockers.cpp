@@ -5,12 +5,11 @@
 
 #include "paper/rounding.hpp"
 #include "paper/separation.hpp"
+#include "paper/tuning.hpp"
 
 namespace deltalux::paper {
 
 namespace {
-
-constexpr std::size_t kOpenLimit = 48;  // longer lists keep clusters closed: rays are then cheaper than boxes
 
 float reach(const Vec3f& lower, const Vec3f& upper, const Vec3f& p, const Vec3f& n) {
   return glm::dot(0.5f * (upper + lower) - p, n) + glm::dot(0.5f * (upper - lower), glm::abs(n));
@@ -59,7 +58,7 @@ struct Ends {
 
   void collect(hierarchy::ElementId candidate, Blockers& out, std::size_t begin) const {
     if (!mayBlock(candidate)) return;
-    if (!elements.isCluster(candidate) || out.size() - begin >= kOpenLimit) {
+    if (!elements.isCluster(candidate) || out.size() - begin >= tuning::kLongList) {
       out.push_back(candidate);
       return;
     }

@@ -42,7 +42,7 @@ class BoxGroups {
   }
 
  private:
-  static constexpr std::size_t kGroup = 8;
+  static constexpr std::size_t kGroup = 8;  // [task]
 
   /// The level above one that has just outgrown a group.
   static std::vector<Part> firstOf(const std::vector<Part>& below) {

@@ -8,21 +8,19 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/sort_unique.hpp"
+#include "base/tuning.hpp"
 #include "hierarchy/below.hpp"
+#include "hierarchy/tuning.hpp"
 #include "paper/side_estimator.hpp"
+#include "particles/tuning.hpp"
 
 namespace deltalux::paper {
 
 namespace {
 
-constexpr std::size_t kLooks = 32;    // rays of a side, before paths
-constexpr std::size_t kLines = 1024;  // through a box that was left
-constexpr std::size_t kBoxes = 8;     // more are taken for one
-constexpr double kMargin = 0.01;      // of a box's diagonal: how far beside it counts as in it
-constexpr double kNearBox = 0.1;      // and as close by
-constexpr std::uint64_t kLineKey = 0x756e636f7665726cull;
+constexpr std::uint64_t kLineKey = 0x756e636f7665726cull;  // [key]
 
-Box widened(const Box& box, double share = kMargin) {
+Box widened(const Box& box, double share = hierarchy::tuning::kTouching) {
   const double margin = share * box.diagonal();
   return {box.lower - margin, box.upper + margin};
 }
@@ -43,7 +41,7 @@ std::vector<Box> joined(std::span<const Box> boxes) {
     }
     result.push_back(box);
   }
-  if (result.size() <= kBoxes) return result;
+  if (result.size() <= deltalux::tuning::kBoxes) return result;
   Box all;
   for (const Box& box : result) all.extend(box);
   return {all};
@@ -72,7 +70,7 @@ class Search {
       });
     std::vector<char> open(dark.size(), 0);
     parallelFor(dark.size(), 8, [&](std::size_t i) {
-      const auto met = estimator_.firstMet(dark[i], kLooks);
+      const auto met = estimator_.firstMet(dark[i], deltalux::tuning::kPilots);
       open[i] = std::any_of(met.begin(), met.end(), [&](const tracing::Hit& hit) {
         return !hit || !moves(hit.primitive) || isLit(sideOf(hit));
       });
@@ -87,7 +85,7 @@ class Search {
     for (std::size_t b = 0; b < boxes.size(); ++b) {
       Rng rng(combineKeys(kLineKey, b));
       const Box box = widened(boxes[b]);
-      for (std::size_t k = 0; k < kLines; ++k) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(particles::tuning::kMostLooks); ++k) {
         tracing::Ray ray;
         const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
         ray.origin = Vec3f(box.lower + Vec3(x, y, z) * box.extent());
@@ -129,8 +127,9 @@ class Search {
           return std::any_of(within.begin(), within.end(), [&](const Box& box) { return box.overlaps(own); });
         if (!isAwake(e) || elements_.at(e).blocker) return false;
         const hierarchy::Side s = elements_.sideOf(e);
-        if (std::any_of(within.begin(), within.end(),
-                        [&](const Box& box) { return holds(box, own) && noRayLeaves(widened(box, kNearBox), s); }))
+        if (std::any_of(within.begin(), within.end(), [&](const Box& box) {
+              return holds(box, own) && noRayLeaves(widened(box, hierarchy::tuning::kTouching), s);
+            }))
           closed.push_back(s);
         return false;
       });
@@ -165,7 +164,7 @@ class Search {
   /// Those that meet nothing are of sides that lie upon others, or of a scene that is open: no light comes from there
   /// without a sky.
   bool noRayLeaves(const Box& box, const hierarchy::Side& side) const {
-    const auto met = estimator_.firstMet(side, kLooks);
+    const auto met = estimator_.firstMet(side, deltalux::tuning::kPilots);
     return std::all_of(met.begin(), met.end(),
                        [&](const tracing::Hit& hit) { return hit ? box.contains(Vec3(hit.position)) : !openSky_; });
   }

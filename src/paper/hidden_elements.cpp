@@ -5,15 +5,13 @@
 #include <cmath>
 
 #include "paper/separation.hpp"
+#include "paper/tuning.hpp"
 
 namespace deltalux::paper {
 
 namespace {
 
-constexpr double kLeastCovered = 0.05;  // solid angle of a polygon about the region's middle: less hides little
-constexpr double kSlack = 1e-5;         // of the coordinates: what must lie between, for what rounding does
-constexpr int kFinest = 2;              // subdivisions of the input level that are told apart
-constexpr std::size_t kMostEdges = 8;   // polygons with more are taken by their triangles
+constexpr double kSlack = 1e-5;  // of the coordinates: what must lie between, for what rounding does [rounding]
 
 bool isConvex(std::span<const Vec3> outline, const Vec3& normal) {
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -62,7 +60,7 @@ class Umbras {
   void collect(hierarchy::ElementId e) {
     const hierarchy::ElementGeometry& g = elements_.shape(e);
     const Vec3 away = glm::max(glm::max(region_.lower - Vec3(g.upper), Vec3(g.lower) - region_.upper), Vec3(0.0));
-    if (kPi * g.radius * g.radius < kLeastCovered * glm::dot(away, away)) return;
+    if (kPi * g.radius * g.radius < tuning::kLeastCovered * glm::dot(away, away)) return;
     if (elements_.isPatch(e)) return collectPatch(e);
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) collect(elements_.child(e, i));
   }
@@ -77,7 +75,7 @@ class Umbras {
     const hierarchy::PlaneFrame& f = elements_.frames[d.frame];
     std::vector<Vec3> outline;
     for (const Vec2& q : elements_.outline(e)) outline.push_back(f.at(q));
-    if (outline.size() <= kMostEdges && isConvex(outline, f.normal)) return add(e, outline, f.normal);
+    if (outline.size() <= kMostCorners && isConvex(outline, f.normal)) return add(e, outline, f.normal);
     const auto* polygon = std::get_if<Polygon>(&scene_[d.primitive].shape);
     if (!polygon) return;
     for (const auto& triangle : polygon->triangles) {
@@ -97,7 +95,7 @@ class Umbras {
     const Vec3 d = center - middle_;
     const double squared = glm::dot(d, d);
     const double covered = std::abs(glm::dot(area, d)) / (squared * std::sqrt(squared));
-    if (!(covered > kLeastCovered)) return;
+    if (!(covered > tuning::kLeastCovered)) return;
     if (glm::dot(normal, d) < 0) normal = -normal;  // beyond is where it points
     const double slack = slackAt(center);
     std::array<double, 8> depth;
@@ -156,7 +154,7 @@ class Umbras {
       if (place == Place::Across) candidates_.push_back(candidates_[i]);
     }
     const std::size_t ownEnd = candidates_.size();
-    if (ownEnd > own && !(elements_.isPatch(e) && elements_.at(e).depth >= kFinest))
+    if (ownEnd > own && !(elements_.isPatch(e) && elements_.at(e).depth >= tuning::kFinestHidden))
       for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) find(elements_.child(e, i), own, ownEnd);
     candidates_.resize(own);
   }

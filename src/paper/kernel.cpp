@@ -7,16 +7,12 @@
 #include "hierarchy/patch.hpp"
 #include "paper/facing.hpp"
 #include "paper/rounding.hpp"
+#include "paper/tuning.hpp"
 #include "scene/form_factor.hpp"
 
 namespace deltalux::paper {
 
 namespace {
-
-constexpr double kQuadrature =
-    0.1;                       // error of the mean over a sender's nodes, relative to their spread: a uniform sender is
-                               // integrated, not sampled, and splitting it would only hide the receiver's error
-constexpr float kNear = 5.0f;  // in radii of the sender: nearer than this, Lambert's formula replaces the nodes
 
 bool isZero(const Vec3f& v) { return v.x == 0.0f && v.y == 0.0f && v.z == 0.0f; }
 
@@ -167,7 +163,7 @@ double kernelAtPoint(const hierarchy::Elements& elements, const Scene& scene, co
   const Emission* directional = directionalEmission(elements, scene, sender);
   if (elements.isPatch(sender) && elements.at(sender).flat && !isZero(n) && (!directional || isWindow(*directional))) {
     const Vec3f d = g.center - x;
-    if (glm::dot(d, d) < kNear * kNear * g.radius * g.radius) {
+    if (glm::dot(d, d) < tuning::kNear * tuning::kNear * g.radius * g.radius) {
       // A point in its plane may come to lie above it by rounding, and would see half of it: the other side of a leaf.
       if (glm::dot(x - g.center, g.normal) <= roundingAlong(g.normal, x, g)) return 0;
       std::array<Vec3f, 64> outline;
@@ -293,14 +289,14 @@ Kernel kernel(const hierarchy::Elements& elements, const Scene& scene, hierarchy
     if (st.kind == hierarchy::ElementKind::Patch || st.kind == hierarchy::ElementKind::Distant) k *= s.area;
     low = std::min(low, k), high = std::max(high, k);
   }
-  if (high > 0) result.senderSpread = static_cast<float>(kQuadrature * std::min(high - low, 2 * mean));
+  if (high > 0) result.senderSpread = static_cast<float>(tuning::kQuadrature * std::min(high - low, 2 * mean));
   // The inverse square counts from centres, and the harmonics from one direction.
   const float d = distant ? 1e30f : glm::length(r.center - s.center);
   if (clusterSender) {
-    result.senderSpread += (kClusterSpread + std::min(1.0f, s.radius / d)) * result.K;
+    result.senderSpread += (tuning::kClusterSpread + std::min(1.0f, s.radius / d)) * result.K;
     result.receiverSpread += std::min(1.0f, 0.5f * r.radius / d) * result.K;
   }
-  if (clusterReceiver) result.receiverSpread += (kClusterSpread + std::min(1.0f, r.radius / d)) * result.K;
+  if (clusterReceiver) result.receiverSpread += (tuning::kClusterSpread + std::min(1.0f, r.radius / d)) * result.K;
   return result;
 }
 

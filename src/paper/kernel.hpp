@@ -29,8 +29,4 @@ Kernel kernel(const hierarchy::Elements&, const Scene&, hierarchy::ElementId rec
 double pointKernel(const hierarchy::Elements&, const Scene&, const Vec3f& x, const Vec3f& n,
                    hierarchy::ElementId sender, const Vec3f& y, const Vec3f& m);
 
-/// What a link to or from a cluster leaves unknown in any case, relative to K: order-2 harmonics for clamped cosines,
-/// one visibility for surfaces of unlike brightness.
-inline constexpr float kClusterSpread = 0.3f;
-
 }  // namespace deltalux::paper

@@ -14,7 +14,7 @@ void append(const std::vector<T>& from, std::vector<T>& to) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-constexpr float kBesideCell = 1.05f;  // of the angle of a sky's cell: no direction of it is farther from its centre
+constexpr float kBesideCell = 1.05f;  // of the angle of a sky's cell: none of it is farther from its centre [rounding]
 }  // namespace
 
 struct LineSpace::Finding {
@@ -101,7 +101,7 @@ void LineSpace::examine(std::span<const hierarchy::LinkId> links, Block& found) 
 }
 
 LinkMarks LineSpace::visit() const {
-  constexpr std::size_t kBlock = 256;
+  constexpr std::size_t kBlock = 256;  // [task]
   LinkMarks marks;
   std::vector<hierarchy::LinkId> level = links_.roots, next;
   while (!level.empty()) {

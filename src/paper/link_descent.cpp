@@ -9,7 +9,7 @@ namespace deltalux::paper {
 
 namespace {
 
-constexpr std::size_t kLinkBlock = 64;
+constexpr std::size_t kLinkBlock = 64;  // [task]
 
 /// Children of `link` after splitting its end(s), appended contiguously. False when the end cannot be split.
 bool splitLink(hierarchy::Links& links, hierarchy::Elements& elements, const Scene& scene, hierarchy::LinkId id,

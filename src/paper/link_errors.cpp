@@ -9,8 +9,8 @@ namespace deltalux::paper {
 
 namespace {
 
-constexpr double kBinsPerOctave = 4, kLowest = -12;
-constexpr double kParts = 4;
+constexpr double kBinsPerOctave = 4, kLowest = -12;  // [layout]
+constexpr double kParts = 4;                         // links that one is split into [defined]
 
 }  // namespace
 

@@ -17,7 +17,7 @@ class LinkErrors {
   double madeBy(double error) const;
 
  private:
-  static constexpr int kBins = 96;  // four to an octave, from 2^-12 to 2^12
+  static constexpr int kBins = 96;  // four to an octave, from 2^-12 to 2^12 [layout]
   double judgedAt_;
   std::array<std::uint64_t, kBins> count_{};
 };

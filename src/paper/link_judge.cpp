@@ -5,16 +5,11 @@
 #include <utility>
 
 #include "paper/kernel.hpp"
+#include "paper/tuning.hpp"
 
 namespace deltalux::paper {
 
 namespace {
-
-constexpr int kSomeSamples = 8, kManySamples = 16;
-constexpr std::size_t kShortList = 8;  // of blockers: sooner looked through than rays are traced
-constexpr std::size_t kHandedOn = 32;  // of blockers: links below look through them as soon as their parent does
-constexpr float kFineCell = 0.2f;      // radians: sky cells larger than this are split before the surface they light
-constexpr float kFinestCell = 0.06f;   // radians: smaller ones are not split
 
 bool open(const hierarchy::Link& l) {
   return l.visibility == hierarchy::Visibility::Unknown || l.visibility == hierarchy::Visibility::Sampled;
@@ -75,7 +70,7 @@ bool LinkJudge::couple(hierarchy::Link& link, const Candidates& candidates, Verd
 void LinkJudge::see(hierarchy::Link& link, int least, bool saw, const Candidates& candidates, Verdict& v) const {
   OwnBlockers blockers(*this, link, candidates, v);
   const bool solid = solidEnds(link), unknown = link.visibility == hierarchy::Visibility::Unknown;
-  if (unknown && !(saw && (candidates.count > kShortList || !solid))) {
+  if (unknown && !(saw && (candidates.count > tuning::kShortList || !solid))) {
     if (blockers.list().empty() && solid)
       prove(link, hierarchy::Visibility::Clear);
     else if (!saw)
@@ -136,7 +131,7 @@ Verdict LinkJudge::judgeBetween(const hierarchy::Link& before, std::uint32_t ray
 }
 
 Verdict LinkJudge::pass(const hierarchy::Link& link, const Candidates& candidates) const {
-  if (candidates.count <= kHandedOn) return passUnseen(link, candidates);
+  if (candidates.count <= tuning::kLongList) return passUnseen(link, candidates);
   Verdict v;
   v.link = link;
   OwnBlockers(*this, link, candidates, v).list();
@@ -184,7 +179,7 @@ bool LinkJudge::sends(hierarchy::ElementId sender) const {
 int LinkJudge::wantedSamples(const hierarchy::Link& link, const LinkError& e) const {
   if (!open(link)) return 0;
   const double weight = e.power / std::max(e.budget, 1e-30);
-  return weight < 0.5 ? kFewSamples : weight < 2 ? kSomeSamples : kManySamples;
+  return tuning::kFewSamples << (weight < 0.5 ? 0 : weight < 2 ? 1 : 2);
 }
 
 /// Few rays, and more when the kernel alone does not already demand a split.
@@ -196,9 +191,9 @@ void LinkJudge::look(hierarchy::Link& link, int least, VisibilitySamples& sample
     link.visibility = hierarchy::Visibility::Sampled;
   };
   const int wanted = std::max(least, wantedSamples(link, oracle_.judge(link)));
-  take(std::min(wanted, kFewSamples));
+  take(std::min(wanted, tuning::kFewSamples));
   const LinkError e = oracle_.judge(link);
-  if (wanted > kFewSamples && !(e.receiver + e.sender > e.budget)) take(wanted);
+  if (wanted > tuning::kFewSamples && !(e.receiver + e.sender > e.budget)) take(wanted);
 }
 
 Split LinkJudge::splitOverlapping(const hierarchy::Link& link) const {
@@ -220,7 +215,7 @@ Split LinkJudge::choose(const hierarchy::Link& link) const {
 }
 
 bool LinkJudge::senderDivisible(hierarchy::ElementId sender) const {
-  if (elements_.isDistant(sender)) return !isSun(sender) && elements_.shape(sender).radius > kFinestCell;
+  if (elements_.isDistant(sender)) return !isSun(sender) && elements_.shape(sender).radius > tuning::kFinestCell;
   return oracle_.divisible(sender);
 }
 
@@ -242,7 +237,7 @@ Split LinkJudge::prefer(const hierarchy::Link& link) const {
   if (!(e.total() > e.budget)) return Split::None;
   if (link.receiver == link.sender) return Split::Both;
   if (elements_.isDistant(link.sender)) {
-    if (!isSun(link.sender) && s.radius > kFineCell) return Split::Sender;
+    if (!isSun(link.sender) && s.radius > tuning::kFineCell) return Split::Sender;
     return Split::Receiver;
   }
   if (elements_.isPoint(link.sender)) return Split::Receiver;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tuning.hpp"
+#include "paper/tuning.hpp"
+
 namespace deltalux::paper {
 
 namespace {
@@ -11,9 +14,8 @@ namespace {
 /// the receiver, and never less than a share of its mean, since harmonics blur what faces away.
 double senderStrength(const hierarchy::Elements& elements, hierarchy::ElementId sender, hierarchy::ElementId receiver) {
   if (!elements.isCluster(sender)) return gray(elements.radiometry[sender.index()].B);
-  constexpr float kBlur = 0.25f, kMeanOfConstant = 0.28209479f;
   const hierarchy::DirectionalRgb& intensity = elements.cluster(sender).intensity;
-  float most = kBlur * kMeanOfConstant * std::max(0.0f, gray(intensity.c[0]));
+  float most = tuning::kClusterSpread * hierarchy::kConstantHarmonic * std::max(0.0f, gray(intensity.c[0]));
   for (const Vec3f& x : elements.nodes[receiver.index()].position) {
     const Vec3f w = x - elements.shape(sender).center;
     const float length = glm::length(w);
@@ -44,7 +46,7 @@ Oracle::Oracle(const hierarchy::Elements& elements, const OracleSettings& settin
   // Where nothing lit is seen, a thousandth of the scene's mean is dark enough.
   if (elements.sceneRoot.valid()) {
     const hierarchy::ElementLight& root = elements.radiometry[elements.sceneRoot.index()];
-    floor_ = 1e-3 * gray(root.direct + root.indirect);
+    floor_ = deltalux::tuning::kNegligible * gray(root.direct + root.indirect);
   }
 }
 

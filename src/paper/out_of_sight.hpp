@@ -20,7 +20,7 @@ class OutOfSight {
   bool holds(hierarchy::ElementId e) const { return state(e) == kHidden; }
 
  private:
-  static constexpr std::uint8_t kUnknown = 0, kSeen = 1, kHidden = 2;
+  static constexpr std::uint8_t kUnknown = 0, kSeen = 1, kHidden = 2;  // [sentinel]
 
   std::uint8_t state(hierarchy::ElementId) const;
   bool behind(hierarchy::ElementId) const;

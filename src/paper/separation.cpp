@@ -9,7 +9,7 @@ namespace deltalux::paper {
 
 namespace {
 
-constexpr double kRounding = 0x1p-23;
+constexpr double kRounding = 0x1p-23;  // [rounding]
 
 bool segmentMeetsRectangle(const Vec2& a, const Vec2& b, const Vec2& lower, const Vec2& upper) {
   // Clip the segment against the rectangle [LB84].

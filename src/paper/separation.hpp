@@ -7,7 +7,7 @@
 
 namespace deltalux::paper {
 
-inline constexpr std::size_t kMostCorners = 12;
+inline constexpr std::size_t kMostCorners = 12;  // [layout]
 
 /// Of a box.
 std::array<Vec3, 8> cornersOf(const Vec3& lower, const Vec3& upper);

@@ -15,7 +15,7 @@ class Shaft {
   bool meets(const Vec3f& lower, const Vec3f& upper) const;
 
  private:
-  static constexpr std::size_t kLanes = 16;
+  static constexpr std::size_t kLanes = 16;  // [task]
   using Lanes = std::array<float, kLanes>;
 
   Vec3f lower_, upper_;

@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tuning.hpp"
+#include "paper/tuning.hpp"
+#include "particles/tuning.hpp"
+
 namespace deltalux::paper {
 
 namespace {
 
-constexpr std::uint64_t kPathBudget = 1u << 17;
-constexpr std::size_t kMost = 64;                           // paths of one side
-constexpr std::size_t kFewest = 24, kFewestOfTriangle = 8;  // a mesh's triangles speak for each other
-constexpr int kBounces = 3;
-constexpr std::size_t kPicked = 3;     // lights a vertex looks at
-constexpr int kPanes = 8;              // panes that a ray passes before it is given up
-constexpr float kSwitchedOff = 1e-3f;  // of what a light is worth that is off
+constexpr int kPanes = 64;  // panes that a ray passes before it is given up [limit]
 
-Rgb scaleOf(const Light& light) { return isBlack(light.scale) ? Rgb(kSwitchedOff) : light.scale; }
+Rgb scaleOf(const Light& light) { return isBlack(light.scale) ? Rgb(deltalux::tuning::kNegligible) : light.scale; }
 
 Vec3f cosineDirection(const Vec3& normal, Rng& rng) {
   const double r = std::sqrt(rng.uniform()), phi = 2 * kPi * rng.uniform();
@@ -27,7 +25,8 @@ Vec3f cosineDirection(const Vec3& normal, Rng& rng) {
 SideEstimator::SideEstimator(const Scene& scene, const tracing::RayTracer& tracer, std::size_t sides)
     : scene_(scene),
       tracer_(tracer),
-      rays_(std::clamp<std::size_t>(kPathBudget / std::max<std::size_t>(sides, 1), kFewestOfTriangle, kMost)) {}
+      rays_(std::clamp<std::size_t>(tuning::kPathBudget / std::max<std::size_t>(sides, 1), particles::tuning::kLooks,
+                                    tuning::kMostPaths)) {}
 
 double SideEstimator::diagonal() const {
   std::call_once(measured_, [&] { diagonal_ = bounds(scene_).diagonal(); });
@@ -96,7 +95,7 @@ SideEstimate SideEstimator::estimate(const hierarchy::Side& side) const {
   SideEstimate e;
   e.side = {side.primitive, side.triangle, side.front};
   const bool triangle = std::holds_alternative<Mesh>(scene_[side.primitive].shape);
-  const std::size_t rays = triangle ? rays_ : std::max(rays_, kFewest);
+  const std::size_t rays = triangle ? rays_ : std::max(rays_, static_cast<std::size_t>(deltalux::tuning::kPilots));
   if (hidden(side, rays)) return e;
   Rng rng(combineKeys(combineKeys(side.primitive.value, side.triangle), side.front));
   double path = 0;
@@ -109,7 +108,7 @@ SideEstimate SideEstimator::estimate(const hierarchy::Side& side) const {
     const double u = (double(k) + rng.uniform()) / double(rays), v = rng.uniform();
     Origin o = pointOnSide(side, {u, v});
     Rgb throughput(1.0f);
-    for (int bounce = 0; bounce <= kBounces; ++bounce) {
+    for (int bounce = 0; bounce <= deltalux::tuning::kPilotBounces; ++bounce) {
       const Rgb direct = directAt(o, rng);
       if (bounce == 0) {
         root += std::sqrt(gray(direct)) / double(rays);
@@ -120,7 +119,7 @@ SideEstimate SideEstimator::estimate(const hierarchy::Side& side) const {
       float t = 0;
       Rgb through(1.0f);
       const tracing::Hit hit = look(o, w, rng, through, t);
-      e.rays += 1 + std::min(scene_.lights.size(), kPicked);
+      e.rays += 1 + std::min(scene_.lights.size(), tuning::kPickedLights);
       if (!hit) {
         for (const Light& light : scene_.lights)
           if (const auto* dome = std::get_if<DomeLight>(&light.emitter))
@@ -171,10 +170,11 @@ Rgb SideEstimator::directAt(const Origin& o, Rng& rng) const {
   // A few lights picked at random stand for all of them.
   const std::size_t lights = scene_.lights.size();
   Rgb sum(0.0f);
-  for (std::size_t k = 0; k < std::min(lights, kPicked); ++k) {
+  for (std::size_t k = 0; k < std::min(lights, tuning::kPickedLights); ++k) {
     const std::size_t index =
-        lights <= kPicked ? k : static_cast<std::size_t>(rng.uniform() * static_cast<double>(lights));
-    const float weight = lights <= kPicked ? 1.0f : static_cast<float>(lights) / float(kPicked);
+        lights <= tuning::kPickedLights ? k : static_cast<std::size_t>(rng.uniform() * static_cast<double>(lights));
+    const float weight =
+        lights <= tuning::kPickedLights ? 1.0f : static_cast<float>(lights) / float(tuning::kPickedLights);
     sum += weight * fromLight(o, scene_.lights[index], rng);
   }
   return sum;

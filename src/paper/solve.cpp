@@ -5,17 +5,14 @@
 #include "base/parallel.hpp"
 #include "paper/gather.hpp"
 #include "paper/push_pull.hpp"
+#include "paper/tuning.hpp"
 #include "scene/nominal_scale.hpp"
 
 namespace deltalux::paper {
 
 namespace {
 
-// What links may err by, for an error of irradiance (docs/links.md): errors of links add up to less, as they differ in
-// sign. Smaller ones cost memory first: half the error, two thirds more links.
-constexpr double kLinkError = 4;
-constexpr double kFactor = 0.35;      // from round to round
-constexpr int kMaxIterations = 1024;  // halls of white plaster settle in some fifty
+constexpr int kMaxIterations = 1024;  // halls of white plaster settle in some fifty [limit]
 
 RgbSum directPower(const hierarchy::Elements& e) {
   return parallelSum<RgbSum>(e.inputs.size(), 4096, [&](std::size_t i) {
@@ -29,11 +26,11 @@ RgbSum directPower(const hierarchy::Elements& e) {
 
 OracleSettings judgedFor(double error) {
   OracleSettings settings;
-  settings.error = kLinkError * error;
+  settings.error = tuning::kLinkError * error;
   return settings;
 }
 
-double nextError(double error, double least) { return std::max(least, kFactor * error); }
+double nextError(double error, double least) { return std::max(least, tuning::kRounds * error); }
 
 Settled settle(const Parts& parts, const particles::ParticleTransfer& onMesh, double unsettled,
                const std::function<bool(const Settled&)>& goOn) {

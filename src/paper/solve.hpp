@@ -7,9 +7,11 @@
 // nanoseconds a link and iteration. Nothing here depends on the number of threads.
 #include <functional>
 
+#include "base/tuning.hpp"
 #include "hierarchy/link.hpp"
 #include "paper/oracle.hpp"
 #include "paper/refine.hpp"
+#include "paper/tuning.hpp"
 #include "particles/transfer.hpp"
 
 namespace deltalux::paper {
@@ -34,8 +36,9 @@ struct Settled {
   bool whole = false;  // as little is unsettled as shall be
 };
 
-constexpr double kSettled = 1e-3;      // unsettled power between rounds, relative to what arrives of lights
-constexpr double kSettledWell = 1e-5;  // the same in the end: dark corners too shall be right
+constexpr double kSettled =
+    deltalux::tuning::kNegligible;                     // unsettled power between rounds, over what arrives of lights
+constexpr double kSettledWell = tuning::kSettledWell;  // the same in the end: dark corners too shall be right
 
 /// Gathers over all links, and from particles, until light no longer changes, from the light there is. `goOn` is asked
 /// after every iteration.

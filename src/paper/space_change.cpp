@@ -10,7 +10,7 @@ namespace deltalux::paper {
 
 namespace {
 
-constexpr float kBoxSlack = 1e-5f;  // of the coordinates: boxes are grown by what single precision loses
+constexpr float kBoxSlack = 1e-5f;  // of the coordinates: boxes are grown by what single precision loses [rounding]
 
 bool segmentMeets(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& ray) {
   float near = ray.tNear, far = ray.tFar;
@@ -31,7 +31,7 @@ bool segmentMeets(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& ra
 /// box. The centres of those that do lie where the segment meets the box as it is larger by their largest radius: no
 /// others count, and they may be smaller.
 bool ballsMeet(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& axis, float from, float to) {
-  constexpr float kWorth = 0.8f, kOutward = 1.0001f, kSmallest = 1e-12f;
+  constexpr float kWorth = 0.8f, kOutward = 1.0001f, kSmallest = 1e-12f;  // [rounding]
   Vec3f enter, leave, scale;
   for (int i = 0; i < 3; ++i) {
     const float d = axis.direction[i], inverse = 1.0f / std::copysign(std::max(std::abs(d), kSmallest), d);
@@ -52,7 +52,8 @@ bool ballsMeet(const Vec3f& lower, const Vec3f& upper, const tracing::Ray& axis,
   return within > kWorth * radius || meets(within);
 }
 
-constexpr float kWidest = 1.0f;  // angle of a beam, in radians: wider ones meet everything
+constexpr float kWidest =
+    1.0f;  // angle of a beam, in radians, as far as tangent() is one: wider ones meet all [defined]
 
 float tangent(float angle) { return angle / (1.0f - 0.36f * angle * angle); }  // from above
 
@@ -101,11 +102,10 @@ bool SpaceChange::meets(const Vec3f& a, float radiusA, const Vec3f& b, float rad
 }
 
 std::optional<double> SpaceChange::seenFrom(const Vec3f& center, float radius, Vec3& axis) const {
-  constexpr double kWide = 0.9;  // sine
   const Vec3 d = 0.5 * (Vec3(parts_.all().lower) + Vec3(parts_.all().upper)) - Vec3(center);
   const double distance = glm::length(d),
                size = 0.5 * glm::length(Vec3(parts_.all().upper) - Vec3(parts_.all().lower)) + radius;
-  if (empty() || !(size < kWide * distance)) return std::nullopt;
+  if (empty() || !(size < std::sin(kWidest) * distance)) return std::nullopt;
   axis = d / distance;
   return std::asin(size / distance);
 }

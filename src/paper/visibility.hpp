@@ -6,8 +6,7 @@
 
 namespace deltalux::paper {
 
-inline constexpr std::size_t kMaxSamples = 32;
-inline constexpr int kFewSamples = 4;  // of links that bring little, or are split for their kernel
+inline constexpr std::size_t kMaxSamples = 32;  // [layout]
 
 struct VisibilityEstimate {
   Rgb V{0.0f};

@@ -6,22 +6,20 @@
 #include "base/cosine_direction.hpp"
 #include "base/square.hpp"
 #include "particles/solid_angle_rectangle.hpp"
+#include "particles/tuning.hpp"
 
 namespace deltalux::particles {
 
 namespace {
 
-constexpr double kFar = 3.0;           // radii from a sphere's centre beyond which points in it are drawn alone
-constexpr double kFarRectangle = 3.0;  // the same for rectangles, whose solid angle is known
-constexpr double kWide = 1.5;          // sr: wider cones are not worth one
-constexpr double kLeeway = 1.05;       // times a sphere's radius: those of curved cells are found by samples
+constexpr double kLeeway = 1.05;  // times a sphere's radius: those of curved cells are found by samples [rounding]
 
 bool seenBySolidAngle(const Vec3& from, const Rectangle& r) {
   const Vec3 toCenter = r.at({0.5, 0.5}) - from;
   const double longest = std::max(r.lengthA, r.lengthB), height = std::abs(glm::dot(toCenter, r.normal()));
   const double squared = glm::dot(toCenter, toCenter);
   // Far away area is as good; at a grazing angle the solid angle has lost its digits.
-  return squared < square(kFarRectangle * longest) && height * r.area() > 1e-7 * squared * std::sqrt(squared);
+  return squared < square(tuning::kFar * longest) && height * r.area() > 1e-7 * squared * std::sqrt(squared);
 }
 
 /// 1 - cos of the cone that a sphere fills; 2 from inside.
@@ -50,7 +48,7 @@ void Aiming::aim(const SendingPoint& y, std::uint32_t at, double choice, const V
   const BoundingSphere& ball = receivers_.bound(at);
   if (ball.empty()) return;
   const bool flat = node.isLeaf() && receivers_.isFlat(node.begin);
-  if (flat || glm::distance(y.position, ball.center) > kFar * ball.radius)
+  if (flat || glm::distance(y.position, ball.center) > tuning::kFar * ball.radius)
     return aimAtCell(y.position, node, choice, u, a);
   if (choice < 0.5) {
     aimAround(y, ball, u, a);
@@ -132,7 +130,7 @@ void Aiming::aimAround(const SendingPoint& y, const BoundingSphere& ball, const 
   a.kind = Aim::Kind::Open;
   const Vec3 toCenter = ball.center - y.position;
   const double depth = coneDepth(toCenter, ball.radius);
-  if (2 * kPi * depth > kWide && y.lambertian) {
+  if (2 * kPi * depth > kPi && y.lambertian) {  // nowhere denser than by cosines
     a.direction = cosineDirection(Frame(y.normal), u.x, u.y);
   } else {
     const double down = u.x * depth, r = std::sqrt(std::max(0.0, down * (2 - down)));
@@ -146,7 +144,7 @@ void Aiming::aimAround(const SendingPoint& y, const BoundingSphere& ball, const 
 double Aiming::densityAround(const SendingPoint& y, const BoundingSphere& ball, const Vec3& direction) const {
   const Vec3 toCenter = ball.center - y.position;
   const double depth = coneDepth(toCenter, ball.radius), omega = 2 * kPi * depth;
-  if (omega > kWide && y.lambertian) {
+  if (omega > kPi && y.lambertian) {
     // Whether all of the node is in its ball (behind()) must not decide where a path goes.
     if (isBehind(y, ball)) return 0;
     return std::max(0.0, glm::dot(direction, y.normal)) / kPi;

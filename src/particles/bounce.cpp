@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "base/tuning.hpp"
+
 namespace deltalux::particles {
 
 namespace {
-
-constexpr int kStratified = 3;  // events whose numbers are; later ones gain nothing
 
 bool takesParticles(const Material& m, bool front) {
   return !isClear(m) && !(front && std::holds_alternative<Mirror>(m.surface));
@@ -16,7 +16,7 @@ bool takesParticles(const Material& m, bool front) {
 
 EventSequence::EventSequence(std::uint64_t key, int depth)
     : own_(combineKeys(key, 16 + static_cast<std::uint64_t>(depth))),
-      stratified_(depth < kStratified),
+      stratified_(depth < deltalux::tuning::kStratifiedEvents),
       first_(own_),
       second_(~own_) {}
 

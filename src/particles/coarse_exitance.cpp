@@ -6,18 +6,15 @@
 #include "base/cosine_direction.hpp"
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
+#include "base/tuning.hpp"
+#include "particles/tuning.hpp"
 #include "tracing/shadow_ray.hpp"
 
 namespace deltalux::particles {
 
 namespace {
 
-constexpr std::uint32_t kPoints = 8;     // of each cell
-constexpr std::size_t kMostLights = 64;  // that are sampled at a point
-constexpr int kBounces = 4;
-constexpr int kPanes = 8;
-constexpr double kAround = 0.5;  // of the mean around a cell: what its points missed may still be there
-constexpr double kFloor = 0.02;  // the same of the whole scene's mean
+constexpr int kPanes = 64;  // [limit]
 
 /// Irradiance from lights: of one sample of each, unshadowed, one is drawn by what it would bring, and a shadow ray
 /// sent after it. [TCE05]
@@ -26,7 +23,7 @@ class Direct {
   Direct(const Scene& scene, const scene::LightSampler& lights) : scene_(scene), lights_(lights) {}
 
   double irradiance(const SurfacePoint& p, const tracing::RayTracer& tracer, Rng& rng, std::uint64_t& rays) {
-    const std::size_t all = scene_.lights.size(), some = std::min(all, kMostLights);
+    const std::size_t all = scene_.lights.size(), some = std::min(all, tuning::kMostLights);
     if (all == 0) return 0;
     const double first = rng.uniform();
     samples_.clear();
@@ -83,8 +80,8 @@ tracing::Hit look(const Scene& scene, const tracing::RayTracer& tracer, const Su
 
 /// What rays at a cell find.
 struct Found {
-  double direct = 0;                        // irradiance by lights
-  std::array<std::uint32_t, kPoints> seen;  // cells; kNone where there is none
+  double direct = 0;                               // irradiance by lights
+  std::array<std::uint32_t, tuning::kLooks> seen;  // cells; kNone where there is none
 };
 
 /// What few points of a cell missed may still be there: raises cells to a share of the mean around them, and of the
@@ -109,7 +106,7 @@ void raise(const Senders& senders, std::vector<double>& exitance) {
     sums[n] = {a.flux + b.flux, a.area + b.area};
   }
   // In steps: a small edit, which moves the mean a little, must not change every cell.
-  const double floor = sums[root].flux > 0 ? coarse(kFloor * sums[root].mean()) : 1.0;
+  const double floor = sums[root].flux > 0 ? coarse(deltalux::tuning::kDefensive * sums[root].mean()) : 1.0;
   least[root] = floor;
   for (std::size_t n = root; n < sums.size(); ++n) {
     const RadixNode& node = senders.nodes()[n];
@@ -119,7 +116,7 @@ void raise(const Senders& senders, std::vector<double>& exitance) {
       continue;
     }
     const double here = std::max(least[n], sums[n].mean());
-    for (const std::uint32_t child : node.child) least[child] = kAround * here;
+    for (const std::uint32_t child : node.child) least[child] = tuning::kAround * here;
   }
 }
 
@@ -147,7 +144,7 @@ CoarseExitance coarseExitance(const Scene& scene, const tracing::RayTracer& trac
   for (const RadixNode& n : senders.nodes())
     if (n.isLeaf()) keys[n.begin] = n.key;
 
-  constexpr std::size_t kBlock = 64;
+  constexpr std::size_t kBlock = 64;  // [task]
   std::vector<Found> found(count);
   std::vector<std::uint64_t> rays((count + kBlock - 1) / kBlock, 0);
   parallelBlocks(count, kBlock, [&](std::size_t begin, std::size_t end) {
@@ -156,10 +153,10 @@ CoarseExitance coarseExitance(const Scene& scene, const tracing::RayTracer& trac
       const auto cell = static_cast<std::uint32_t>(first + i);
       const ScrambledSobol places(keys[cell]), directions(mix64(keys[cell]));
       Rng rng(keys[cell]);
-      for (std::uint32_t k = 0; k < kPoints; ++k) {
+      for (std::uint32_t k = 0; k < tuning::kLooks; ++k) {
         const UnitPair place = places(k), way = directions(k);
         const SurfacePoint p = senders.point(cell, {place.x, place.y});
-        found[i].direct += direct.irradiance(p, tracer, rng, rays[begin / kBlock]) / kPoints;
+        found[i].direct += direct.irradiance(p, tracer, rng, rays[begin / kBlock]) / tuning::kLooks;
         const tracing::Hit hit =
             look(scene, tracer, p, cosineDirection(Frame(p.normal), way.x, way.y), rng, rays[begin / kBlock]);
         found[i].seen[k] = RadixNode::kNone;
@@ -174,16 +171,16 @@ CoarseExitance coarseExitance(const Scene& scene, const tracing::RayTracer& trac
   std::vector<double> source(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double measure = senders.cells()[first + i].measure;
-    source[i] = kNominalReflectance * (found[i].direct + (measure > 0 ? caustics[first + i] / measure : 0.0));
+    source[i] = tuning::kNominalReflectance * (found[i].direct + (measure > 0 ? caustics[first + i] / measure : 0.0));
   }
   std::vector<double> exitance = source;
-  for (int bounce = 0; bounce < kBounces; ++bounce) {
+  for (int bounce = 0; bounce < deltalux::tuning::kPilotBounces; ++bounce) {
     const std::vector<double> before = exitance;
     for (std::size_t i = 0; i < count; ++i) {
       double sum = 0;
       for (const std::uint32_t cell : found[i].seen)
         if (cell != RadixNode::kNone) sum += before[cell - first];
-      exitance[i] = source[i] + kNominalReflectance * sum / kPoints;
+      exitance[i] = source[i] + tuning::kNominalReflectance * sum / tuning::kLooks;
     }
   }
   raise(senders, exitance);

@@ -11,8 +11,6 @@
 
 namespace deltalux::particles {
 
-inline constexpr double kNominalReflectance = 0.5;  // of every diffuse surface
-
 struct CoarseExitance {
   std::vector<float> perCell;  // gray: exitance of sender cells that are surfaces [W/m2], radiance of the sky's, else 1
   std::uint64_t rays = 0;

@@ -9,7 +9,7 @@
 namespace deltalux::particles {
 
 namespace {
-constexpr std::uint64_t kCountSeed = 0x636f756e747a7a7aull;
+constexpr std::uint64_t kCountSeed = 0x636f756e747a7a7aull;  // [key]
 
 double arrivingFlux(const DsLinks& links) {
   double arriving = 0;

@@ -4,20 +4,13 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 #include "particles/lookout.hpp"
+#include "particles/tuning.hpp"
 
 namespace deltalux::particles {
 
 namespace {
-
-constexpr int kLooks = 8;
-constexpr int kNearLooks = 24;
-constexpr double kMostLooks = 2048;
-constexpr int kFirstLooks = 512;       // at each root, for the sum of all flux
-constexpr double kNear = 0.4;          // radii of both ends over their distance, above which they are near
-constexpr double kMuch = 8.0;          // shares of flux from which unevenness counts
-constexpr double kLeast = 1e-3;        // shares of flux that any link is taken to carry
-constexpr double kLeastAlbedo = 1e-4;  // that links to panes as clear as air are taken to lead to
 
 /// What the looks at a link are for: whether it is to be refined, and which end.
 class Judge {
@@ -28,8 +21,8 @@ class Judge {
     const BoundingSphere &s = senders_.bound(ends.sender), &r = receivers_.bound(ends.receiver);
     const SenderKind kind = kindOf(ends.sender);
     if (kind == SenderKind::Sun) return false;
-    if (kind == SenderKind::Sky) return s.radius > kNear;
-    return s.radius + r.radius > kNear * glm::distance(s.center, r.center);
+    if (kind == SenderKind::Sky) return s.radius * tuning::kFar > 1;
+    return (s.radius + r.radius) * tuning::kFar > glm::distance(s.center, r.center);
   }
 
   bool splitsSender(const LinkEnds& ends) const {
@@ -72,24 +65,25 @@ Verdict judged(const LinkEnds& ends, std::uint64_t key, double threshold, const 
   Looks looks;
   const auto splits = [&] {
     const double flux = looks.flux(most);
-    return divisible && flux > threshold && (near || (looks.uneven() && flux > kMuch * threshold));
+    return divisible && flux > threshold && (near || (looks.uneven() && flux > tuning::kMuch * threshold));
   };
-  lookout.look(ends, key, kLooks, looks, workspace);
+  lookout.look(ends, key, tuning::kLooks, looks, workspace);
   v.split = splits();
   // Of ends close to each other few pairs of places may carry most.
   if (!v.split && near && divisible && most > threshold) {
-    lookout.look(ends, key, kNearLooks, looks, workspace);
+    lookout.look(ends, key, deltalux::tuning::kPilots, looks, workspace);
     v.split = splits();
   }
   // Most links of which nothing was seen to arrive are blocked: hope is worth a closer look before it gets particles.
   // The more it might carry, the closer.
   const double bound = std::min(looks.bound(), most);
-  if (!v.split && (!looks.arrived() || bound > kLooks * threshold)) {
-    const int enough = static_cast<int>(std::clamp(bound / threshold, double(kLooks), kMostLooks));
+  if (!v.split && (!looks.arrived() || bound > tuning::kLooks * threshold)) {
+    const int enough =
+        static_cast<int>(std::clamp(bound / threshold, double(tuning::kLooks), double(tuning::kMostLooks)));
     lookout.look(ends, key, enough, looks, workspace);
     v.split = splits();
   }
-  v.link.flux = static_cast<float>(std::max(looks.flux(most), kLeast * threshold));
+  v.link.flux = static_cast<float>(std::max(looks.flux(most), deltalux::tuning::kNegligible * threshold));
   v.link.passing = static_cast<float>(looks.passing());
   return v;
 }
@@ -111,7 +105,7 @@ DsLinks refineDsLinks(const Scene& scene, const tracing::RayTracer& tracer, cons
   parallelFor(level.size(), 1, [&](std::size_t i) {
     Lookout::Workspace workspace;
     Looks looks;
-    lookout.look(level[i], judge.key(level[i], settings.seed), kFirstLooks, looks, workspace);
+    lookout.look(level[i], judge.key(level[i], settings.seed), tuning::kMostLooks, looks, workspace);
     first[i] = looks.flux(lookout.most(level[i])), rays[i] = workspace.traced;
   });
   double total = settings.otherFlux;
@@ -120,7 +114,7 @@ DsLinks refineDsLinks(const Scene& scene, const tracing::RayTracer& tracer, cons
   const double threshold = settings.share * coarse(total);
 
   while (!level.empty()) {
-    constexpr std::size_t kBlock = 64;
+    constexpr std::size_t kBlock = 64;  // [task]
     std::vector<Verdict> verdicts(level.size());
     rays.assign((level.size() + kBlock - 1) / kBlock, 0);
     parallelBlocks(level.size(), kBlock, [&](std::size_t begin, std::size_t end) {
@@ -128,10 +122,12 @@ DsLinks refineDsLinks(const Scene& scene, const tracing::RayTracer& tracer, cons
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint64_t key = judge.key(level[i], settings.seed);
         // Averted: nothing passes, as long as neither end moves.
-        verdicts[i] = emission.averted(level[i])
-                          ? Verdict{{level[i], key, static_cast<float>(kLeast * threshold), 0}, false}
-                          : judged(level[i], key, threshold, judge, lookout, workspace);
-        verdicts[i].link.albedo = static_cast<float>(std::max(lookout.albedo(level[i]), kLeastAlbedo));
+        verdicts[i] =
+            emission.averted(level[i])
+                ? Verdict{{level[i], key, static_cast<float>(deltalux::tuning::kNegligible * threshold), 0}, false}
+                : judged(level[i], key, threshold, judge, lookout, workspace);
+        verdicts[i].link.albedo =
+            static_cast<float>(std::max<double>(lookout.albedo(level[i]), deltalux::tuning::kNegligible));
       }
       rays[begin / kBlock] = workspace.traced;
     });

@@ -1,5 +1,6 @@
 #include "particles/emission.hpp"
 #include "base/square.hpp"
+#include "base/tuning.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,7 @@ namespace deltalux::particles {
 
 namespace {
 
-constexpr float kAverted = 0.05f;   // of a sample that falls where its sender does not shine
-constexpr double kVeryFar = 1e100;  // where a spotlight's focal offset no longer matters
+constexpr double kVeryFar = 1e100;  // where a spotlight's focal offset no longer matters [sentinel]
 
 }  // namespace
 
@@ -67,7 +67,7 @@ void ParticleEmission::fromInfinity(const LinkEnds& link, const EmissionNumbers&
   ReceiverPoint x;
   if (receivers_.isFlat(cell)) {
     const auto point = receivers_.flatPoint(cell, receivers_.rectangle(cell).at(u.direction));
-    s.bound = kAverted * static_cast<float>(share * c.measure * area) * gray(L);
+    s.bound = deltalux::tuning::kDefensive * static_cast<float>(share * c.measure * area) * gray(L);
     if (!point) return;
     x = *point;
   } else {
@@ -75,7 +75,7 @@ void ParticleEmission::fromInfinity(const LinkEnds& link, const EmissionNumbers&
   }
   const double weight = share * c.measure * area, cosine = std::abs(glm::dot(x.normal, w));
   s.flux = static_cast<float>(weight * cosine) * L;
-  s.bound = std::max(gray(s.flux), kAverted * static_cast<float>(weight) * gray(L));
+  s.bound = std::max(gray(s.flux), deltalux::tuning::kDefensive * static_cast<float>(weight) * gray(L));
   if (isBlack(s.flux) || aiming_.hidesItself(cell, x.position, w, nullptr)) return;
   s.kind = FirstSegment::Kind::Target;
   s.target = x.position, s.normal = x.normal;
@@ -96,7 +96,7 @@ void ParticleEmission::fromPlace(const LinkEnds& link, const EmissionNumbers& u,
     s.originTriangle = p.triangle;
     if (const auto omega = aiming_.behind(y, link.receiver)) {
       const float whole = c.kind == SenderKind::Side ? static_cast<float>(1 / kPi) : gray(emission(c).radiance);
-      s.bound = kAverted * static_cast<float>(share * c.measure * *omega) * whole;
+      s.bound = deltalux::tuning::kDefensive * static_cast<float>(share * c.measure * *omega) * whole;
       return;
     }
   }
@@ -128,7 +128,7 @@ void ParticleEmission::fromPlace(const LinkEnds& link, const EmissionNumbers& u,
         scene_[c.light].emitter);
   }
   s.flux = static_cast<float>(weight * std::max(cosine, 0.0)) * shape;
-  s.bound = std::max(gray(s.flux), kAverted * static_cast<float>(weight) * gray(whole));
+  s.bound = std::max(gray(s.flux), deltalux::tuning::kDefensive * static_cast<float>(weight) * gray(whole));
   if (isBlack(s.flux) || a.kind == FirstSegment::Kind::None) return;
   s.kind = a.kind;
   s.direction = Vec3f(a.direction), s.origin = Vec3f(y.position);

@@ -32,7 +32,7 @@ class EmissionSequence {
  public:
   explicit EmissionSequence(std::uint64_t key)
       : choice_(combineKeys(key, 1)), origin_(combineKeys(key, 2)), direction_(combineKeys(key, 3)) {}
-  static constexpr std::size_t kMost = 16;
+  static constexpr std::size_t kMost = 16;  // [task]
   /// Those of up to kMost samples, from `first` on.
   void operator()(std::uint32_t first, std::span<EmissionNumbers> numbers) const {
     std::array<UnitPair, kMost> a, b, c;

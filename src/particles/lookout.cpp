@@ -3,7 +3,7 @@
 namespace deltalux::particles {
 
 namespace {
-constexpr std::uint64_t kLookSeed = 0x6c6f6f6b7a7a7a7aull;
+constexpr std::uint64_t kLookSeed = 0x6c6f6f6b7a7a7a7aull;  // [key]
 }
 
 Lookout::Lookout(const Scene& scene, const tracing::RayTracer& tracer, const ParticleEmission& emission,

@@ -8,6 +8,7 @@
 #include "particles/bounce.hpp"
 #include "particles/coarse_exitance.hpp"
 #include "particles/emission.hpp"
+#include "particles/tuning.hpp"
 
 namespace deltalux::particles {
 
@@ -28,11 +29,10 @@ class Looks {
   /// Root mean square of looks, had they arrived.
   double bound() const { return std::sqrt(boundSquares_ / count_); }
   /// Looks differ much, or only some of them passed.
-  bool uneven() const { return squares_ * count_ > (1 + kUneven * kUneven) * sum_ * sum_ || sum_ == 0; }
+  bool uneven() const { return squares_ * count_ > (1 + tuning::kUneven * tuning::kUneven) * sum_ * sum_ || sum_ == 0; }
 
  private:
-  static constexpr double kHopeful = 0.5;  // looks that are taken to have arrived although none did
-  static constexpr double kUneven = 0.5;   // spread of looks, relative to their mean, that is worth a refinement
+  static constexpr double kHopeful = 0.5;  // that arrived of one more look [Jeffreys46: prior] [defined]
 
   int count_ = 0, arrived_ = 0;
   double sum_ = 0, squares_ = 0, bound_ = 0, boundSquares_ = 0;

@@ -8,22 +8,18 @@
 #include "hierarchy/patch.hpp"
 #include "hierarchy/side_locator.hpp"
 #include "particles/side_index.hpp"
+#include "particles/tuning.hpp"
 
 namespace deltalux::particles {
 
 namespace {
-
-constexpr int kLevels = 8;
-constexpr std::uint32_t kFewest = 32;  // impacts in a leaf that is split: fewer cannot show detail
-constexpr int kShownDepth = 5;         // of sides whose particles textures show: enough to send their light on
-constexpr double kClearly = 1.5;       // a histogram's noise counts this much more than for placing particles
 
 struct Quarter {
   double sum = 0, squares = 0;
 
   void add(double w) { sum += w, squares += w * w; }
   /// Estimated squared error of spreading these over `area`. [Rudemo82 (2.8)]
-  double error(double area) const { return (2 * kClearly * squares - sum * sum) / area; }
+  double error(double area) const { return (2 * tuning::kClearly * squares - sum * sum) / area; }
 };
 
 /// What has fallen on a leaf.
@@ -43,7 +39,7 @@ struct Fallen {
 /// Impacts on sides that do not keep their mesh, in the order of the particles.
 std::vector<Fallen> fallenOn(const hierarchy::Elements& elements, const Scene& scene, const Particles& p,
                              const std::vector<bool>& keep) {
-  constexpr std::size_t kBlock = 4096;
+  constexpr std::size_t kBlock = 4096;  // [task]
   std::vector<std::vector<Fallen>> found((p.paths() + kBlock - 1) / kBlock);
   const hierarchy::SideLocator locator(elements, scene);
   parallelFor(p.paths(), kBlock, [&](std::size_t path) {
@@ -104,12 +100,13 @@ std::size_t subdivideForParticles(hierarchy::Elements& elements, const Scene& sc
                                   const std::vector<bool>& coarse, const std::vector<bool>& keep) {
   std::vector<Fallen> fallen = fallenOn(elements, scene, p, keep);
   std::size_t total = 0;
-  for (int level = 0; level < kLevels; ++level) {
+  while (!fallen.empty()) {
     std::size_t split = 0;
     for (const Tally& t : tally(elements, fallen)) {
-      if (t.count < kFewest) continue;
+      if (t.count < tuning::kDetail) continue;
       const hierarchy::ElementTopology& e = elements.at(t.leaf);
-      if (coarse[sideIndex(elements.domain[t.leaf.index()].primitive, e.front)] && e.depth >= kShownDepth) continue;
+      if (coarse[sideIndex(elements.domain[t.leaf.index()].primitive, e.front)] && e.depth >= tuning::kShownDepth)
+        continue;
       if (showsDetail(t, elements.shape(t.leaf).area)) split += hierarchy::subdivide(elements, scene, t.leaf);
     }
     if (split == 0) break;
@@ -128,7 +125,6 @@ std::size_t subdivideForParticles(hierarchy::Elements& elements, const Scene& sc
 }
 
 std::vector<bool> sidesThatKeepTheirMesh(const Scene& scene, const Particles& p, const ParticleUpdate& update) {
-  constexpr double kMatters = 0.1;
   std::vector<bool> keep(2 * scene.primitives.size(), false);
   if (update.all) return keep;
   std::vector<double> all(keep.size(), 0.0), fresh(keep.size(), 0.0);
@@ -138,7 +134,7 @@ std::vector<bool> sidesThatKeepTheirMesh(const Scene& scene, const Particles& p,
       to[2 * p.primitive[i].index() + (p.triangleAndSide[i] & 1)] += power * gray(p.throughput[i]);
   };
   for (const RetracedPath& r : update.paths) add(r.path, fresh);
-  constexpr std::size_t kParts = 8;  // summed apart
+  constexpr std::size_t kParts = 8;  // summed apart [task]
   std::vector<std::vector<double>> parts(kParts, all);
   parallelFor(kParts, 1, [&](std::size_t part) {
     for (std::size_t path = part * p.paths() / kParts; path < (part + 1) * p.paths() / kParts; ++path)
@@ -146,7 +142,8 @@ std::vector<bool> sidesThatKeepTheirMesh(const Scene& scene, const Particles& p,
   });
   for (const auto& part : parts)
     for (std::size_t side = 0; side < all.size(); ++side) all[side] += part[side];
-  for (std::size_t side = 0; side < keep.size(); ++side) keep[side] = !(fresh[side] > kMatters * all[side]);
+  for (std::size_t side = 0; side < keep.size(); ++side)
+    keep[side] = !(fresh[side] > tuning::kChangeMatters * all[side]);
   return keep;
 }
 

@@ -7,7 +7,7 @@ namespace deltalux::particles {
 
 namespace {
 
-constexpr std::size_t kLeaf = 2;  // pieces of a box that is not split
+constexpr std::size_t kLeaf = 2;  // pieces of a box that is not split [task]
 
 /// The part of a segment where a linear function, f0 at its start and f1 at its end, lies in [low, high]; false: none.
 bool clip(Vec3& a, Vec3& b, double f0, double f1, double low, double high) {
@@ -109,7 +109,7 @@ void MovedShapes::build(std::vector<Boxed>& pieces, std::size_t begin, std::size
 }
 
 bool MovedShapes::meets(const Vec3f& a, const Vec3f& b) const {
-  constexpr std::size_t kDeep = 64;
+  constexpr std::size_t kDeep = 64;  // [limit]
   std::uint32_t stack[kDeep];
   std::size_t open = 0;
   if (!nodes_.empty()) stack[open++] = 0;

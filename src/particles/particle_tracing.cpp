@@ -11,14 +11,14 @@
 #include "particles/moved_shapes.hpp"
 #include "particles/plan_particles.hpp"
 #include "particles/trace.hpp"
+#include "particles/tuning.hpp"
 
 namespace deltalux::particles {
 
 namespace {
 
-constexpr std::uint64_t kFirstParticles = 1 << 10;  // that tell what each costs
-constexpr std::uint64_t kMostGrowth = 1 << 6;       // how much further their cost is trusted
-constexpr double kMargin = 1e-5;  // of the far distance: rays start and end a little off the points they join
+constexpr double kMargin =
+    1e-5;  // of the far distance: rays start and end a little off the points they join [rounding]
 
 /// Whether a change from one to the other leaves all particles as they are.
 bool emitAlike(const Material& a, const Material& b) {
@@ -128,12 +128,12 @@ Particles ParticleTracing::traceWithin(double seconds) {
   const Clock::time_point start = Clock::now();
   const ParticlePlan plan = planParticles(scene_, tracer_, settings_);
   const std::uint64_t wanted = settings_.count;
-  settings_.count = std::min(wanted, kFirstParticles);
+  settings_.count = std::min(wanted, tuning::kFirstParticles);
   while (true) {
     const Clock::time_point tracing = Clock::now();
     Particles p = trace(plan);
     const double left = seconds - since(start), each = since(tracing) / static_cast<double>(settings_.count);
-    const double affordable = std::min(left / std::max(each, 1e-12), double(kMostGrowth * settings_.count));
+    const double affordable = std::min(left / std::max(each, 1e-12), static_cast<double>(wanted));
     const auto next = std::min(wanted, static_cast<std::uint64_t>(std::max(affordable, 0.0)));
     // Tracing anew for less than twice as many is not worth it.
     if (next < std::min(wanted, 2 * settings_.count) || settings_.count == wanted) return p;
@@ -185,8 +185,7 @@ void ParticleTracing::watch(const Particles& p, std::span<const SceneChange::Mov
 }
 
 void ParticleTracing::watchAround(const Particles& p, const Box& box) {
-  constexpr double kRoom = 1.0;  // times the size of what moves
-  const double room = kRoom * box.diagonal();
+  const double room = box.diagonal();
   watch_.emplace(p, Box{box.lower - room, box.upper + room}, 2 * kMargin * farDistance(scene_));
 }
 
@@ -210,7 +209,7 @@ std::vector<std::uint32_t> ParticleTracing::touched(const Particles& p, std::spa
         for (std::uint32_t path = l.firstPath; path < l.firstPath + l.paths; ++path) paths.push_back(path);
 
   const std::vector<std::uint64_t>& words = watch_->words();
-  constexpr std::size_t kBlock = 128;
+  constexpr std::size_t kBlock = 128;  // [task]
   std::vector<std::vector<std::uint32_t>> found((words.size() + kBlock - 1) / kBlock);
   parallelFor(words.size(), kBlock, [&](std::size_t w) {
     for (std::uint64_t rest = words[w]; rest; rest &= rest - 1) {

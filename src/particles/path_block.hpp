@@ -11,7 +11,7 @@ namespace deltalux::particles {
 
 /// What a block of paths made; vertices and landings in the order in which they happened.
 struct PathBlock {
-  static constexpr std::size_t kPaths = 512;  // of all blocks but the last
+  static constexpr std::size_t kPaths = 512;  // of all blocks but the last [task]
 
   struct Vertex {
     std::uint32_t path;  // within the block
@@ -39,7 +39,7 @@ struct PathBlock {
 
   /// Empty again, for so many paths; what was allocated stays.
   void begin(std::size_t paths) {
-    constexpr std::size_t kUsual = 3;  // vertices of a path
+    constexpr std::size_t kUsual = 3;  // vertices of a path [task]
     vertices.clear(), vertices.reserve(kUsual * paths);
     landings.clear(), landings.reserve(paths);
     vertexCount.assign(paths, 0), landingCount.assign(paths, 0);

@@ -19,7 +19,7 @@ class PathWatch {
   /// These paths go elsewhere now.
   void renew(const Particles&, std::span<const std::uint32_t> paths);
 
-  static constexpr std::size_t kPathsOfWord = 64;
+  static constexpr std::size_t kPathsOfWord = 64;  // [layout]
   /// Bits of kPathsOfWord paths each.
   const std::vector<std::uint64_t>& words() const { return words_; }
   std::size_t memoryBytes() const { return words_.capacity() * sizeof words_[0]; }

@@ -1,16 +1,15 @@
 #include <algorithm>
 
 #include "base/check.hpp"
+#include "base/tuning.hpp"
 #include "particles/count_paths.hpp"
 #include "particles/plan_particles.hpp"
 #include "particles/trace.hpp"
+#include "particles/tuning.hpp"
 
 namespace deltalux::particles {
 
 namespace {
-
-constexpr double kPilots = 1 << 15;      // particles that find where caustics light diffuse senders
-constexpr double kPilotPaths = 1 << 20;  // of which no more start: where few arrive, each of them is dear
 
 void nameSenders(const Senders& senders, const CoarseExitance& exitance, Particles& p) {
   p.senderCells = senders.cells();
@@ -64,7 +63,9 @@ ParticlePlan plan(const Scene& scene, const tracing::RayTracer& tracer, const Pa
   links = refine(senders.lightRoots());
   Particles pilots;
   nameSenders(senders, exitance, pilots);
-  countPaths(links, std::min(kPilots, kPilotPaths * arrivingShare(links)), pilots);
+  // Where few arrive each of them is dear.
+  const double share = std::min(arrivingShare(links) / deltalux::tuning::kDefensive, 1.0);
+  countPaths(links, share * tuning::kPilotParticles, pilots);
   tracePaths(scene, tracer, emission, settings.maxDepth, pilots);
   exitance = coarseExitance(scene, tracer, lights, senders, landedFlux(pilots, senders));
   senders.weigh(exitance.perCell);

@@ -10,7 +10,7 @@ namespace deltalux::particles {
 
 namespace {
 
-constexpr int kBits = 128;
+constexpr int kBits = 128;  // [layout]
 
 int commonPrefix(const Code& a, const Code& b) {
   for (int word = 0; word < 4; ++word)

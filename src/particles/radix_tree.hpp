@@ -18,7 +18,7 @@ struct RadixNode {
   std::uint32_t child[2] = {kNone, kNone};  // nodes
   std::uint64_t key = 0;
 
-  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kNone = 0xffffffffu;  // [sentinel]
   bool isLeaf() const { return child[0] == kNone; }
 };
 

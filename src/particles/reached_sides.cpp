@@ -10,6 +10,7 @@
 #include "base/cosine_direction.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "base/tuning.hpp"
 #include "particles/surface_normal.hpp"
 #include "scene/stops_light.hpp"
 
@@ -27,9 +28,6 @@ double areaOf(const Scene& scene, const hierarchy::SurfaceSide& s) {
   return mesh->cumulativeArea[s.triangle] - (s.triangle > 0 ? mesh->cumulativeArea[s.triangle - 1] : 0.0);
 }
 
-constexpr std::size_t kAsked = 16;  // paths of a side
-constexpr int kRays = 16;           // from where a path starts
-
 struct Landed {
   RgbSum flux{0.0};
   std::vector<std::uint32_t> paths;  // some of them
@@ -45,7 +43,7 @@ class Lookout {
   /// closes: so it must see light itself.
   bool sees(const Vec3f& p, const Vec3f& normal, Rng& rng, bool again = true) const {
     const Frame frame{Vec3(normal)};
-    for (int k = 0; k < kRays; ++k) {
+    for (int k = 0; k < deltalux::tuning::kPilots; ++k) {
       const double u = rng.uniform();
       tracing::Ray ray;
       ray.direction = Vec3f(cosineDirection(frame, u, rng.uniform()));
@@ -98,7 +96,7 @@ void addReachedSides(std::vector<hierarchy::SurfaceSide>& sides, const Particles
     for (std::uint32_t i = particles.firstImpact(path); i < particles.endImpact(path); ++i) {
       Landed& l = landed[{particles.primitive[i], particles.triangleAndSide[i]}];
       l.flux += power * RgbSum(particles.throughput[i]);
-      if (l.paths.size() < kAsked) l.paths.push_back(path);
+      if (l.paths.size() < deltalux::tuning::kPilots) l.paths.push_back(path);
     }
   }
   std::vector<hierarchy::SurfaceSide> added;

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hierarchy/tuning.hpp"
+#include "particles/tuning.hpp"
 #include "scene/edit/plan.hpp"
 
 namespace deltalux::particles {
 
 namespace {
 
-constexpr double kReceiverCellsOfScene = 4096;  // cells that the whole scene's area would make
-constexpr std::uint64_t kSeed = 0x7265636569766572ull;
+constexpr std::uint64_t kSeed = 0x7265636569766572ull;  // [key]
 
 double lobe(const SpecularLobe& l) { return maxChannel(l.reflectance); }
 
@@ -81,7 +82,7 @@ Receivers::Receivers(const Scene& scene) : scene_(scene), surfaceOf_(scene.primi
   double total = 0;
   for (std::size_t i = 0; i < scene.primitives.size(); ++i)
     total += deltalux::area(scene::edits::restShape(scene, PrimitiveId(i)));
-  const double limit = coarse(total) / kReceiverCellsOfScene;
+  const double limit = coarse(total) / tuning::kCellsOfScene;
   const std::vector<std::uint32_t> top = topObjects(scene);
   std::vector<std::pair<Code, Cell>> cells;
   std::vector<double> areas;  // at rest, by surface
@@ -225,12 +226,14 @@ BoundingSphere Receivers::boundOf(const Cell& c, const Shape& shape) const {
   const BoundingSphere sphere{whole.center(), ball ? ball->radius : 0.5 * whole.diagonal()};
   if (s.halvings == 0) return sphere;
   // A grid of points, widened by what the surface bulges between them.
-  constexpr int kGrid = 4;
   Box box;
-  for (int j = 0; j <= kGrid; ++j)
-    for (int i = 0; i <= kGrid; ++i)
-      box.extend(samplePoint(shape, c.rect.at({double(i) / kGrid, std::min(double(j) / kGrid, 1.0)})).position);
-  const double du = (c.rect.u1 - c.rect.u0) / kGrid, dv = (c.rect.v1 - c.rect.v0) / kGrid;
+  for (int j = 0; j <= hierarchy::tuning::kGrid; ++j)
+    for (int i = 0; i <= hierarchy::tuning::kGrid; ++i)
+      box.extend(samplePoint(shape, c.rect.at({double(i) / hierarchy::tuning::kGrid,
+                                               std::min(double(j) / hierarchy::tuning::kGrid, 1.0)}))
+                     .position);
+  const double du = (c.rect.u1 - c.rect.u0) / hierarchy::tuning::kGrid,
+               dv = (c.rect.v1 - c.rect.v0) / hierarchy::tuning::kGrid;
   const double step = std::max(2 * kPi * du, 2.5 * std::sqrt(dv));  // angle; v is the height, steep at a ball's poles
   const double bulge = (1 - std::cos(std::min(kPi, step) / 2)) * 0.5 * whole.diagonal();
   const BoundingSphere part{box.center(), 0.5 * box.diagonal() + bulge};

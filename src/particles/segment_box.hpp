@@ -19,7 +19,7 @@ class SegmentBox {
     if (low.x > upper_.x || high.x < lower_.x || low.y > upper_.y || high.y < lower_.y || low.z > upper_.z ||
         high.z < lower_.z)
       return false;
-    constexpr float kRounding = 4e-7f;
+    constexpr float kRounding = 4e-7f;  // [rounding]
     const Vec3f d = 0.5f * (b - a), m = glm::abs(glm::cross(0.5f * (a + b) - center_, d)), e = glm::abs(d);
     const float rounding = kRounding * glm::dot(e, e) + kRounding * glm::length(a - center_) * glm::length(e);
     return m.x <= half_.y * e.z + half_.z * e.y + rounding && m.y <= half_.x * e.z + half_.z * e.x + rounding &&

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tuning.hpp"
 #include "particles/senders.hpp"
+#include "particles/tuning.hpp"
 #include "scene/edit/plan.hpp"
 
 namespace deltalux::particles {
@@ -49,9 +51,7 @@ void Senders::rememberRest() {
 }
 
 Senders::Choice Senders::chooseNear(std::uint32_t at, const BoundingSphere& towards, double u) const {
-  constexpr double kInside = 0.25;  // of the sphere's radius: what is within stands about so far from something there
-  constexpr double kAverted = 0x1p-5;  // share of what shines elsewhere: an edit may have turned it round
-  const double least = kInside * kInside * towards.radius * towards.radius;
+  const double least = towards.radius * towards.radius;  // what is within stands about so far from something there
   const auto spread = [&](const NearNode& n) {
     const Vec3 d = n.center - towards.center;
     return glm::dot(d, d) + n.squaredRadius + least;
@@ -61,8 +61,8 @@ Senders::Choice Senders::chooseNear(std::uint32_t at, const BoundingSphere& towa
     const std::uint32_t* child = near_[at].child;
     const NearNode &one = near_[child[0]], &other = near_[child[1]];
     // Weight over spread of the one, as a share of both.
-    const double a = one.weight * spread(other) * (one.averted(towards) ? kAverted : 1.0);
-    const double b = other.weight * spread(one) * (other.averted(towards) ? kAverted : 1.0);
+    const double a = one.weight * spread(other) * (one.averted(towards) ? deltalux::tuning::kDefensive : 1.0);
+    const double b = other.weight * spread(one) * (other.averted(towards) ? deltalux::tuning::kDefensive : 1.0);
     const double place = u * (a + b);
     const bool second = place >= a && b > 0;
     u = std::min(second ? (place - a) / b : place / a, 0x1.fffffffffffffp-1);

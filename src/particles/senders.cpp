@@ -5,18 +5,16 @@
 
 #include "base/random.hpp"
 #include "base/unit_circle.hpp"
+#include "hierarchy/tuning.hpp"
 #include "particles/side_index.hpp"
+#include "particles/tuning.hpp"
 #include "scene/edit/plan.hpp"
 
 namespace deltalux::particles {
 
 namespace {
 
-constexpr double kCellsOfScene = 1024;   // diffuse cells that the whole scene's area would make
-constexpr double kLampsOfScene = 16384;  // the same for emitters
-constexpr int kMostLampHalvings = 6;
-constexpr int kSkyHalvings = 8;
-constexpr std::uint64_t kSurfaceSeed = 0x737572666163657aull, kLightSeed = 0x6c69676874737a7aull;
+constexpr std::uint64_t kSurfaceSeed = 0x737572666163657aull, kLightSeed = 0x6c69676874737a7aull;  // [key]
 
 bool isDiffuse(const Material& m, bool front) {
   return !isBlack(diffuseReflectance(m, front)) || !isBlack(diffuseTransmittance(m));
@@ -29,10 +27,10 @@ Senders::Senders(const Scene& scene, const scene::LightSampler& lights) : scene_
   for (std::size_t i = 0; i < scene.primitives.size(); ++i)
     total += area(scene::edits::restShape(scene, PrimitiveId(i)));
   for (std::size_t i = 0; i < scene.lights.size(); ++i) beams_.push_back(beamOf(LightId(i)));
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) addLight(LightId(i), coarse(total) / kLampsOfScene);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) addLight(LightId(i), coarse(total) / tuning::kLampCells);
   lightTrees_ = roots_.size();
   surfaceCells_ = static_cast<std::uint32_t>(cells_.size());
-  addSurfaces(coarse(total) / kCellsOfScene);
+  addSurfaces(coarse(total) / tuning::kSenderCells);
   bounds_.resize(nodes_.size());
   normals_.resize(nodes_.size());
   leaf_.resize(cells_.size());
@@ -83,7 +81,7 @@ void Senders::addLight(LightId id, double limit) {
     if (!material.emission || !(whole > 0)) return;
     c.kind = SenderKind::Lamp;
     c.primitive = areaLight->primitive;
-    const int halves = std::min(halvings(whole, limit), kMostLampHalvings);
+    const int halves = std::min(halvings(whole, limit), tuning::kLightHalvings);
     for (const bool front : {true, false}) {
       if (!front && !material.emission->bothSides) continue;
       c.front = front;
@@ -100,7 +98,7 @@ void Senders::addLight(LightId id, double limit) {
   } else if (const auto* dome = std::get_if<DomeLight>(&emitter)) {
     c.kind = SenderKind::Sky;
     const double cap = 1 - std::cos(dome->halfAngle);
-    for (const UnitCell& cell : cellsOf({2 * kPi, std::sqrt(cap) * 1.5}, kSkyHalvings)) {
+    for (const UnitCell& cell : cellsOf({2 * kPi, std::sqrt(cap) * 1.5}, tuning::kLightHalvings)) {
       c.rect = cell.rect;
       c.measure = static_cast<float>(2 * kPi * cap * cell.rect.measure());
       cells.push_back({Code{0, cell.code, 0, 0}, c});
@@ -199,14 +197,15 @@ void Senders::boundLeaf(std::uint32_t cell, const Shape* at) {
     bounds_[n] = {lights_.position(c.light), 0};
     return;
   }
-  constexpr int kGrid = 4;
   if (c.kind == SenderKind::Sun || c.kind == SenderKind::Sky) {
     const Vec3 axis = direction(cell, {0.5, c.kind == SenderKind::Sun ? 0.0 : 0.5});
     double angle = 0;
-    for (int i = 0; i <= kGrid; ++i)
-      for (int j = 0; j <= kGrid; ++j)
-        angle = std::max(angle, std::acos(std::clamp(
-                                    glm::dot(axis, direction(cell, {double(i) / kGrid, double(j) / kGrid})), -1., 1.)));
+    for (int i = 0; i <= hierarchy::tuning::kGrid; ++i)
+      for (int j = 0; j <= hierarchy::tuning::kGrid; ++j)
+        angle = std::max(angle,
+                         std::acos(std::clamp(glm::dot(axis, direction(cell, {double(i) / hierarchy::tuning::kGrid,
+                                                                              double(j) / hierarchy::tuning::kGrid})),
+                                              -1., 1.)));
     bounds_[n] = {axis, angle};
     return;
   }
@@ -217,9 +216,10 @@ void Senders::boundLeaf(std::uint32_t cell, const Shape* at) {
   }
   const Shape& shape = *at;
   Box box;
-  for (int i = 0; i <= kGrid; ++i)
-    for (int j = 0; j <= kGrid; ++j) {
-      const Vec2 s = glm::min(Vec2(double(i) / kGrid, double(j) / kGrid), Vec2(1 - 1e-9));
+  for (int i = 0; i <= hierarchy::tuning::kGrid; ++i)
+    for (int j = 0; j <= hierarchy::tuning::kGrid; ++j) {
+      const Vec2 s =
+          glm::min(Vec2(double(i) / hierarchy::tuning::kGrid, double(j) / hierarchy::tuning::kGrid), Vec2(1 - 1e-9));
       box.extend(samplePoint(shape, c.rect.at(s)).position);
     }
   bounds_[n] = {box.center(), 0.5 * box.diagonal()};

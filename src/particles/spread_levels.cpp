@@ -4,18 +4,18 @@
 
 #include "base/parallel.hpp"
 #include "hierarchy/most_returned.hpp"
+#include "particles/tuning.hpp"
 
 namespace deltalux::particles {
 
 namespace {
 
-constexpr double kByChance = 2;  // times what surfaces could send: more is no mere chance
-constexpr std::size_t kElementBlock = 64;
+constexpr std::size_t kElementBlock = 64;  // [task]
 
 /// By which what comes back exceeds what a patch of that area may get.
 double excess(const Feedback& f, double area, const hierarchy::ElementLight& light) {
   const double byReturn = f.flux / std::max<double>(hierarchy::mostReturned(light) - 1, 1e-6);
-  return std::min(f.once, std::max(f.often / kByChance, byReturn)) / std::max(area, 1e-30);
+  return std::min(f.once, std::max(f.often / tuning::kByChance, byReturn)) / std::max(area, 1e-30);
 }
 
 }  // namespace

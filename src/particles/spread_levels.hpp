@@ -60,7 +60,7 @@ struct PatchTree {
 
 class SpreadLevels {
  public:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kNone = 0xffffffffu;  // [sentinel]
 
   /// Cuts the trees of these input-level patches, each listed once. `sums`: by element.
   void choose(std::span<const hierarchy::ElementId> surfaces, const hierarchy::Elements&,

@@ -19,7 +19,7 @@ struct UnitCell {
   std::uint32_t code = 0;  // the halves taken, from the highest bit down
 };
 
-inline constexpr int kMostHalvings = 16;
+inline constexpr int kMostHalvings = 16;  // [layout]
 
 /// How often a surface of `area` is halved until cells have at most `limit`.
 int halvings(double area, double limit);

@@ -7,8 +7,10 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "base/per_thread.hpp"
+#include "base/tuning.hpp"
 #include "particles/bounce.hpp"
 #include "particles/path_block.hpp"
+#include "particles/tuning.hpp"
 
 namespace deltalux::particles {
 
@@ -199,11 +201,8 @@ class Tracing {
 
   /// Russian roulette on what the path carries relative to what it began with; colours are kept.
   bool survives(Walker& w, double u) const {
-    constexpr int kPatience = 8;
-    constexpr double kWorth = 0.25;        // share of it that is still followed without a question
-    constexpr double kMostSurvival = 0.9;  // so that light caught between perfect surfaces ends some day
-    double chance = std::min(1.0, double(maxChannel(w.throughput)) / (kWorth * w.first));
-    if (w.depth > kPatience) chance = std::min(chance, kMostSurvival);
+    double chance = std::min(1.0, double(maxChannel(w.throughput)) / (tuning::kWorth * w.first));
+    if (w.depth > tuning::kPatience) chance = std::min(chance, deltalux::tuning::kMostSurvival);
     if (!(u < chance)) return false;
     w.throughput *= static_cast<float>(1 / chance);
     return true;
@@ -239,7 +238,7 @@ class Tracing {
 /// Room for what `count` paths make when `done` of them have made what there is by now.
 template <class... Arrays>
 void reserveFor(std::size_t count, std::size_t done, std::size_t before, Arrays&... arrays) {
-  constexpr double kSpare = 1.05;
+  constexpr double kSpare = 1.05;  // [task]
   const auto reserve = [&](auto& array) {
     const double more = kSpare * static_cast<double>(array.size() - before) * static_cast<double>(count - done) /
                         static_cast<double>(done);
@@ -252,7 +251,7 @@ void reserveFor(std::size_t count, std::size_t done, std::size_t before, Arrays&
 void trace(const Scene& scene, const tracing::RayTracer& tracer, const ParticleEmission& emission, int maxDepth,
            Particles& p, std::span<const std::uint32_t> only, std::size_t count) {
   DELTALUX_CHECK(maxDepth < 0xffff, "at most 65534 events");
-  constexpr std::size_t kTogether = 128;  // blocks whose memory is used again by the next
+  constexpr std::size_t kTogether = 128;  // blocks whose memory is used again by the next [task]
   Tracing tracing(scene, tracer, emission, p, maxDepth, only);
   std::vector<PathBlock> blocks(std::min(kTogether, (count + kPathBlock - 1) / kPathBlock));
   const std::size_t vertices = p.vertices.size(), impacts = p.impactSlots();

@@ -14,7 +14,7 @@ namespace deltalux::particles {
 
 namespace {
 
-constexpr std::size_t kBlock = 1024;
+constexpr std::size_t kBlock = 1024;  // [task]
 
 /// By element: whether particles are placed there when they start or land on it.
 std::vector<char> placesOf(const hierarchy::Elements& elements) {

@@ -46,7 +46,7 @@ class ParticleTransfer {
   std::size_t memoryBytes() const;
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kNone = 0xffffffffu;  // [sentinel]
 
   struct Entry {
     std::uint32_t sender = 0;  // a light, or behind all lights an element

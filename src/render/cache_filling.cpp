@@ -4,14 +4,13 @@
 #include <bit>
 
 #include "base/parallel.hpp"
+#include "render/tuning.hpp"
 
 namespace deltalux::rendering {
 
 namespace {
 
-constexpr std::size_t kRows = 16;  // of a block
-// How well a pixel is known that is filled: at most, of its neighbours; of what is within reach.
-constexpr float kByNeighbours = 0.9f, kWithinReach = 0.3f;
+constexpr std::size_t kRows = 16;  // of a block [task]
 
 struct Filling {
   const CacheFrame& frame;
@@ -39,15 +38,15 @@ struct Filling {
 
   /// `near`: whether a neighbour may hold anything.
   glm::vec4 at(int x, int y, bool near) const {
-    constexpr float kAll = 4 * 2 + 4 * 1;
-    constexpr float kMost = (2 * HeldPixels::kReach + 1) * (2 * HeldPixels::kReach + 1);
+    constexpr float kAll = 4 * 2 + 4 * 1;                                                 // [defined]
+    constexpr float kMost = (2 * HeldPixels::kReach + 1) * (2 * HeldPixels::kReach + 1);  // [defined]
     Rgb L(0.0f);
     const auto crosswise = [](int dx, int dy) { return dx == 0 || dy == 0 ? 2.0f : 1.0f; };
     if (const float w = near ? mean(x, y, 1, crosswise, L) : 0.0f; w > 0)
-      return {L, kByNeighbours * (kWithinReach + (1 - kWithinReach) * w / kAll)};
+      return {L, tuning::kWithinReach + (1 - tuning::kWithinReach) * w / kAll};
     const auto alike = [](int, int) { return 1.0f; };
     const float w = mean(x, y, HeldPixels::kReach, alike, L);
-    return {L, kByNeighbours * kWithinReach * w / kMost};
+    return {L, tuning::kWithinReach * w / kMost};
   }
 };
 
@@ -60,7 +59,7 @@ void fillFrame(CacheFrame& frame, const HeldPixels& held, std::span<const std::u
     glm::vec4* const pixels = frame.pixels.data() + row * frame.width;
     const std::uint32_t* const seen = surfaces.data() + row * frame.width;
     const HeldPixels::Columns near(held, y, 1), all(held, y, HeldPixels::kReach);
-    constexpr std::uint32_t kNear = 7u << (HeldPixels::kReach - 1);
+    constexpr std::uint32_t kNear = 7u << (HeldPixels::kReach - 1);  // [layout]
     for (int x = 0; x < frame.width; ++x)
       if (seen[x] != 0 && pixels[x].w < 1 && all.around(x) != 0)
         pixels[x] = filling.at(x, y, (near.around(x) & kNear) != 0);

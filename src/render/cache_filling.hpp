@@ -12,7 +12,7 @@ namespace deltalux::rendering {
 /// Which pixels of a frame hold samples, as bits, with empty ones all around.
 class HeldPixels {
  public:
-  static constexpr int kReach = 3;  // of the prefilter [pixels]
+  static constexpr int kReach = 3;  // of the prefilter [pixels], as in [WDG02] [defined]
 
   void resize(int width, int height) {
     words_ = static_cast<std::size_t>((width + 63) / 64) + 2;

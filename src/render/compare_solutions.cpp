@@ -4,14 +4,13 @@
 #include <deltalux/render.hpp>
 
 #include "base/sobol.hpp"
+#include "base/tuning.hpp"
 #include "hierarchy/patch.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux {
 
 namespace {
-
-constexpr double kDark = 1e-3;  // of the mean: as the oracle of refinement has it
 
 std::vector<ProbePoint> pointsByArea(const Solution& s, std::size_t count) {
   std::vector<double> cumulative;
@@ -47,7 +46,8 @@ CheckReport compareSolutions(const SolutionView& updated, const SolutionView& fr
   for (const ProbeResult& r : b) mean += gray(r) / double(points.size());
   std::vector<double> differences;
   for (std::size_t i = 0; i < points.size(); ++i)
-    differences.push_back(std::abs(gray(a[i]) - gray(b[i])) / std::max({gray(b[i]), kDark * mean, 1e-30}));
+    differences.push_back(std::abs(gray(a[i]) - gray(b[i])) /
+                          std::max({gray(b[i]), double(tuning::kNegligible) * mean, 1e-30}));
   std::sort(differences.begin(), differences.end());
   CheckReport check;
   if (!differences.empty()) {

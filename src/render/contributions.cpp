@@ -9,15 +9,11 @@
 #include "base/random.hpp"
 #include "render/particle_paths.hpp"
 #include "render/reader_state.hpp"
+#include "render/tuning.hpp"
 
 namespace deltalux {
 
 namespace {
-
-constexpr int kShadowRays = 64;     // of one independent estimate
-constexpr int kFirstEstimates = 4;  // before any judgement
-// Lines that tell which surfaces send light, times the error that is asked for; and their limits.
-constexpr double kGatherLines = 40, kFewestGatherLines = 1024, kMostGatherLines = 1 << 14;
 
 /// The strongest first, and no more than so many.
 template <class T>
@@ -34,7 +30,8 @@ void measureLamps(const Sample& sample, const Vec3& normal, const ContributionSe
   std::map<LightId, RgbSum> lamps;
   RgbSum sum(0.0), squares(0.0);
   double n = 0;
-  for (int estimate = 0; estimate < kFirstEstimates || (estimate + 1) * kShadowRays <= settings.maxSamples;
+  for (int estimate = 0;
+       estimate < rendering::tuning::kFewestEstimates || (estimate + 1) * direct::tuning::kBatch <= settings.maxSamples;
        ++estimate) {
     RgbSum E(0.0);
     sample(combineKeys(settings.seed, static_cast<std::uint64_t>(estimate)), [&](const auto& a) {
@@ -43,7 +40,8 @@ void measureLamps(const Sample& sample, const Vec3& normal, const ContributionSe
     });
     sum += E, squares += E * E, ++n;
     const RgbSum mean = sum / n, variance = glm::max(squares / n - mean * mean, RgbSum(0.0));
-    if (n >= kFirstEstimates && gray(glm::sqrt(variance / (n - 1))) <= settings.error * gray(mean)) break;
+    if (n >= rendering::tuning::kFewestEstimates && gray(glm::sqrt(variance / (n - 1))) <= settings.error * gray(mean))
+      break;
   }
   result.direct = sum / n;
   for (const auto& [light, E] : lamps)
@@ -56,7 +54,7 @@ void measureAt(const rendering::PointSources& points, std::optional<hierarchy::E
   const std::vector<direct::Source> sources = leaf ? points.at(*leaf, x) : points.light().sources(x);
   direct::Aim aim(sources);
   aim.learn(points.light(), {&x, 1}, direct::tuning::kLearnAtPoint, combineKeys(settings.seed, 1));
-  aim = aim.at(sources, leaf ? points.lightAt(*leaf) : 0.0f, kShadowRays);
+  aim = aim.at(sources, leaf ? points.lightAt(*leaf) : 0.0f, direct::tuning::kBatch);
   if (aim.dark()) return;
   measureLamps([&](std::uint64_t key, const auto& visit) { aim.sample(points.light(), x, 0, key, visit); }, x.normal,
                settings, result);
@@ -77,8 +75,10 @@ void gatherSurfaces(const Solution& s, const rendering::LineGather& lines, const
     sent.E += E, sent.centre += gray(E) * Vec3(s.elements.shape(sender).center);
     result.indirect += E;
   };
-  const auto count =
-      static_cast<std::uint32_t>(std::clamp(kGatherLines / settings.error, kFewestGatherLines, kMostGatherLines));
+  // The relative error of the sum of n alike is one over the root.
+  const auto least = static_cast<double>(rendering::tuning::kFewestEstimates * direct::tuning::kBatch);
+  const auto count = static_cast<std::uint32_t>(
+      std::clamp(1 / (settings.error * settings.error), least, std::max(least, double(settings.maxSamples))));
   lines.forEachLine(Vec3f(x.position), Vec3f(x.normal), count, settings.seed, add);
   for (const auto& [object, sent] : objects)
     if (gray(sent.E) > 0) result.surfaces.push_back({object, sent.centre / gray(sent.E), sent.E});

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/sobol.hpp"
+#include "base/tuning.hpp"
 #include "render/caustic_light.hpp"
 #include "scene/texture_tint.hpp"
 #include "solution/solution.hpp"
@@ -10,8 +11,7 @@
 namespace deltalux::rendering {
 
 namespace {
-constexpr float kFaint = 1e-3f;  // a path that carries less ends
-constexpr std::uint64_t kShadowKey = 1 << 8, kOtherSideKey = 1 << 9, kScatterKey = 1 << 10;
+constexpr std::uint64_t kShadowKey = 1 << 8, kOtherSideKey = 1 << 9, kScatterKey = 1 << 10;  // [key]
 
 /// Whether a surface without its diffuse part sends light more than one way.
 bool isLeftToChance(const scene::Bsdf& specular) {
@@ -76,7 +76,7 @@ Rgb EyePaths::follow(Way w, const EyeRay& eye, Sights& sights) const {
     if (scattering.pane && !panesReflect_) {
       w.beta *= scene::passageTransmittance(scattering, -glm::dot(v.direction, n));
       w.ray.origin = tracing::offsetOrigin(Vec3f(v.position), hit.normal, w.ray.direction);
-      if (maxChannel(w.beta) < kFaint) return L;
+      if (maxChannel(w.beta) < deltalux::tuning::kNegligible) return L;
       continue;
     }
     bool lightsMet = false;
@@ -100,7 +100,7 @@ bool EyePaths::go(Way& w, const Vertex& v, const scene::Bsdf& scattering, const 
   w.ray.direction = Vec3f(glm::normalize(Frame(v.normal).toWorld(s.direction)));
   w.ray.origin = tracing::offsetOrigin(Vec3f(v.position), v.hit.normal, w.ray.direction);
   ++w.depth;
-  return maxChannel(w.beta) >= kFaint;
+  return maxChannel(w.beta) >= deltalux::tuning::kNegligible;
 }
 
 template <class Visit>

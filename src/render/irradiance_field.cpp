@@ -6,24 +6,20 @@
 
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
+#include "base/tuning.hpp"
 #include "hierarchy/patch.hpp"
 #include "render/linear_fit.hpp"
+#include "render/tuning.hpp"
 
 namespace deltalux::rendering {
 
 namespace {
 
-constexpr std::size_t kBlock = 512;
-constexpr float kDisagree = 0.3f;              // relative difference that asks whether something stands between
-constexpr float kLift = 0.1f;                  // of the smaller leaf's size: height at which that is looked for
-constexpr int kExposureRays = 16;              // that tell how much of a torn leaf is in sight of its centre
-constexpr std::uint32_t kFewestWitnesses = 4;  // joined leaves that tell what is out of the way
-constexpr float kLittleExposed = 0.2f;         // share of a leaf that tells too little of what is around it
-constexpr float kLeeway = 2.0f;                // predictions stay within so many times what the neighbours differ
+constexpr std::size_t kBlock = 512;  // [task]
 
 bool disagree(const Rgb& a, const Rgb& b) {
   const float x = gray(a), y = gray(b);
-  return std::abs(x - y) > kDisagree * std::max(x, y);
+  return std::abs(x - y) > tuning::kDisagree * std::max(x, y);
 }
 
 }  // namespace
@@ -55,7 +51,7 @@ IrradianceField::IrradianceField(const hierarchy::Elements& elements, const Scen
   fill(Mended, before, [&](std::size_t i) { return mended(i); });
   if (noise > 0) {
     fill(WithoutOutliers, before, [&](std::size_t i) { return withoutOutliers(i); });
-    for (int pass = 0; pass < kQuietPasses; ++pass)
+    for (int pass = 0; pass < tuning::kQuietPasses; ++pass)
       fill(static_cast<Stage>(Quiet + pass), before,
            [&](std::size_t i) { return quiet(i, stages_[static_cast<std::size_t>(Quiet + pass - 1)]); });
   } else {
@@ -114,7 +110,7 @@ void IrradianceField::relate(const IrradianceField* before) {
 
 bool IrradianceField::inSight(const Vec3f& p, hierarchy::ElementId home, hierarchy::ElementId other) const {
   const hierarchy::ElementGeometry &a = elements_.shape(home), &b = elements_.shape(other);
-  const float lift = kLift * std::sqrt(std::min(a.area, b.area));
+  const float lift = tuning::kLift * std::sqrt(std::min(a.area, b.area));
   const Vec3f from = p + lift * a.normal, to = b.center + lift * b.normal;
   tracing::Ray ray;
   ray.origin = from;
@@ -125,14 +121,14 @@ bool IrradianceField::inSight(const Vec3f& p, hierarchy::ElementId home, hierarc
 
 float IrradianceField::exposed(hierarchy::ElementId leaf) const {
   int seen = 0;
-  for (std::uint32_t k = 0; k < kExposureRays; ++k) {
+  for (std::uint32_t k = 0; k < deltalux::tuning::kPilots; ++k) {
     const UnitPair u = scrambledSobol(k, elements_.key[leaf.index()]);
     seen += inSight(hierarchy::samplePatch(elements_, scene_, leaf, u.x, u.y).position, leaf, leaf);
   }
-  return static_cast<float>(std::max(seen, 1)) / float(kExposureRays);
+  return static_cast<float>(std::max(seen, 1)) / float(deltalux::tuning::kPilots);
 }
 
-bool IrradianceField::isLittleExposed(std::size_t site) const { return coverage_[site] < kLittleExposed; }
+bool IrradianceField::isLittleExposed(std::size_t site) const { return coverage_[site] < tuning::kLittleExposed; }
 
 template <class Value>
 void IrradianceField::fill(Stage stage, const IrradianceField* before, const Value& value) {
@@ -187,7 +183,7 @@ LeafIrradiance IrradianceField::mended(std::size_t i) {
 
 LeafIrradiance IrradianceField::withoutOutliers(std::size_t i) const {
   const std::vector<LeafIrradiance>& values = stages_[Mended];
-  if (torn_[i] - begin_[i] < 1 + kFewestWitnesses) return values[i];
+  if (torn_[i] - begin_[i] < 1 + tuning::kFewestWitnesses) return values[i];
   Rgb least(std::numeric_limits<float>::infinity()), most(0.0f);
   for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
     const Rgb& E = values[neighbours_[k]].indirect;
@@ -241,8 +237,8 @@ IrradianceField::Linear IrradianceField::fit(std::size_t i, Quantity quantity) c
     fit.add(sites_[neighbours_[k]].center - site.center, difference);
     largest = glm::max(largest, glm::abs(difference));
   }
-  linear.low = glm::max(own - kLeeway * largest, Rgb(0.0f));
-  linear.high = own + kLeeway * largest;
+  linear.low = glm::max(own - tuning::kLeeway * largest, Rgb(0.0f));
+  linear.high = own + tuning::kLeeway * largest;
   fit.slopes(linear.slope);
   // Within the leaf itself the slope must not go further than to its neighbours.
   Rgb reach(0.0f);

@@ -30,6 +30,7 @@
 #include "hierarchy/side_locator.hpp"
 #include "render/leaf_irradiance.hpp"
 #include "render/leaf_sites.hpp"
+#include "render/tuning.hpp"
 #include "tracing/ray_tracer.hpp"
 
 namespace deltalux::rendering {
@@ -91,9 +92,8 @@ class IrradianceField {
   };
   /// Whether the middle of one leaf can be seen from that of another, where it was asked.
   enum class Sight : char { Unknown, Clear, Blocked };
-  static constexpr int kQuietPasses = 4;  // of averaging: it reaches about as many leaves
   /// Values of the leaves, by site, on their way from what they gathered to what is fitted.
-  enum Stage { Gathered, Filled, Mended, WithoutOutliers, Quiet, kStages = Quiet + kQuietPasses };
+  enum Stage { Gathered, Filled, Mended, WithoutOutliers, Quiet, kStages = Quiet + tuning::kQuietPasses };
 
   void relate(const IrradianceField* before);
   bool disagreeing(std::size_t home, std::size_t other) const;

@@ -4,15 +4,13 @@
 #include <map>
 
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 
 namespace deltalux::rendering {
 
 namespace {
 
-constexpr std::size_t kSitesBlock = 512;
-constexpr float kSamePlane = 0.9998f;  // cosine between polygons that make one wall
-constexpr float kSmoothMesh = 0.766f;  // cosine between triangles that a mesh means to be round: 40 degrees
-constexpr float kOffPlane = 1e-3f;     // of the smaller leaf's size: still one plane
+constexpr std::size_t kSitesBlock = 512;  // [task]
 
 BoxF floatBox(const Box& box) { return box.empty() ? BoxF{} : BoxF{Vec3f(box.lower), Vec3f(box.upper)}; }
 
@@ -85,14 +83,15 @@ bool LeafSites::sameSurface(hierarchy::ElementId a, hierarchy::ElementId b) cons
   const bool samePrimitive = da.primitive == db.primitive;
   if (samePrimitive && (elements_.hasFaces(a) || elements_.hasFaces(b)))
     return elements_.at(a).front == elements_.at(b).front &&
-           glm::dot(elements_.shape(a).normal, elements_.shape(b).normal) > kSmoothMesh;
+           glm::dot(elements_.shape(a).normal, elements_.shape(b).normal) > deltalux::tuning::kSmooth;
   if (!elements_.at(a).flat || !elements_.at(b).flat)
     return samePrimitive && elements_.at(a).front == elements_.at(b).front;
   const hierarchy::ElementGeometry &ga = elements_.shape(a), &gb = elements_.shape(b);
   const float cosine = glm::dot(ga.normal, gb.normal);
-  if (samePrimitive) return cosine > kSmoothMesh;
+  if (samePrimitive) return cosine > deltalux::tuning::kSmooth;
   const float size = std::sqrt(std::min(ga.area, gb.area));
-  return cosine > kSamePlane && std::abs(glm::dot(gb.center - ga.center, ga.normal)) < kOffPlane * size;
+  return cosine > 0 && glm::length(glm::cross(ga.normal, gb.normal)) < deltalux::tuning::kNegligible &&
+         std::abs(glm::dot(gb.center - ga.center, ga.normal)) < deltalux::tuning::kNegligible * size;
 }
 
 void LeafSites::findNear(const LeafSites* before) {

@@ -43,7 +43,7 @@ class Standing {
 
 class LeafSites {
  public:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kNone = 0xffffffffu;  // [sentinel]
 
   /// The elements and the scene must outlive this; `before` need not.
   LeafSites(const hierarchy::Elements&, const Scene&, const LeafSites* before);

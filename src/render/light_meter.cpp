@@ -13,11 +13,11 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr double kOnSurface = 1e-3;  // [m] this near, a point lies on a surface
-constexpr float kRoundings = 8;      // the same, in steps of its coordinates in single precision
-constexpr double kFacing = 0.5;      // cosine from which a side faces the normal
-constexpr int kMaxLayers = 16;       // surfaces that are looked at around a point
-constexpr double kShare = 0.7;       // of the error that direct light and indirect may have each: 0.7^2 + 0.7^2 = 1
+constexpr double kOnSurface = 1e-3;             // [m] this near, a point lies on a surface [defined]
+constexpr float kRoundings = 8;                 // the same, in steps of its coordinates in single precision [rounding]
+constexpr double kFacing = 0.5;                 // cosine from which a side faces the normal [defined]
+constexpr int kMaxLayers = 16;                  // surfaces that are looked at around a point [limit]
+constexpr double kShare = 0.70710678118654752;  // of the error that each of two independent parts may have [defined]
 
 }  // namespace
 

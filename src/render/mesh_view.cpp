@@ -12,8 +12,8 @@ namespace deltalux {
 
 namespace {
 
-constexpr int kMaxPanes = 32;
-constexpr float kOutline = 0.35f;  // of the radiance next to it
+constexpr int kMaxPanes = 32;      // [limit]
+constexpr float kOutline = 0.35f;  // of the radiance next to it [shown]
 
 class MeshPainter {
  public:

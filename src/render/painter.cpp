@@ -5,15 +5,14 @@
 #include "base/check.hpp"
 #include "base/morton.hpp"
 #include "base/sobol.hpp"
+#include "render/tuning.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::rendering {
 
 namespace {
 
-constexpr int kTile = 32;  // pixels a side: neighbours see the same elements
-constexpr std::uint64_t kSurveyKey = 1 << 16;
-constexpr int kLearningShare = 2, kFewestLearning = 4, kMostLearning = 64;  // rays of a pixel over those to learn from
+constexpr std::uint64_t kSurveyKey = 1 << 16;  // [key]
 
 /// Numbers pixels along a curve that keeps neighbours together: a pixel takes its stratified numbers from where its
 /// neighbours' end, so that errors of neighbours cancel and what noise there is, is fine. [Ahmed20]
@@ -39,13 +38,14 @@ Painter::Painter(const Solution& s, const Reconstruction& reconstruction, const 
       reconstruction_(reconstruction),
       view_(view),
       settings_(settings),
-      across_((settings.width + kTile - 1) / kTile),
-      down_((settings.height + kTile - 1) / kTile),
+      across_((settings.width + tuning::kTile - 1) / tuning::kTile),
+      down_((settings.height + tuning::kTile - 1) / tuning::kTile),
       paths_(s, reconstruction, {settings.meshDirect ? 0 : settings.shadowRays, settings.maxSpecularDepth}) {}
 
 Painter::Tile Painter::tile(std::size_t index) const {
-  const int x = static_cast<int>(index) % across_ * kTile, y = static_cast<int>(index) / across_ * kTile;
-  return {x, y, std::min(x + kTile, settings_.width), std::min(y + kTile, settings_.height)};
+  const int x = static_cast<int>(index) % across_ * tuning::kTile,
+            y = static_cast<int>(index) / across_ * tuning::kTile;
+  return {x, y, std::min(x + tuning::kTile, settings_.width), std::min(y + tuning::kTile, settings_.height)};
 }
 
 Sights Painter::lookAround(const Tile& t) const {
@@ -55,7 +55,7 @@ Sights Painter::lookAround(const Tile& t) const {
   for (int y = t.y0; y < t.y1; ++y)
     for (int x = t.x0; x < t.x1; ++x) paths_.survey(eyeRay(x, y, pixelInOrder(x, y), key), sights);
   const int rays = settings_.samplesPerPixel * settings_.shadowRays;
-  sights.learn(std::clamp(rays / kLearningShare, kFewestLearning, kMostLearning), settings_.shadowRays,
+  sights.learn(std::clamp(rays / tuning::kLearningShare, 1, int(tuning::kMostRays)), settings_.shadowRays,
                combineKeys(key, pixelInOrder(t.x0, t.y0)));
   return sights;
 }

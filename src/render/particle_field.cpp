@@ -4,21 +4,18 @@
 #include <array>
 
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
+#include "caustics/tuning.hpp"
 #include "particles/impact_light.hpp"
 #include "particles/side_index.hpp"
+#include "render/tuning.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::rendering {
 
 namespace {
 
-constexpr std::size_t kMostNeighbours = 400;
-constexpr double kStep = 1.25;       // between radii
-constexpr std::size_t kFewest = 6;   // impacts within four times the least radius
-constexpr double kConfidence = 1.5;  // standard deviations of an interval [GN97, 2.3: about 2 for Gaussian noise]
-constexpr double kAlongLift = 0.02;  // of the radius, for looking along the surface
-constexpr int kDisc = 128;
-constexpr int kPasses = 3;  // with what is known at the point ever closer
+constexpr int kDisc = tuning::kSectors * deltalux::tuning::kPilots;
 
 /// Points of the unit disc, even in area. [Vogel79]
 const std::array<Vec2, kDisc>& disc() {
@@ -98,10 +95,10 @@ void ParticleField::search(std::uint32_t begin, std::uint32_t end, Query& q) con
   const Vec3f p(q.position), d = l.position - p;
   const auto nearer = [](const Neighbour& a, const Neighbour& b) { return a.squared < b.squared; };
   const float squared = glm::dot(d, d);
-  if (q.found.size() < kMostNeighbours || squared < q.found.front().squared) {
+  if (q.found.size() < tuning::kMostParticles || squared < q.found.front().squared) {
     q.found.push_back({squared, middle});
     std::push_heap(q.found.begin(), q.found.end(), nearer);
-    if (q.found.size() > kMostNeighbours) {
+    if (q.found.size() > tuning::kMostParticles) {
       std::pop_heap(q.found.begin(), q.found.end(), nearer);
       q.found.pop_back();
     }
@@ -109,7 +106,9 @@ void ParticleField::search(std::uint32_t begin, std::uint32_t end, Query& q) con
   const float across = d[static_cast<int>(l.axis)];
   const auto lower = [&] { search(begin, middle, q); };
   const auto upper = [&] { search(middle + 1, end, q); };
-  const auto reachable = [&] { return q.found.size() < kMostNeighbours || across * across < q.found.front().squared; };
+  const auto reachable = [&] {
+    return q.found.size() < tuning::kMostParticles || across * across < q.found.front().squared;
+  };
   if (across > 0) {
     lower();
     if (reachable()) upper();
@@ -124,11 +123,11 @@ Rgb ParticleField::at(PrimitiveId primitive, bool front, const Vec3& position, c
   if (begin_[group] == begin_[group + 1]) return Rgb(0.0f);
   Query q;
   q.primitive = primitive, q.position = position, q.normal = normal;
-  q.found.reserve(kMostNeighbours + 1);
+  q.found.reserve(tuning::kMostParticles + 1);
   search(begin_[group], begin_[group + 1], q);
   std::sort_heap(q.found.begin(), q.found.end(),
                  [](const Neighbour& a, const Neighbour& b) { return a.squared < b.squared; });
-  const bool all = q.found.size() < kMostNeighbours;
+  const bool all = q.found.size() < tuning::kMostParticles;
   // A surface with few impacts is one kernel that reaches well over it.
   const double reach = std::sqrt(double(q.found.back().squared));
   q.radius = all ? std::max(1.5 * reach, 0.5 * bounds(scene_[primitive].shape).diagonal()) : reach;
@@ -137,7 +136,7 @@ Rgb ParticleField::at(PrimitiveId primitive, bool front, const Vec3& position, c
 }
 
 bool ParticleField::inSight(const Query& q, const Vec3& to) const {
-  const double lift = kAlongLift * q.radius;
+  const double lift = tuning::kParticleLift * q.radius;
   const Vec3f from(q.position + lift * q.normal), d = Vec3f(to + lift * q.normal) - from;
   tracing::Ray ray;
   ray.origin = from;
@@ -171,7 +170,7 @@ struct ParticleField::Rings {
     double gray = 0, squares = 0, area = 0;
   };
   std::vector<double> radii;
-  std::array<std::vector<Sum>, kSectors> out;  // out[k][j]: sector k within radii[j]
+  std::array<std::vector<Sum>, tuning::kSectors> out;  // out[k][j]: sector k within radii[j]
 
   Sum whole(std::size_t j) const {
     Sum all;
@@ -185,15 +184,16 @@ struct ParticleField::Rings {
 
 ParticleField::Rings ParticleField::ringsOf(const Query& q, const Surroundings& around) const {
   Rings rings;
-  const std::size_t few = std::min<std::size_t>(kFewest, q.found.size());
+  // A quarter of the distance of sixteen holds one.
+  const std::size_t few = std::min<std::size_t>(deltalux::tuning::kPilots, q.found.size());
   double radius = std::max(0.25 * std::sqrt(double(q.found[few - 1].squared)), 1e-6 * q.radius);
-  for (; radius < q.radius; radius *= kStep) rings.radii.push_back(radius);
+  for (; radius < q.radius; radius *= tuning::kStep) rings.radii.push_back(radius);
   rings.radii.push_back(q.radius);
   const std::size_t steps = rings.radii.size();
   const Frame frame(q.normal);
   const auto sectorOf = [](double x, double y) {
-    const int k = static_cast<int>(std::floor((std::atan2(y, x) / kPi + 1) * 0.5 * kSectors));
-    return std::clamp(k, 0, kSectors - 1);
+    const int k = static_cast<int>(std::floor((std::atan2(y, x) / kPi + 1) * 0.5 * tuning::kSectors));
+    return std::clamp(k, 0, tuning::kSectors - 1);
   };
   for (auto& sector : rings.out) sector.resize(steps);
   const auto stepOf = [&](double r) {
@@ -209,20 +209,20 @@ ParticleField::Rings ParticleField::ringsOf(const Query& q, const Surroundings& 
     s.flux += RgbSum(l.flux), s.gray += w, s.squares += w * w;
   }
   // Of every ring's part as much is surface as of the points in it and next to it.
-  std::array<std::vector<std::array<int, 2>>, kSectors> open;
+  std::array<std::vector<std::array<int, 2>>, tuning::kSectors> open;
   const bool everywhere = std::all_of(around.open.begin(), around.open.end(), [](char o) { return o; });
-  for (int k = 0; k < kSectors; ++k) open[k].assign(steps, {0, 0});
+  for (int k = 0; k < tuning::kSectors; ++k) open[k].assign(steps, {0, 0});
   for (int i = 0; i < kDisc && !everywhere; ++i) {
     const Vec2 at = disc()[i];
     auto& cell = open[sectorOf(at.x, at.y)][stepOf(q.radius * glm::length(at))];
     ++cell[0], cell[1] += around.open[i];
   }
-  for (int k = 0; k < kSectors; ++k) {
+  for (int k = 0; k < tuning::kSectors; ++k) {
     double share = 1;  // the point itself is on the surface
     for (std::size_t j = 0; j < steps; ++j) {
       if (!everywhere && open[k][j][0] > 0) share = double(open[k][j][1]) / open[k][j][0];
       const double inner = j > 0 ? rings.radii[j - 1] : 0.0, outer = rings.radii[j];
-      rings.out[k][j].area = share * kPi * (outer * outer - inner * inner) / kSectors;
+      rings.out[k][j].area = share * kPi * (outer * outer - inner * inner) / tuning::kSectors;
       if (j > 0) Rings::add(rings.out[k][j], rings.out[k][j - 1], 1);
     }
   }
@@ -240,7 +240,7 @@ Rgb ParticleField::estimate(Query& q, const Surroundings& around) const {
   // Where few have landed the noise is that of as many as land around on average.
   const double typical = all.squares / all.area;
   const auto noiseOf = [&](const Rings::Sum& s) {
-    return kConfidence * std::sqrt(std::max(s.squares, typical * s.area)) / s.area;
+    return caustics::tuning::kSharp * std::sqrt(std::max(s.squares, typical * s.area)) / s.area;
   };
   double low = 0, high = kInfinity;
   for (std::size_t j = 0; j < steps; ++j) {
@@ -251,7 +251,7 @@ Rgb ParticleField::estimate(Query& q, const Surroundings& around) const {
     low = std::max(low, E - noise), high = std::min(high, E + noise);
   }
   Rings::Sum kept;
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < tuning::kPasses; ++pass) {
     kept = {};
     for (const auto& sector : rings.out) {
       std::size_t reach = 0;
@@ -269,7 +269,7 @@ Rgb ParticleField::estimate(Query& q, const Surroundings& around) const {
     if (!(kept.area > 0)) return Rgb(all.flux / all.area);
     const double E = kept.gray / kept.area;
     const double one = all.squares / static_cast<double>(q.found.size());  // of a single impact
-    const double noise = kConfidence * std::sqrt(std::max(kept.squares, one)) / kept.area;
+    const double noise = caustics::tuning::kSharp * std::sqrt(std::max(kept.squares, one)) / kept.area;
     low = E - noise, high = E + noise;
   }
   return Rgb(kept.flux / kept.area);

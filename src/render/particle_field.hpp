@@ -55,7 +55,6 @@ class ParticleField {
   void search(std::uint32_t begin, std::uint32_t end, Query&) const;
   Surroundings lookAround(const Query&) const;
   bool inSight(const Query&, const Vec3& q) const;
-  static constexpr int kSectors = 8;
   struct Rings;
   Rings ringsOf(const Query&, const Surroundings&) const;
   Rgb estimate(Query&, const Surroundings&) const;

@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "particles/impact_light.hpp"
+#include "render/tuning.hpp"
 #include "scene/nominal_scale.hpp"
 #include "solution/solution.hpp"
 
@@ -13,8 +14,7 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr std::size_t kNearest = 400;  // impacts that are looked at, as many as the light there is estimated from
-constexpr std::size_t kPathBlock = 4096;
+constexpr std::size_t kPathBlock = 4096;  // [task]
 
 struct Landed {
   double squared;  // of its distance
@@ -29,7 +29,7 @@ std::vector<Landed> nearestImpacts(const Solution& s, const SurfaceSpot& spot) {
     return std::tie(a.squared, a.impact) < std::tie(b.squared, b.impact);
   };
   const auto keepNearest = [&](std::vector<Landed>& all) {
-    const std::size_t most = std::min(all.size(), kNearest);
+    const std::size_t most = std::min(all.size(), tuning::kMostParticles);
     std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(most), all.end(), nearer);
     all.resize(most);
   };

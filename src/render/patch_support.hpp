@@ -8,6 +8,7 @@
 // Patches of many faces measure in space, from their centre.
 #include "base/box_tree.hpp"
 #include "hierarchy/element.hpp"
+#include "render/tuning.hpp"
 
 namespace deltalux::rendering {
 
@@ -44,8 +45,8 @@ class PatchSupport {
 
  private:
   enum class Kind : char { Flat, Round, Faces };
-  static constexpr float kReach = 2.5f;      // in half sizes: weights vanish there
-  static constexpr float kFacesSize = 0.6f;  // half size of many faces, in radii: they reach half again as far
+  static constexpr float kReach = tuning::kReach;
+  static constexpr float kFacesSize = 0.70710678f;  // half size of many faces, in radii: that of a square [defined]
 
   static float falloff(float t) {
     const float s = 1.0f - t * t * (1.0f / (kReach * kReach));

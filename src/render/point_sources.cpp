@@ -1,5 +1,7 @@
 #include "render/point_sources.hpp"
 
+#include "base/tuning.hpp"
+#include "direct/tuning.hpp"
 #include "hierarchy/leaf_sequence.hpp"
 #include "solution/sky_visibility.hpp"
 #include "solution/solution.hpp"
@@ -8,8 +10,7 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr int kLeafPoints = 32, kLeafRays = 256;  // to learn from, where nothing is known of a leaf's own pixels
-constexpr std::uint64_t kLeafKey = 0x61696d5f5f5full;
+constexpr std::uint64_t kLeafKey = 0x61696d5f5f5full;  // [key]
 
 }  // namespace
 
@@ -37,13 +38,13 @@ float PointSources::lightAt(hierarchy::ElementId leaf) const {
 direct::Aim PointSources::aimAt(hierarchy::ElementId leaf, int rays) const {
   const hierarchy::LeafSequence points(s_.elements, s_.scene, leaf);
   std::vector<direct::Receiver> places;
-  for (std::uint32_t k = 0; k < kLeafPoints; ++k) {
+  for (std::uint32_t k = 0; k < deltalux::tuning::kPilots; ++k) {
     const hierarchy::PatchPoint p = points.point(k);
     places.push_back({Vec3(p.position), Vec3(p.normal)});
   }
   const std::vector<direct::Source> sources = at(leaf);
   direct::Aim aim(sources);
-  aim.learn(light_, places, kLeafRays, combineKeys(points.key(), kLeafKey));
+  aim.learn(light_, places, direct::tuning::kLearnAtPoint, combineKeys(points.key(), kLeafKey));
   return aim.at(sources, lightAt(leaf), rays);
 }
 

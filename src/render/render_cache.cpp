@@ -7,28 +7,21 @@
 #include "base/prefetch.hpp"
 #include "render/cache_filling.hpp"
 #include "render/error_diffusion.hpp"
+#include "render/tuning.hpp"
 #include "render/view_projection.hpp"
 
 namespace deltalux {
 
 namespace {
 
-constexpr std::uint32_t kNobody = 0xffffffffu;
-constexpr std::size_t kAhead = 16;       // pixels whose samples are fetched ahead
-constexpr std::size_t kGroup = 8;        // samples of which the oldest makes room [WDP99]
-constexpr float kNearer = 0.9f;          // depth of a neighbour over a sample's from which it stands before it
-constexpr float kCovered = 0.6f;         // share of such neighbours that a sample does not shine through
-constexpr int kFewestNeighbours = 3;     // that can tell
-constexpr std::uint16_t kMostRays = 64;  // of a pixel that are averaged
-constexpr std::uint32_t kAwaited = 4;    // frames until a ray is asked for again
-constexpr float kOffCentre = 1.0f;       // [pixels] by which a ray's hit may miss its pixel by rounding
-constexpr int kPredicted = 4;            // pixels a side of the cells that are looked at ahead [WDG02]
-constexpr float kOldAge = 64;            // frames
-// Priorities: nothing there, filled from all around, a sample just come from another view, and an old one; one of a
-// pixel's own that is left to chance.
-constexpr float kEmpty = 1.0f, kFilled = 0.6f, kOld = 0.5f, kYoung = 0.1f, kNoisy = 0.1f;
+constexpr std::uint32_t kNobody = 0xffffffffu;  // [sentinel]
+constexpr std::size_t kAhead = 16;              // pixels whose samples are fetched ahead [task]
+constexpr std::size_t kGroup = 8;               // samples of which the oldest makes room [WDP99] [defined]
+constexpr float kOffCentre = 1.0f;  // [pixels] by which a ray's hit may miss its pixel by rounding [rounding]
+constexpr int kPredicted = 4;       // pixels a side of the cells that are looked at ahead [WDG02] [defined]
+constexpr float kEmpty = 1.0f;      // priority of a pixel where nothing is: those of others are shares of it [defined]
 
-constexpr float kOutdated = 0.5f * std::numeric_limits<float>::max();  // depth: all else is before it
+constexpr float kOutdated = 0.5f * std::numeric_limits<float>::max();  // depth: all else is before it [sentinel]
 
 bool sameView(const View& a, const View& b) {
   return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.up == b.up &&
@@ -125,7 +118,7 @@ bool RenderCache::State::average(std::uint32_t at, const PixelSample& s) {
   PixelSample& mean = samples[at];
   if (!own(at) || !s.noisy || !p.noisy || p.surface != s.primitive.value + 1) return false;
   const float n = p.rays;
-  if (p.rays < kMostRays) ++p.rays;
+  if (p.rays < rendering::tuning::kMostRays) ++p.rays;
   p.radiance = mean.radiance = (n * p.radiance + s.radiance) / (n + 1);
   mean.version = std::min(mean.version, s.version);
   mean.complete = false;
@@ -258,10 +251,9 @@ void RenderCache::State::cull() {
         for (int dx = -1; dx <= 1; ++dx) {
           const std::size_t q = p + static_cast<std::ptrdiff_t>(dy) * frame.width + dx;
           if (q == p || shown[q].point == kNobody || surfaces[q] != surfaces[p]) continue;
-          ++around, nearer += std::abs(shown[q].depth) < kNearer * shown[p].depth;
+          ++around, nearer += std::abs(shown[q].depth) < rendering::tuning::kNearer * shown[p].depth;
         }
-      if (around >= kFewestNeighbours && static_cast<float>(nearer) > kCovered * static_cast<float>(around))
-        hidden.push_back(p);
+      if (nearer > 1 && 2 * nearer > around) hidden.push_back(p);  // most, and not one alone
     }
   for (const std::size_t p : hidden) shown[p] = {};
 }
@@ -307,17 +299,20 @@ const CacheFrame& RenderCache::frame(const View& view, int width, int height, st
 float RenderCache::State::standingOf(const Point& point) const {
   if (point.outdated) return kEmpty;
   if (point.view == viewNumber)
-    return point.noisy && point.rays < kMostRays ? kNoisy / static_cast<float>(point.rays) : 0.0f;
+    return point.noisy && point.rays < rendering::tuning::kMostRays
+               ? rendering::tuning::kYoung / static_cast<float>(point.rays)
+               : 0.0f;
   const float age = static_cast<float>(frameNumber - point.born);
-  return kYoung + (kOld - kYoung) * std::min(age / kOldAge, 1.0f);
+  return rendering::tuning::kYoung +
+         (rendering::tuning::kOld - rendering::tuning::kYoung) * std::min(age / rendering::tuning::kMostRays, 1.0f);
 }
 
 float RenderCache::State::priority(std::size_t p) const {
-  if (surfaces[p] == 0 || (asked[p] != 0 && frameNumber - asked[p] < kAwaited)) return 0;
+  if (surfaces[p] == 0 || (asked[p] != 0 && frameNumber - asked[p] < rendering::tuning::kAwaited)) return 0;
   const bool ownSample = shown[p].point != kNobody && shown[p].depth < 0;
   if (answered[p] && !ownSample) return 0;  // by a ray that met something else than is drawn
   if (shown[p].point != kNobody) return standing[p];
-  return kEmpty + (kFilled - kEmpty) * frame.pixels[p].w;
+  return kEmpty + (rendering::tuning::kOld - kEmpty) * frame.pixels[p].w;
 }
 
 PixelRay RenderCache::State::ray(const View& from, std::size_t pixel) const {

@@ -8,10 +8,13 @@
 
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "base/tuning.hpp"
+#include "hierarchy/tuning.hpp"
 #include "particles/segment_box.hpp"
 #include "particles/side_index.hpp"
 #include "render/place_boxes.hpp"
 #include "render/reader_state.hpp"
+#include "render/tuning.hpp"
 
 namespace deltalux {
 
@@ -19,11 +22,8 @@ namespace rendering {
 
 namespace {
 
-constexpr float kVisibleStep = 1.0f / 512;  // relative change of irradiance that shows: half a step of eight bits
-constexpr float kFaintest = 1.0f / 32;      // of the mean irradiance: what is darker is compared with that
-constexpr std::size_t kPlaces = 64;         // that are told apart
-constexpr std::size_t kNewPlaces = 8;       // of one refresh
-constexpr std::size_t kSiteBlock = 512;
+constexpr float kVisibleStep = 1.0f / 512;  // change of irradiance that shows: half a step of eight bits [defined]
+constexpr std::size_t kSiteBlock = 512;     // [task]
 
 /// What differs from what was noted, apart from the light of leaves.
 struct Difference {
@@ -138,8 +138,9 @@ Difference compareAll(const Solution& s, NotedSolution& noted) {
 
 /// Marks what moved as having come to be where it is now.
 void addPlaces(const Difference& d, SampleChanges& changes) {
-  for (const Box& box : coveringBoxes(d.came, kNewPlaces)) changes.places.push_back({box, changes.version});
-  while (changes.places.size() > kPlaces) {
+  for (const Box& box : coveringBoxes(d.came, deltalux::tuning::kBoxes))
+    changes.places.push_back({box, changes.version});
+  while (changes.places.size() > rendering::tuning::kPlaces) {
     changes.places[1].box.extend(changes.places[0].box);
     changes.places.erase(changes.places.begin());
   }
@@ -188,7 +189,7 @@ class LeafComparison {
       const double lit = elements_.shape(field_.leafOf(i)).litArea();
       light += lit * double(maxChannel(field_.trend(i).value)), area += lit;
     }
-    floor_ = area > 0 ? kFaintest * static_cast<float>(light / area) : 0.0f;
+    floor_ = area > 0 ? hierarchy::tuning::kDarkest * static_cast<float>(light / area) : 0.0f;
   }
 
   /// By site, of all leaves at whose points it is read.

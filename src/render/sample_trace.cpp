@@ -10,9 +10,9 @@ namespace deltalux {
 
 namespace {
 
-constexpr std::size_t kRays = 64;              // of a block
-constexpr float kFar = 1024;                   // where paths that leave the scene end, over its diagonal
-constexpr std::uint64_t kStreamKey = 1 << 17;  // of the pixels' stratified numbers
+constexpr std::size_t kRays = 64;              // of a block [task]
+constexpr float kFar = 1024;                   // where paths that leave the scene end, over its diagonal [sentinel]
+constexpr std::uint64_t kStreamKey = 1 << 17;  // of the pixels' stratified numbers [key]
 
 /// Shows what is behind it, or in front, undistorted: light that it passes on comes from where it seems to.
 bool showsImages(const Scene& scene, PrimitiveId primitive) {

@@ -2,14 +2,9 @@
 
 #include <algorithm>
 
+#include "render/tuning.hpp"
+
 namespace deltalux::rendering {
-
-namespace {
-
-constexpr int kFewestAround = 2048;  // rays to learn from, for all of a part of a picture
-constexpr int kAroundShare = 2;      // rays of all sides over those that the whole part learns from
-
-}  // namespace
 
 /// Alike for all leaves of it.
 std::uint64_t Sights::sideOf(hierarchy::ElementId leaf) const {
@@ -32,7 +27,8 @@ void Sights::learn(int raysOfPlace, int rays, std::uint64_t key) {
     first.push_back(i), sources.push_back(sources_.at(places[i].leaf));
   }
   first.push_back(places.size());
-  const int shared = std::max(kFewestAround, raysOfPlace * static_cast<int>(places.size()) / kAroundShare);
+  const int shared =
+      std::max(direct::tuning::kLearnAtPoint, raysOfPlace * static_cast<int>(places.size()) / tuning::kLearningShare);
   around_ = direct::Aim(direct::joined(sources));
   around_.learn(sources_.light(), receivers, shared, key);
   for (std::size_t begin = 0, end = 0; begin < sources.size(); begin = end) {

@@ -2,37 +2,31 @@
 
 #include "base/batch_mean.hpp"
 #include "base/random.hpp"
+#include "render/tuning.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::rendering {
 
-namespace {
-
-constexpr double kTableBudget = 1e6;       // test samples behind the choice of connections
-constexpr std::uint32_t kPathBatch = 256;  // paths of one independent estimate
-constexpr int kFewestPathBatches = 8;      // before any judgement
-
-}  // namespace
-
 SpaceMeter::SpaceMeter(const Solution& s, const EyePaths& paths)
     : scene_(s.scene, s.settings.diffuseOnly, s.tracer),
       connections_(scene_),
-      table_(scene_, connections_, kTableBudget),
+      table_(scene_, connections_, tuning::kMeterTests),
       tracer_(scene_, connections_, table_, 0, [&paths](const tracing::Hit& hit) { return paths.diffuse(hit); }) {}
 
 ProbeResult SpaceMeter::at(const ProbePoint& x, const ProbeSettings& settings, std::uint64_t key) const {
   ProbeResult result;
   BatchMean mean;
   std::uint64_t rays = 0;
-  while (mean.count() < kFewestPathBatches || result.samples < static_cast<std::uint64_t>(settings.maxSamples)) {
+  while (mean.count() < tuning::kFewestEstimates || result.samples < static_cast<std::uint64_t>(settings.maxSamples)) {
     RgbSum own(0.0);
-    for (std::uint32_t i = 0; i < kPathBatch; ++i) {
+    for (std::uint32_t i = 0; i < direct::tuning::kBatch; ++i) {
       PathSampler sampler(combineKeys(key, static_cast<std::uint64_t>(mean.count())), i);
       own += tracer_.irradiance(x.position, x.normal, sampler, rays);
     }
-    mean.add(own / double(kPathBatch));
-    result.samples += kPathBatch;
-    if (mean.count() >= kFewestPathBatches && gray(mean.standardError()) <= settings.error * gray(mean.mean())) break;
+    mean.add(own / double(direct::tuning::kBatch));
+    result.samples += direct::tuning::kBatch;
+    if (mean.count() >= tuning::kFewestEstimates && gray(mean.standardError()) <= settings.error * gray(mean.mean()))
+      break;
   }
   result.irradiance = mean.mean(), result.standardError = mean.standardError();
   return result;

@@ -11,8 +11,8 @@ namespace deltalux {
 
 namespace {
 
-constexpr int kGap = 6, kAcross = 6;
-constexpr std::array<std::uint8_t, 3> kPaper{24, 24, 24}, kInk{230, 230, 230};
+constexpr int kGap = 6, kAcross = 6;                                            // [shown]
+constexpr std::array<std::uint8_t, 3> kPaper{24, 24, 24}, kInk{230, 230, 230};  // [shown]
 
 /// Letters, digits, dots and dashes of a name; the rest as underscores.
 std::string fitForFile(std::string name) {

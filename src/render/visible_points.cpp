@@ -10,7 +10,7 @@ namespace deltalux {
 namespace {
 /// Follows `ray` through panes to the first surface that is none.
 std::optional<ProbePoint> firstSurface(const Scene& scene, const tracing::RayTracer& tracer, tracing::Ray ray) {
-  constexpr int kMostPanes = 64;
+  constexpr int kMostPanes = 64;  // [limit]
   for (int pane = 0; pane <= kMostPanes; ++pane) {
     const tracing::Hit hit = tracer.closestHit(ray);
     if (!hit) return std::nullopt;

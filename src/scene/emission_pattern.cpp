@@ -6,7 +6,7 @@ namespace deltalux {
 
 namespace {
 
-constexpr double kLeastCosine = 1e-4;  // where a flat source is seen so nearly edge-on that rounding makes its cosine
+constexpr double kLeastCosine = 1e-4;  // of a flat source seen so nearly edge-on that rounding makes it [rounding]
 
 /// Radiance's rule inside the cone: the inverse square counts from a focus behind the source. [Radiance, spotlight]
 double relativeRadiance(const SpotCone& spot, const Vec3& direction, double distance) {

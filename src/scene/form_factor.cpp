@@ -6,7 +6,7 @@
 namespace deltalux::scene {
 
 double formFactorToPolygon(const Vec3f& x, const Vec3f& n, std::span<const Vec3f> polygon) {
-  constexpr std::size_t kMax = 64;
+  constexpr std::size_t kMax = 64;  // [limit]
   std::array<Vec3f, 2 * kMax> clipped;
   std::size_t count = 0;
   const std::size_t size = std::min(polygon.size(), kMax);

@@ -11,7 +11,7 @@ namespace deltalux::scene {
 namespace {
 
 using VertexOrder = std::vector<std::uint32_t>;
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
+constexpr std::uint32_t kNone = ~std::uint32_t{0};  // [sentinel]
 
 // A number for each vertex, equal for vertices at one point.
 VertexOrder pointsOf(const std::vector<Vec2>& outline, std::size_t& count) {
@@ -125,7 +125,7 @@ bool turnLoops(std::vector<Loop>& loops, const std::vector<Vec2>& outline) {
   for (std::size_t i = 0; i < loops.size(); ++i) {
     measure(loops[i], outline);
     const Vec2 size = loops[i].high - loops[i].low;
-    constexpr double kNothing = 1e-12;  // of the square of its size: a seam
+    constexpr double kNothing = 1e-12;  // of the square of its size: a seam [rounding]
     if (loops[i].corners.size() > 2 && std::abs(loops[i].area) > kNothing * glm::dot(size, size)) bySize.push_back(i);
   }
   std::stable_sort(bySize.begin(), bySize.end(),

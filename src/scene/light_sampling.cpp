@@ -7,13 +7,13 @@
 #include "base/unit_circle.hpp"
 #include "scene/form_factor.hpp"
 #include "scene/light_sampling_triangle.hpp"
+#include "scene/tuning.hpp"
 
 namespace deltalux::scene {
 
 namespace {
 
-constexpr double kMinSolidAngle = 1e-3;  // below, area sampling is as good and keeps more digits
-constexpr std::size_t kMaxTrianglesBySolidAngle = 8;
+constexpr double kMinSolidAngle = 1e-3;  // below, area sampling is as good and keeps more digits [rounding]
 
 /// A direction within 1 - cos <= `depth` of `axis`, uniform in solid angle.
 Vec3 sampleCap(const Vec3& axis, double depth, const Vec2& u) {
@@ -175,7 +175,7 @@ std::optional<LightSample> LightSampler::sample(LightId id, const Vec3& from, co
 }
 
 bool LightSampler::bySolidAngle(const AreaData& data, const Vec3& from, double& omega) const {
-  if (data.triangles.empty() || data.triangles.size() > kMaxTrianglesBySolidAngle ||
+  if (data.triangles.empty() || data.triangles.size() > tuning::kMostBySolidAngle ||
       !std::holds_alternative<Polygon>(scene_[data.primitive].shape)) {
     return false;
   }
@@ -263,7 +263,7 @@ std::optional<Rgb> LightSampler::irradiance(LightId id, const Vec3& at, const Ve
     return {};
   }
   const auto* polygon = std::get_if<Polygon>(&shape);
-  if (!polygon || data.triangles.size() > kMaxTrianglesBySolidAngle) return {};
+  if (!polygon || data.triangles.size() > tuning::kMostBySolidAngle) return {};
   if (!emission.bothSides && !(glm::dot(at - data.triangles.front().a, polygon->normal) > 0)) return Rgb(0.0f);
   double F = 0;
   for (const Triangle& t : data.triangles)

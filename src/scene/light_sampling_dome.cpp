@@ -2,22 +2,18 @@
 
 #include <algorithm>
 
+#include "base/tuning.hpp"
 #include "base/unit_circle.hpp"
 
 namespace deltalux::scene {
-
-namespace {
-constexpr int kLooks = 3;               // per cell and dimension, when the table is made
-constexpr double kUniformShare = 0.05;  // of the density: no cell is ever impossible
-}  // namespace
 
 DomeTable::DomeTable(const DomeLight& dome) : frame_(dome.axis), depth_(1.0 - std::cos(dome.halfAngle)) {
   std::vector<double> weights(kRings * kSectors);
   double sum = 0;
   for (int cell = 0; cell < kRings * kSectors; ++cell) {
-    for (int k = 0; k < kLooks * kLooks; ++k) {
-      const double azimuth = (cell % kSectors + (k % kLooks + 0.5) / kLooks) / kSectors;
-      const double height = (cell / kSectors + (k / kLooks + 0.5) / kLooks) / kRings;
+    for (int k = 0; k < tuning::kDomeLooks * tuning::kDomeLooks; ++k) {
+      const double azimuth = (cell % kSectors + (k % tuning::kDomeLooks + 0.5) / tuning::kDomeLooks) / kSectors;
+      const double height = (cell / kSectors + (k / tuning::kDomeLooks + 0.5) / tuning::kDomeLooks) / kRings;
       weights[cell] += gray(skyRadiance(dome, direction(azimuth, height)));
     }
     sum += weights[cell];
@@ -25,7 +21,8 @@ DomeTable::DomeTable(const DomeLight& dome) : frame_(dome.axis), depth_(1.0 - st
   const double cells = kRings * kSectors;
   double total = 0;
   for (double w : weights) {
-    total += sum > 0 ? kUniformShare / cells + (1.0 - kUniformShare) * w / sum : 1.0 / cells;
+    total +=
+        sum > 0 ? deltalux::tuning::kDefensive / cells + (1.0 - deltalux::tuning::kDefensive) * w / sum : 1.0 / cells;
     cumulative_.push_back(total);
   }
   for (double& c : cumulative_) c /= total;

@@ -4,6 +4,8 @@
 #include <deltalux/light.hpp>
 #include <vector>
 
+#include "scene/tuning.hpp"
+
 namespace deltalux::scene {
 
 class DomeTable {
@@ -20,7 +22,7 @@ class DomeTable {
   double pdf(const Vec3& towards) const;
 
  private:
-  static constexpr int kSectors = 64, kRings = 32;
+  static constexpr int kSectors = tuning::kDomeSectors, kRings = tuning::kDomeRings;
 
   Vec3 direction(double azimuth, double height) const;
 

@@ -5,7 +5,7 @@ namespace deltalux {
 
 namespace {
 
-constexpr double kDegree = kPi / 180;
+constexpr double kDegree = kPi / 180;  // [defined]
 
 // The interval [angles[i], angles[i + 1]] that holds `angle`, and where in it.
 struct Interval {

@@ -9,9 +9,9 @@ namespace deltalux {
 
 namespace {
 
-constexpr double kPlanarity = 1e-3;      // of the size: beyond, there is no plane
-constexpr double kFlatEnough = 1e-9;     // of the size: within, vertices stay where they are
-constexpr double kParallelogram = 1e-6;  // of the size: as numbers printed with seven digits leave it
+constexpr double kPlanarity = 1e-3;      // of the size: beyond, there is no plane [limit]
+constexpr double kFlatEnough = 1e-9;     // of the size: within, vertices stay where they are [rounding]
+constexpr double kParallelogram = 1e-6;  // of the size: as numbers printed with seven digits leave it [rounding]
 
 double sizeOf(const std::vector<Vec3>& vertices) {
   Box box;

@@ -10,7 +10,7 @@ namespace {
 
 /// Distance from the origin to that of the half of the scene that lies closest together, from which coordinates are
 /// large: of 24 binary digits they leave 20 to tell places in the scene apart.
-constexpr double kFar = 16;
+constexpr double kFar = 16;  // [rounding]
 
 double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 

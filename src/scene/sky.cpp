@@ -66,7 +66,7 @@ constexpr std::array<CieParameters, 15> kCieSkies{{{4, -0.7, 0, -1, 0},
                                                    {-1, -0.32, 10, -3, 0.45},
                                                    {-1, -0.32, 16, -3, 0.3},
                                                    {-1, -0.15, 16, -3, 0.3},
-                                                   {-1, -0.15, 24, -2.8, 0.15}}};
+                                                   {-1, -0.15, 24, -2.8, 0.15}}};  // [defined]
 
 }  // namespace
 
@@ -92,7 +92,7 @@ double radiance(const CieSky& sky, const Vec3& towards, const Vec3& up) {
 }
 
 double radiance(const PerezSky& sky, const Vec3& towards, const Vec3& up) {
-  constexpr double kLowest = 0.01;  // the gradation is held constant below, where it would divide by 0
+  constexpr double kLowest = 0.01;  // the gradation is held constant below, where it would divide by 0 [defined]
   const double cosZenith = glm::dot(towards, up);
   if (cosZenith <= 0) return std::max(0.0, sky.ground);
   const auto& [a, b, c, d, e] = sky.coefficients;
@@ -108,7 +108,7 @@ double radiance(const PerezSky& sky, const Vec3& towards, const Vec3& up) {
 namespace deltalux {
 
 Rgb skyRadiance(const DomeLight& dome, const Vec3& towards) {
-  constexpr double kRim = 1e-12;  // the rim of a hemisphere is inside: sky and ground meet without a gap
+  constexpr double kRim = 1e-12;  // the rim of a hemisphere is inside: sky and ground meet without a gap [rounding]
   if (glm::dot(towards, dome.axis) < std::cos(dome.halfAngle) - kRim) return Rgb(0.0f);
   struct Visitor {
     const Vec3 &towards, &up;

@@ -1,5 +1,6 @@
 #pragma once
 // The tuned constants of scenes: purpose, unit, normal value, and what breaks.
+#include <cstddef>
 
 namespace deltalux::scene::tuning {
 
@@ -7,5 +8,10 @@ namespace deltalux::scene::tuning {
 /// brightening lamps, asks for samples more often. More: lamps at dusk are measured by the day, and those made brighter
 /// have too few samples.
 constexpr int kNominalOctaves = 4;
+/// Triangles of an emitter that is sampled by solid angle: of more, one is chosen by area. Fewer: noise near lamps of
+/// many faces. More: time for each.
+constexpr std::size_t kMostBySolidAngle = 8;
+/// Cells of a sky's table, around and along height, and looks of each, a side. Fewer: noise under an uneven sky.
+constexpr int kDomeSectors = 64, kDomeRings = 32, kDomeLooks = 3;
 
 }  // namespace deltalux::scene::tuning

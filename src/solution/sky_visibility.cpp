@@ -24,7 +24,7 @@ class CellOfCode {
   }
 
  private:
-  static constexpr std::size_t kCodes = 256, kRows = 16;
+  static constexpr std::size_t kCodes = 256, kRows = 16;  // [layout]
   std::vector<std::uint16_t> cells_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 enum Kind : unsigned { kTriangles, kSpheres, kCylinders, kCones, kRings, kThinTriangles };
 
 /// Polygons narrower than this, relative to their coordinates, would lose their shape in single precision.
-constexpr double kThin = 2e-4;
+constexpr double kThin = 2e-4;  // [rounding]
 constexpr unsigned geometryId(unsigned kind, Passage passage) { return 2 * kind + (passage == Passage::Pane ? 1 : 0); }
 
 }  // namespace

@@ -35,7 +35,8 @@ class ClosestQuery : public RTCIntersectContext {
   double settled() const;
   float doubt(float t) const { return kDoubt * (originSize_ + t); }
 
-  static constexpr float kDoubt = 2e-4f;  // of the coordinates: single precision's, along rather grazing rays
+  static constexpr float kDoubt =
+      2e-4f;  // of the coordinates: single precision's, along rather grazing rays [rounding]
   const Ray* ray_;
   float originSize_;
   double nearest_ = std::numeric_limits<double>::infinity();
@@ -63,7 +64,7 @@ struct PassageQuery : RTCIntersectContext {
   };
   bool isRepeat(const Crossed&) const;
 
-  static constexpr std::size_t kFew = 8;
+  static constexpr std::size_t kFew = 8;  // [task]
   std::array<Crossed, kFew> few_;
   std::vector<Crossed> more_;  // beyond the few
   std::size_t count_ = 0;

@@ -10,7 +10,7 @@ namespace deltalux::tracing {
 enum class Passage : unsigned { Opaque = 1, Pane = 2 };  // ray masks
 
 /// Rays closer than this to the plane of a triangle keep the t that Embree saw: the plane hardly tells.
-inline constexpr double kGrazing = 1e-6;
+inline constexpr double kGrazing = 1e-6;  // [rounding]
 
 /// One of Embree's triangles, with the plane of its primitive: dot(normal, p) = offset.
 struct TriangleRecord {

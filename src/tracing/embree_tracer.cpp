@@ -13,10 +13,10 @@ namespace deltalux::tracing {
 
 namespace {
 
-constexpr unsigned kOpaqueMask = static_cast<unsigned>(Passage::Opaque);
-constexpr unsigned kAnyMask = ~0u;
-constexpr std::size_t kBatchBlock = 1024;  // rays per task
-constexpr std::size_t kInFlight = 8;       // rays traced before the first is finished
+constexpr unsigned kOpaqueMask = static_cast<unsigned>(Passage::Opaque);  // [layout]
+constexpr unsigned kAnyMask = ~0u;                                        // [layout]
+constexpr std::size_t kBatchBlock = 1024;                                 // rays per task [task]
+constexpr std::size_t kInFlight = 8;  // rays traced before the first is finished [task]
 
 RTCRay embreeRay(const Ray& ray, unsigned mask) {
   RTCRay r;

@@ -6,7 +6,7 @@
 namespace deltalux::tracing {
 
 namespace {
-constexpr std::size_t kOcclusionBlock = 1024;  // rays per task: enough to hide the scheduling, few enough to balance
+constexpr std::size_t kOcclusionBlock = 1024;  // rays: enough to hide the scheduling, few enough to balance [task]
 }
 
 std::uint64_t RayTracer::traced() const {

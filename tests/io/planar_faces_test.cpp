@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "hierarchy/tuning.hpp"
+
 namespace deltalux {
 using namespace io;
 
@@ -85,7 +87,7 @@ TEST(PlanarFaces, CurvedShadedTexturedOrLargeMeshesStayMeshes) {
   textured.texcoords.resize(textured.positions.size());
   EXPECT_TRUE(staysMesh(textured));
   Mesh large;
-  for (std::uint32_t i = 0; i <= kMaxFacetedTriangles; ++i) {
+  for (std::uint32_t i = 0; i <= hierarchy::tuning::kInputs; ++i) {
     for (const Vec3& p : {Vec3(0, 0, i), Vec3(1, 0, i), Vec3(0, 1, i)}) large.positions.push_back(p);
     large.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "particles/plan_particles.hpp"
+#include "particles/tuning.hpp"
 #include "support/rooms.hpp"
 
 namespace deltalux {
@@ -11,7 +12,7 @@ using namespace particles;
 
 namespace {
 
-constexpr double kReflectance = kNominalReflectance;
+constexpr double kReflectance = particles::tuning::kNominalReflectance;
 
 struct Estimated {
   Scene scene;

@@ -5,7 +5,7 @@
 
 namespace deltalux {
 
-inline constexpr int kGlyphWidth = 5, kGlyphHeight = 7, kGlyphAdvance = 6;
+inline constexpr int kGlyphWidth = 5, kGlyphHeight = 7, kGlyphAdvance = 6;  // [shown]
 
 /// Width in pixels of `text` at scale 1.
 int textWidth(std::string_view text);

@@ -14,7 +14,7 @@ namespace deltalux {
 
 namespace {
 using Byte3 = std::array<std::uint8_t, 3>;
-constexpr Byte3 kNoSurface{96, 96, 96}, kPaper{24, 24, 24}, kInk{235, 235, 235};
+constexpr Byte3 kNoSurface{96, 96, 96}, kPaper{24, 24, 24}, kInk{235, 235, 235};  // [shown]
 
 /// Colour for t in [0,1]; kept off pure black and white, which no value should look like.
 Byte3 colorOf(double t) {

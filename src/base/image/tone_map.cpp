@@ -9,8 +9,8 @@
 namespace deltalux {
 
 namespace {
-constexpr double kWhite = 4.0;  // luminance that becomes 1
-constexpr double kKey = 0.18;   // where automaticEv puts the log-average luminance
+constexpr double kWhite = 4.0;  // luminance that becomes 1 [shown]
+constexpr double kKey = 0.18;   // where automaticEv puts the log-average luminance [shown]
 
 bool finite(const Rgb& c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
 

@@ -23,7 +23,7 @@ namespace deltalux {
 
 namespace {
 
-constexpr int kRecordingVersion = 1;
+constexpr int kRecordingVersion = 1;  // [layout]
 
 io::Json triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 io::Json triple(const Rgb& c) { return {c.r, c.g, c.b}; }

@@ -94,7 +94,7 @@ std::vector<double> readComponents(const GltfDocument& document, int index, int 
   if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components) {
     throw fail(document, index, "is not of " + std::to_string(components) + " components");
   }
-  constexpr std::size_t kMaxWithoutBytes = std::size_t{1} << 22;
+  constexpr std::size_t kMaxWithoutBytes = std::size_t{1} << 22;  // [limit]
   if (accessor.bufferView < 0 && (!accessor.sparse.isSparse || accessor.count > kMaxWithoutBytes)) {
     throw fail(document, index, "has no data; if the file is compressed (Draco, meshopt), export it without");
   }

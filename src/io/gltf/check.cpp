@@ -11,9 +11,9 @@ namespace deltalux::io {
 
 namespace {
 
-constexpr double kHuge = 1e15;                             // of coordinates and factors
-constexpr std::int64_t kMaxBytes = std::int64_t{1} << 40;  // of buffers and offsets
-constexpr std::int64_t kMaxCount = (std::int64_t{1} << 31) - 1;
+constexpr double kHuge = 1e15;                                   // of coordinates and factors [limit]
+constexpr std::int64_t kMaxBytes = std::int64_t{1} << 40;        // of buffers and offsets [limit]
+constexpr std::int64_t kMaxCount = (std::int64_t{1} << 31) - 1;  // [limit]
 
 // How a required extension is met.
 enum class Support { Understood, Ignored, Compressed, Unknown };

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 constexpr const char* kExportAgain = "export the scene again";
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;  // [glTF 2.0, 4.4.3]
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;  // [glTF 2.0, 4.4.3] [layout]
 
 struct Container {
   std::string_view json;

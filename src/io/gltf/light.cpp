@@ -10,7 +10,7 @@ namespace deltalux::io {
 
 namespace {
 
-constexpr double kSunRadius = 0.2665 * kPi / 180;  // mean angular radius of the sun's disc, seen from the earth
+constexpr double kSunRadius = 0.2665 * kPi / 180;  // mean angular radius of the sun's disc from the earth [defined]
 
 SpotLight spotOf(const tinygltf::SpotLight& cone, const Vec3& position, const Vec3& direction, const Rgb& intensity) {
   SpotLight spot{position, direction, intensity};

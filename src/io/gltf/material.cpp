@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tuning.hpp"
 #include "io/gltf/extension.hpp"
 #include "io/gltf/texture.hpp"
 
@@ -46,9 +47,8 @@ Inputs inputsOf(const tinygltf::Material& material, GltfTextures& textures) {
 }
 
 float lobeRoughness(float roughness) {
-  constexpr float kMirror = 1e-3f;  // alpha below which a lobe is narrower than the sun
   const float alpha = roughness * roughness;
-  return alpha < kMirror ? 0.0f : alpha;
+  return alpha < tuning::kNegligible ? 0.0f : alpha;  // narrower than the sun
 }
 
 // [glTF 2.0, appendix B.2] with constant lobes.

@@ -12,7 +12,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 constexpr const char* kHint = "export the scene again";
-constexpr double kLargest = 1e15;  // coordinate
+constexpr double kLargest = 1e15;  // coordinate [limit]
 
 std::vector<Vec3> readPoints(const GltfDocument& document, int accessor) {
   const std::vector<double> values = readVectors(document, accessor, 3);

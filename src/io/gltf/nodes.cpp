@@ -32,7 +32,7 @@ class Walk {
   explicit Walk(const GltfDocument& document) : document_(document), seen_(document.model.nodes.size(), false) {}
 
   void visit(int node, int parent, int depth, std::set<std::string>& namesBeside) {
-    constexpr int kMaxDepth = 200;
+    constexpr int kMaxDepth = 200;  // [limit]
     const std::string where = "/nodes/" + std::to_string(node);
     if (depth > kMaxDepth) fail(where + " is more than 200 nodes below its root");
     if (seen_[static_cast<std::size_t>(node)]) fail(where + " has two parents, or is its own ancestor");

@@ -8,8 +8,8 @@ namespace deltalux::io {
 
 namespace {
 
-constexpr double kDegree = kPi / 180;
-constexpr double kStep = 1e-6;  // width [degrees] of the step from the last measured angle to darkness
+constexpr double kDegree = kPi / 180;  // [defined]
+constexpr double kStep = 1e-6;  // width [degrees] of the step from the last measured angle to darkness [rounding]
 constexpr const char* kAnglesHint = "get the file again from the maker, or correct its angles";
 
 std::string angleText(double degrees) {
@@ -106,7 +106,7 @@ Photometry completeTypeC(IesRecord& record, const std::string& name) {
 // Bilinear in the file's own angles; 0 outside.
 double interpolate(const IesRecord& record, double vertical, double horizontal) {
   const auto locate = [](const std::vector<double>& angles, double angle, std::size_t& index, double& fraction) {
-    constexpr double kSlack = 1e-9;
+    constexpr double kSlack = 1e-9;  // [rounding]
     if (angle < angles.front() - kSlack || angle > angles.back() + kSlack) return false;
     if (angles.size() == 1) return index = 0, fraction = 0, true;
     const auto above = std::upper_bound(angles.begin() + 1, angles.end() - 1, angle);

@@ -16,8 +16,8 @@ namespace deltalux::io {
 
 namespace {
 
-constexpr int kMaxAngles = 100000;
-constexpr double kFoot = 0.3048;  // [m]
+constexpr int kMaxAngles = 100000;  // [limit]
+constexpr double kFoot = 0.3048;    // [m] [defined]
 
 std::string upperCase(std::string_view text) {
   std::string upper(text);

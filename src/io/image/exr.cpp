@@ -17,7 +17,7 @@ namespace deltalux::io {
 
 namespace {
 constexpr const char* kViewAttribute = "radianceView";
-constexpr int kMaxExrSide = 65536;
+constexpr int kMaxExrSide = 65536;  // [limit]
 
 class MemoryOutput : public Imf::OStream {
  public:

@@ -13,7 +13,7 @@ namespace deltalux::io {
 
 namespace {
 using Rgbe = std::array<std::uint8_t, 4>;
-constexpr int kMaxSide = 65536;
+constexpr int kMaxSide = 65536;  // [limit]
 
 Rgb toRgb(const Rgbe& v) {
   if (v[3] == 0) return Rgb(0.0f);

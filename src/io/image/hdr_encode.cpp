@@ -33,7 +33,7 @@ std::size_t runLength(const std::vector<std::uint8_t>& row, std::size_t begin) {
 
 /// Runs of 4 or more become a pair (128 + length, value), everything between literals of up to 128 bytes.
 void appendRuns(std::string& bytes, const std::vector<std::uint8_t>& row) {
-  constexpr std::size_t kWorthwhile = 4;
+  constexpr std::size_t kWorthwhile = 4;  // [layout]
   for (std::size_t i = 0; i < row.size();) {
     const std::size_t run = runLength(row, i);
     if (run >= kWorthwhile) {

@@ -13,7 +13,7 @@ namespace deltalux::io {
 
 namespace {
 
-constexpr double kLargestVertex = 1e15;  // coordinate
+constexpr double kLargestVertex = 1e15;  // coordinate [limit]
 
 bool parses(std::string_view word, int& value) {
   if (word.starts_with('+')) word.remove_prefix(1);

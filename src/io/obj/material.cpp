@@ -136,7 +136,7 @@ std::vector<std::string> filesOf(const std::string& line, const std::string& nam
 
 void warnOfMissing(const std::vector<std::string>& files, const fs::path& folder, ImportReport& report) {
   if (files.empty()) return;
-  constexpr std::size_t kShown = 5;
+  constexpr std::size_t kShown = 5;  // [shown]
   std::string list;
   for (std::size_t i = 0; i < std::min(files.size(), kShown); ++i)
     list += (i > 0 ? ", " : "") + ("'" + files[i].substr(0, 100) + "'");

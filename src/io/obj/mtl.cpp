@@ -44,7 +44,7 @@ std::string mapFile(std::string_view line, bool& hasOptions) {
                                                     {"-s", 1, 3},
                                                     {"-t", 1, 3},
                                                     {"-texres", 1, 1},
-                                                    {"-type", 1, 1}}};
+                                                    {"-type", 1, 1}}};  // [defined]
   for (;;) {
     std::string_view rest = line;
     const std::string_view word = takeWord(rest);
@@ -203,7 +203,7 @@ class MtlReader {
   }
 
   void compare(double byD, double byTr) {
-    constexpr double kRounding = 1e-3;  // of decimals as they are written
+    constexpr double kRounding = 1e-3;  // of decimals as they are written [rounding]
     if (std::abs(byD - byTr) > kRounding) count("Tr that contradict d (d counts)");
   }
 
@@ -221,7 +221,7 @@ class MtlReader {
     }
   }
 
-  static constexpr double kLargest = 1e15;
+  static constexpr double kLargest = 1e15;  // [limit]
 
   LineStreambuf lines_;
   const std::string& file_;

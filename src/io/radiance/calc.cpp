@@ -11,9 +11,9 @@ namespace deltalux::io::radiance {
 
 namespace {
 
-constexpr long kMostCalls = 20000000;
-constexpr std::size_t kDeepestDefinitions = 100;
-constexpr std::size_t kCharactersOfACall = 100;  // of a program that takes about as long as a call
+constexpr long kMostCalls = 20000000;             // [limit]
+constexpr std::size_t kDeepestDefinitions = 100;  // [limit]
+constexpr std::size_t kCharactersOfACall = 100;   // of a program that takes about as long as a call [limit]
 
 /// calc's comments stand in braces, which nest.
 std::string withoutComments(std::string_view text) {

@@ -12,7 +12,7 @@ namespace deltalux::io::radiance {
 
 namespace {
 
-constexpr int kDeepest = 200;
+constexpr int kDeepest = 200;  // [limit]
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 

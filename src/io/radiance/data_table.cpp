@@ -9,8 +9,8 @@ namespace deltalux::io::radiance {
 
 namespace {
 
-constexpr long kMostDimensions = 5;
-constexpr long kMostPoints = 10'000'000;  // of one dimension
+constexpr long kMostDimensions = 5;       // [limit]
+constexpr long kMostPoints = 10'000'000;  // of one dimension [limit]
 
 class DataReader {
  public:

@@ -3,20 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tuning.hpp"
 #include "base/unit_circle.hpp"
 #include "io/radiance/sky_pattern.hpp"
 #include "io/radiance/tabulate.hpp"
+#include "io/tuning.hpp"
 
 namespace deltalux::io::radiance {
 
 namespace {
 
-constexpr int kPlaces = 8, kNormals = 16;  // over a surface, in each parameter: of what is averaged, of its facing
-constexpr double kLeastCosine = 1e-6;      // of a flat source's intensity, seen edge-on
-constexpr double kGrazing = 1e-3;          // parts of a curved surface that face away more than this do not count
-constexpr double kNoticed = 0.01;          // relative; what is averaged away and differs by less is not reported
-constexpr std::size_t kAzimuths = 256;     // of the mean over the hemisphere, where the table has none
-constexpr long kEvaluationsOfACall = 50;   // of a table, that take as long as a call of an expression
+constexpr double kLeastCosine = 1e-6;     // of a flat source's intensity, seen edge-on [rounding]
+constexpr double kNoticed = 0.01;         // relative; what is averaged away and differs by less is not reported [shown]
+constexpr long kEvaluationsOfACall = 50;  // of a table, that take as long as a call of an expression [limit]
 
 std::optional<Vec3> normalOfFlat(const Shape& shape) {
   if (const auto* polygon = std::get_if<Polygon>(&shape)) return polygon->normal;
@@ -32,7 +31,7 @@ std::vector<SurfacePoint> placesOn(const Shape& shape, int n) {
 }
 
 Rgb scaled(const Rgb& radiance, const glm::dvec3& factor) {
-  constexpr double kLargest = 1e30;
+  constexpr double kLargest = 1e30;  // [limit]
   const glm::dvec3 result = glm::dvec3(radiance) * factor;
   for (int c = 0; c < 3; ++c)
     if (!(std::abs(result[c]) <= kLargest)) throw InputError("", 0, "its values are too large");
@@ -128,7 +127,7 @@ EmissionPatterns::Sampled EmissionPatterns::sample(const Product& product, std::
     double cosines = 0;
     for (const SurfacePoint& place : places) {
       const double cosine = glm::dot(place.normal, w);
-      if (!flat && cosine < kGrazing) continue;
+      if (!flat && cosine < deltalux::tuning::kNegligible) continue;
       p.normal = place.normal, p.position = place.position;
       p.cosine = std::max(std::abs(cosine), kLeastCosine);
       const double weight = flat && !intensity ? 1.0 : p.cosine;
@@ -167,7 +166,9 @@ EmissionPatterns::Sampled EmissionPatterns::sample(const Product& product, std::
 double EmissionPatterns::meanFactor(const DirectionTable& table, const glm::dmat3& frame,
                                     std::span<const SurfacePoint> places, bool intensity) {
   const bool around = places.size() == 1 && std::abs(glm::dot(frame[2], places[0].normal)) > 1 - 1e-12;
-  const std::size_t columns = table.columns > 1 ? table.columns : around ? 1 : kAzimuths;
+  const std::size_t columns = table.columns > 1 ? table.columns
+                              : around          ? 1
+                                                : 2 * (table.rows - 1);  // as tables have them
   calls_ -= static_cast<long>(table.rows * columns * places.size()) / kEvaluationsOfACall;
   if (calls_ < 0) throw InputError("", 0, "its evaluation takes too long");
   const double step = kPi / static_cast<double>(table.rows - 1);
@@ -192,7 +193,7 @@ Emission EmissionPatterns::emissionOver(Product& product, const Shape& shape, co
   const auto normal = normalOfFlat(shape);
   const bool intensity = normal && product.usesCosine;
   const bool shared = product.byDirectionAlone() && (normal || !product.usesCosine);
-  const int count = normal ? (product.usesPosition ? kPlaces : 1) : shared ? kNormals : kPlaces;
+  const int count = normal && !product.usesPosition ? 1 : tuning::kPlaces;
   const std::vector<SurfacePoint> places = placesOn(shape, count);
   Sampled own;
   if (!shared) own = sample(product, places, intensity);

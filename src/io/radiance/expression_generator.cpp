@@ -14,7 +14,7 @@ bool readDefinition(const std::string& option, ObjectMaker& maker, Calc& calc) {
 }
 
 int segmentCount(const std::string& expression, const ObjectMaker& maker, Calc& calc) {
-  constexpr double kMost = 1e6;
+  constexpr double kMost = 1e6;  // [limit]
   const double count = std::floor(calc.evaluate(expression) + 0.5);
   if (!(count >= 1 && count <= kMost)) maker.fail("'" + expression.substr(0, 40) + "' is no number of segments");
   return static_cast<int>(count);

@@ -18,9 +18,10 @@ struct BoxFace {
   unsigned insets;  // of the face's own vertices when edges are bevelled: the axes along it
 };
 constexpr std::array<BoxFace, 6> kFaces{
+    // [defined]
     {{{1, 5, 4, 0}, 5}, {{4, 6, 2, 0}, 6}, {{2, 3, 1, 0}, 3}, {{3, 2, 6, 7}, 5}, {{5, 1, 3, 7}, 6}, {{6, 4, 5, 7}, 3}}};
 constexpr std::array<std::array<Corner, 2>, 12> kEdges{
-    {{0, 1}, {0, 4}, {0, 2}, {3, 1}, {3, 2}, {3, 7}, {5, 1}, {5, 4}, {5, 7}, {6, 2}, {6, 4}, {6, 7}}};
+    {{0, 1}, {0, 4}, {0, 2}, {3, 1}, {3, 2}, {3, 7}, {5, 1}, {5, 4}, {5, 7}, {6, 2}, {6, 4}, {6, 7}}};  // [defined]
 
 class BoxBuilder {
  public:

@@ -6,12 +6,13 @@
 #include "io/radiance/perez.hpp"
 #include "io/radiance/sky_pattern.hpp"
 #include "io/radiance/sky_time.hpp"
+#include "io/tuning.hpp"
 
 namespace deltalux::io::radiance {
 
 namespace {
 
-constexpr double kSunHalfAngle = 0.2665;  // degrees, as gendaylit takes it
+constexpr double kSunHalfAngle = 0.2665;  // degrees, as gendaylit takes it [defined]
 
 struct DaylightRequest {
   enum class Given { Nothing, Condition, Irradiance, HorizontalIrradiance, Illuminance, Global };
@@ -27,7 +28,7 @@ struct DaylightRequest {
 /// Irradiance beyond the atmosphere on that day. [Spencer71]
 double outsideOf(const SkyTime& when) {
   if (when.angles) return kSolarConstant;
-  constexpr std::array<int, 12> kBefore{0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
+  constexpr std::array<int, 12> kBefore{0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};  // [defined]
   const int day = kBefore[static_cast<std::size_t>(when.time.month - 1)] + when.time.day;
   const double x = 2 * kPi * (day - 1) / 365;
   return kSolarConstant * (1.00011 + 0.034221 * std::cos(x) + 0.00128 * std::sin(x) + 0.000719 * std::cos(2 * x) +
@@ -49,10 +50,9 @@ Daylight erbs(double global, double outside, double sineOfAltitude) {
 
 /// Irradiances whose illuminances these are: efficacies depend on the irradiances in turn.
 Daylight irradianceOf(const Daylight& illuminance, double sunZenith, double outside, double water) {
-  constexpr double kFirstGuess = 93;  // [lm/W]
-  constexpr int kRounds = 8;
+  constexpr double kFirstGuess = 93;  // [lm/W], of a sun and sky about [defined]
   Daylight result{illuminance.directNormal / kFirstGuess, illuminance.diffuse / kFirstGuess};
-  for (int i = 0; i < kRounds; ++i) {
+  for (int i = 0; i < tuning::kEfficacyRounds; ++i) {
     const Daylight K = efficacies(conditionOf(result, sunZenith, outside), water);
     result = {K.directNormal > 0 ? illuminance.directNormal / K.directNormal : 0, illuminance.diffuse / K.diffuse};
   }
@@ -97,16 +97,16 @@ void readOptionOf(ObjectMaker& maker, const std::string& option, DaylightRequest
 double horizontalIrradiance(const PerezSky& sky) {
   DomeLight dome;
   dome.distribution = sky;
-  constexpr int kRings = 128, kSectors = 256;
+  const int rings = tuning::kSkyRings, sectors = 2 * rings;
   double sum = 0;
-  for (int i = 0; i < kRings; ++i) {
-    const double sine = std::sqrt((i + 0.5) / kRings), cosine = std::sqrt(1 - sine * sine);
-    for (int k = 0; k < kSectors; ++k) {
-      const double azimuth = 2 * kPi * (k + 0.5) / kSectors;
+  for (int i = 0; i < rings; ++i) {
+    const double sine = std::sqrt((i + 0.5) / rings), cosine = std::sqrt(1 - sine * sine);
+    for (int k = 0; k < sectors; ++k) {
+      const double azimuth = 2 * kPi * (k + 0.5) / sectors;
       sum += skyRadiance(dome, Vec3(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine)).r;
     }
   }
-  return kPi * sum / (kRings * kSectors);
+  return kPi * sum / (rings * sectors);
 }
 
 /// What the request amounts to in the unit of the output, and the sky's condition.

@@ -8,7 +8,7 @@ namespace deltalux::io::radiance {
 
 namespace {
 
-constexpr double kTiny = 1e-6;
+constexpr double kTiny = 1e-6;  // [rounding]
 
 Vec2 perpendicular(const Vec2& v) { return {-v.y, v.x}; }
 

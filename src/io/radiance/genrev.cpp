@@ -13,7 +13,7 @@ struct ProfilePoint {
 
 /// One segment of the profile turned about z; rising z faces outwards. Nothing for a segment without length.
 void addSegment(ObjectMaker& maker, const ProfilePoint& from, const ProfilePoint& to, int index) {
-  constexpr double kSame = 1e-9;
+  constexpr double kSame = 1e-9;  // [rounding]
   const double rise = to.z - from.z, widening = to.r - from.r;
   const bool level = std::abs(rise) <= kSame, straight = std::abs(widening) <= kSame;
   if (level && straight) return;

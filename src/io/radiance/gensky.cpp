@@ -14,8 +14,8 @@ namespace {
 using Kind = RadianceSky::Kind;
 
 // Luminous efficacies by which gensky turns photometric sky and sun into radiometric [lm/W].
-constexpr double kSkyEfficacy = 203, kSunEfficacy = 208;
-constexpr double kSunSolidAngle = 6e-5;  // [sr], of the 0.5 degree disc
+constexpr double kSkyEfficacy = 203, kSunEfficacy = 208;  // [defined]
+constexpr double kSunSolidAngle = 6e-5;                   // [sr], of the 0.5 degree disc [defined]
 
 /// A brightness that is given as radiance, given as horizontal irradiance, or left to be computed.
 struct Brightness {
@@ -37,8 +37,8 @@ struct SkyRequest {
 /// Horizontal irradiance of a clear or intermediate sky, relative to its normalised zenith: gensky's polynomials in
 /// altitude.
 double skyIntegral(Kind kind, double altitude) {
-  constexpr std::array<double, 5> kClear{2.766521, 0.547665, -0.369832, 0.009237, 0.059229};
-  constexpr std::array<double, 5> kIntermediate{3.5556, -2.7152, -1.3081, 1.0660, 0.60227};
+  constexpr std::array<double, 5> kClear{2.766521, 0.547665, -0.369832, 0.009237, 0.059229};  // [defined]
+  constexpr std::array<double, 5> kIntermediate{3.5556, -2.7152, -1.3081, 1.0660, 0.60227};   // [defined]
   const auto& coefficients = kind == Kind::Intermediate ? kIntermediate : kClear;
   const double x = (altitude - kPi / 4) / (kPi / 4);
   double sum = 0;

@@ -112,7 +112,7 @@ void addPolygons(ObjectMaker& maker, const SampleGrid& grid, bool inverted) {
       auto [a, b, c, d] = cellCorners(grid, i, j);
       if (inverted) std::swap(b, c);
       const Vec3 first = facing(a, b, c), second = facing(c, b, d);
-      constexpr double kCoplanar = 1 - 1e-12;
+      constexpr double kCoplanar = 1 - 1e-12;  // [rounding]
       if (glm::dot(first, second) >= kCoplanar) {
         add({a, b, d, c});
         continue;

@@ -15,7 +15,7 @@ struct Bead {
 
 /// The piece between two spheres: a cylinder, or the cone that touches both along circles.
 void addJoint(ObjectMaker& maker, const Bead& from, const Bead& to, int index) {
-  constexpr double kSame = 1e-6;
+  constexpr double kSame = 1e-6;  // [rounding]
   const std::string suffix = "c" + std::to_string(index);
   const Vec3 axis = to.center - from.center;
   const double shrink = from.radius - to.radius;

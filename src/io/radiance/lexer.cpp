@@ -11,7 +11,7 @@ namespace {
 bool isSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 std::string shown(std::string_view word) {
-  constexpr std::size_t kLongest = 40;
+  constexpr std::size_t kLongest = 40;  // [shown]
   return "'" + std::string(word.substr(0, kLongest)) + (word.size() > kLongest ? "...'" : "'");
 }
 

@@ -8,7 +8,7 @@
 namespace deltalux::io::radiance {
 
 /// Largest magnitude a number of a scene may have; beyond it single-precision rays lose the scene.
-inline constexpr double kLargestNumber = 1e12;
+inline constexpr double kLargestNumber = 1e12;  // [limit]
 
 /// A number that is finite and at most kLargestNumber in magnitude, from all of `word`; nullopt otherwise.
 std::optional<double> parseNumber(std::string_view word);

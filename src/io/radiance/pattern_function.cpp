@@ -14,7 +14,7 @@ namespace deltalux::io::radiance {
 
 namespace {
 
-constexpr double kFar = 1e10;  // the distance to what is lit, where a function asks for it
+constexpr double kFar = 1e10;  // the distance to what is lit, where a function asks for it [sentinel]
 
 std::filesystem::path folderOfSource(const RadObject& object) {
   return object.where.file ? std::filesystem::path(*object.where.file).parent_path() : std::filesystem::path();
@@ -34,7 +34,7 @@ std::string functionText(const std::string& name, const RadObject& object, FileA
 
 /// A1 to A10 of those that there are, AC, and arg(i).
 std::string argumentDefinitions(const std::vector<double>& reals) {
-  constexpr std::size_t kNamed = 10;
+  constexpr std::size_t kNamed = 10;  // [defined]
   std::array<char, 40> text;
   const auto shown = [&](double x) {
     std::snprintf(text.data(), text.size(), "(%.17g)", x);
@@ -71,7 +71,7 @@ class Functions {
   }
 
  private:
-  static constexpr std::size_t kCount = 12;
+  static constexpr std::size_t kCount = 12;  // [layout]
   static constexpr std::array<const char*, kCount> kNames{"Dx", "Dy", "Dz", "Nx",   "Ny", "Nz",
                                                           "Px", "Py", "Pz", "Rdot", "T",  "Ts"};
   Calc calc_;

@@ -8,10 +8,10 @@ namespace deltalux::io::radiance {
 
 namespace {
 
-constexpr std::size_t kBins = 8;
-constexpr std::array<double, kBins - 1> kBounds{1.065, 1.23, 1.5, 1.95, 2.8, 4.5, 6.2};  // of clearness
-constexpr double kClearest = 12.01, kDarkest = 0.01, kBrightest = 0.6;
-constexpr double kKappa = 1.041;  // of the sun's zenith angle in the clearness, radians
+constexpr std::size_t kBins = 8;                                                         // [defined]
+constexpr std::array<double, kBins - 1> kBounds{1.065, 1.23, 1.5, 1.95, 2.8, 4.5, 6.2};  // of clearness [defined]
+constexpr double kClearest = 12.01, kDarkest = 0.01, kBrightest = 0.6;                   // [defined]
+constexpr double kKappa = 1.041;  // of the sun's zenith angle in the clearness, radians [defined]
 
 std::size_t binOf(double clearness) {
   return static_cast<std::size_t>(std::upper_bound(kBounds.begin(), kBounds.end(), clearness) - kBounds.begin());
@@ -61,7 +61,7 @@ constexpr std::array<std::array<Four, 5>, kBins> kLuminance{{
       {31.0625, -14.5000, -46.1148, 55.3750},
       {-7.2312, 0.4050, 13.3500, 0.6234},
       {1.5000, -0.6426, 1.8564, 0.5636}}},
-}};
+}};  // [defined]
 
 // [PIS90, table 4]
 constexpr std::array<Four, kBins> kDiffuseEfficacy{{{97.24, -0.46, 12.00, -8.91},
@@ -71,7 +71,7 @@ constexpr std::array<Four, kBins> kDiffuseEfficacy{{{97.24, -0.46, 12.00, -8.91}
                                                     {100.71, 5.94, -22.75, -23.74},
                                                     {106.42, 3.83, -36.15, -28.83},
                                                     {141.88, 1.90, -53.24, -14.03},
-                                                    {152.23, 0.35, -45.27, -7.98}}};
+                                                    {152.23, 0.35, -45.27, -7.98}}};  // [defined]
 constexpr std::array<Four, kBins> kDirectEfficacy{{{57.20, -4.55, -2.98, 117.12},
                                                    {98.99, -3.46, -1.21, 12.38},
                                                    {109.83, -4.90, -1.71, -8.81},
@@ -79,7 +79,7 @@ constexpr std::array<Four, kBins> kDirectEfficacy{{{57.20, -4.55, -2.98, 117.12}
                                                    {106.36, -3.97, -1.75, -6.16},
                                                    {107.19, -1.25, -1.51, -26.73},
                                                    {105.75, 0.77, -1.26, -34.44},
-                                                   {101.18, 1.58, -1.10, -8.29}}};
+                                                   {101.18, 1.58, -1.10, -8.29}}};  // [defined]
 
 double kappaOf(double sunZenith) { return kKappa * sunZenith * sunZenith * sunZenith; }
 

@@ -17,7 +17,7 @@ struct Daylight {
 };
 
 /// Irradiance beyond the atmosphere [W/m2], at the sun's mean distance.
-inline constexpr double kSolarConstant = 1367;
+inline constexpr double kSolarConstant = 1367;  // [defined]
 
 /// Optical air mass of the sun's path. [Kasten66]
 double airMass(double sunZenith);

@@ -10,7 +10,7 @@ namespace deltalux::io::radiance {
 
 namespace {
 
-constexpr double kNothing = 1e-12;  // of a length: a surface this small has no area
+constexpr double kNothing = 1e-12;  // of a length: a surface this small has no area [rounding]
 
 Vec3 pointOf(const RadObject& object, std::size_t at) {
   return {object.reals[at], object.reals[at + 1], object.reals[at + 2]};

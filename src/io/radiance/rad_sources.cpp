@@ -1,10 +1,10 @@
 #include "io/radiance/rad_sources.hpp"
 
+#include "io/tuning.hpp"
+
 namespace deltalux::io::radiance {
 
 namespace {
-
-constexpr double kLargestSun = 20;  // degrees across
 
 DomeLight dome(const Vec3& axis, double degrees, const Rgb& colour) {
   DomeLight light;
@@ -31,7 +31,7 @@ std::optional<Light> makeSource(const RadObject& object, const Modifier& modifie
   const Vec3 axis = glm::normalize(direction);
   Light light{object.name, {}, Rgb(1.0f)};
   const bool isGlow = modifier.materialType == Type::Glow;
-  if (!isGlow && degrees <= kLargestSun) {
+  if (!isGlow && degrees <= tuning::kLargestSun) {
     light.emitter = SunLight{axis, glm::radians(degrees / 2), material.emission->radiance};
   } else {
     light.emitter = dome(axis, degrees, material.emission->radiance);

@@ -8,7 +8,7 @@ namespace deltalux::io::radiance {
 namespace {
 
 int dayOfYear(int month, int day) {
-  constexpr std::array<int, 12> kBefore{0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
+  constexpr std::array<int, 12> kBefore{0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};  // [defined]
   return kBefore[static_cast<std::size_t>(month - 1)] + day;
 }
 

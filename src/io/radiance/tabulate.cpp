@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tuning.hpp"
 #include "base/unit_circle.hpp"
+#include "io/tuning.hpp"
 
 namespace deltalux::io::radiance {
 
 namespace {
 
-constexpr double kAgreed = 1e-3;                                 // mean error between the angles, relative to the mean
-constexpr double kAlike = 1e-7;                                  // differences that are rounding, relative to the peak
-constexpr std::size_t kSteps = 90;                               // of the polar angle, to begin with: 2 degrees
-constexpr std::size_t kMostSteps = 360, kMostStepsAlone = 1440;  // alone: without azimuth
+constexpr double kAlike = 1e-7;  // differences that are none, relative to the peak [rounding]
+constexpr std::size_t kMostSteps = 360,
+                      kMostStepsAlone = 1440;  // alone: without azimuth; what is finer is reported [limit]
 
 using Function = std::function<double(const Vec3&)>;
 
@@ -29,11 +30,11 @@ struct Range {
 
 /// Whether the values depend on azimuth, by a sample of irregular directions; `all` gets their range.
 bool dependsOnAzimuth(const Function& f, Range& all) {
-  constexpr int kRings = 24, kLooks = 24;
   double widest = 0;
-  for (int i = 0; i < kRings; ++i) {
+  for (int i = 0; i < tuning::kPlaces; ++i) {
     Range ring;
-    for (int k = 0; k < kLooks; ++k) ring.extend(f(direction((i + 0.37) / kRings, (k + 0.21 * i) / kLooks)));
+    for (std::size_t k = 0; k < tuning::kSteps; ++k)
+      ring.extend(f(direction((i + 0.37) / tuning::kPlaces, (double(k) + 0.21 * i) / double(tuning::kSteps))));
     widest = std::max(widest, ring.high - ring.low);
     all.extend(ring.low), all.extend(ring.high);
   }
@@ -76,7 +77,7 @@ Tabulated tabulate(const Function& raw, const std::function<void()>& notFinite, 
   };
   Range all;
   const bool alone = !dependsOnAzimuth(f, all);
-  for (std::size_t steps = kSteps;; steps *= 2) {
+  for (std::size_t steps = tuning::kSteps;; steps *= 2) {
     const std::size_t rows = steps + 1, columns = alone ? 1 : 2 * steps;
     const std::vector<double> values = sample(f, rows, columns);
     for (const double value : values) all.extend(value);
@@ -85,7 +86,8 @@ Tabulated tabulate(const Function& raw, const std::function<void()>& notFinite, 
       result.table.values.push_back(all.high > 0 ? static_cast<float>(value / all.high) : 0.0f);
     if (result.constant) return result;
     result.error = errorBetween(f, result.table, all.high);
-    if (!fine || result.error <= kAgreed || steps >= (alone ? kMostStepsAlone : kMostSteps)) return result;
+    if (!fine || result.error <= deltalux::tuning::kNegligible || steps >= (alone ? kMostStepsAlone : kMostSteps))
+      return result;
   }
 }
 

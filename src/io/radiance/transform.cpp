@@ -8,7 +8,7 @@ namespace deltalux::io::radiance {
 
 namespace {
 
-constexpr long kMostIterations = 1000000;
+constexpr long kMostIterations = 1000000;  // [limit]
 
 /// Options between two -i, multiplied out. Composition is `later * earlier`: options apply in the order written.
 struct Group {

@@ -24,7 +24,7 @@
 
 namespace deltalux::io {
 
-inline constexpr std::uint64_t kLargeTable = 4096;
+inline constexpr std::uint64_t kLargeTable = 4096;  // [layout]
 
 /// Types whose bytes are their value.
 template <class T>

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view kMagic =
     "\x89"
     "DLX\r\n\x1a\n";
-constexpr std::size_t kHead = 8 + 4 + 4 + 8 + 4, kTag = 4, kSectionFrame = kTag + 8 + 4;
+constexpr std::size_t kHead = 8 + 4 + 4 + 8 + 4, kTag = 4, kSectionFrame = kTag + 8 + 4;  // [layout]
 
 std::uint32_t crc(std::uint32_t before, const void* data, std::size_t n) {
   const auto* at = static_cast<const unsigned char*>(data);

@@ -12,14 +12,15 @@ namespace deltalux::io {
 
 namespace {
 
-constexpr std::size_t kBlock = 1 << 18;     // bytes; shorter ones pack less, longer ones leave threads idle
-constexpr std::size_t kWaiting = 64;        // blocks that are packed at once: 16 MB beside the solution
-constexpr std::size_t kOfTask = 2;          // blocks that are packed by one thread
-constexpr std::size_t kDirect = 8;          // blocks of a table from which on it is not copied first
-constexpr std::size_t kTrial = 1 << 13;     // bytes that tell which form of a block is shorter
-constexpr int kLevel = 1;                   // of zstd; higher ones take twice the time for a few percent
-constexpr std::size_t kMostHeld = 1 << 15;  // times the packed bytes: four are the least for 128 KiB [zstd's format]
-constexpr std::size_t kBlockFrame = 12;
+constexpr std::size_t kBlock = 1 << 18;  // bytes; shorter ones pack less, longer ones leave threads idle [task]
+constexpr std::size_t kWaiting = 64;     // blocks that are packed at once: 16 MB beside the solution [task]
+constexpr std::size_t kOfTask = 2;       // blocks that are packed by one thread [task]
+constexpr std::size_t kDirect = 8;       // blocks of a table from which on it is not copied first [task]
+constexpr std::size_t kTrial = 1 << 13;  // bytes that tell which form of a block is shorter [task]
+constexpr int kLevel = 1;                // of zstd; higher ones take twice the time for a few percent [task]
+constexpr std::size_t kMostHeld =
+    1 << 15;                             // times the packed bytes: zstd's format has four at least for 128 KiB [limit]
+constexpr std::size_t kBlockFrame = 12;  // [layout]
 
 /// What zstd works in, for one block after the other.
 class Compressor {

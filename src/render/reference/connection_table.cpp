@@ -4,22 +4,18 @@
 
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "base/tuning.hpp"
+#include "render/tuning.hpp"
 
 namespace deltalux::rendering {
 
 namespace {
 
-constexpr int kLooks = 8;  // test samples per cell and connection
-constexpr double kMaxCells = 32 * 1024;
-constexpr double kShadowedShare = 0.02;  // of what a connection would bring without shadows: there may be a gap
-constexpr double kUniformShare = 0.04;   // of the chances
-constexpr double kAskew = 0.15;          // added to a facing's cosine: its surfaces need not face exactly there
-
 template <class Facings>
 void addSeenFrom(const Vec3& direction, double value, Facings& facings) {
   for (int f = 0; f < 6; ++f) {
     const double cosine = f % 2 == 0 ? direction[f / 2] : -direction[f / 2];
-    facings[f] += static_cast<float>(value * std::max(cosine + kAskew, 0.0));
+    facings[f] += static_cast<float>(value * std::max(cosine + tuning::kAskew, 0.0));
   }
 }
 
@@ -31,7 +27,7 @@ void lookAt(const ReferenceScene& scene, const LightConnections& connections, in
     const Arrival& a = arrivals.list[i];
     Rgb T(1.0f);
     for (int l = 0; l < a.legCount && !isBlack(T); ++l) T *= scene.rays().transmittance(a.legs[l]);
-    addSeenFrom(a.direction, gray(a.value) * kShadowedShare + gray(a.value * T), facings);
+    addSeenFrom(a.direction, gray(a.value) * deltalux::tuning::kDefensive + gray(a.value * T), facings);
   }
 }
 
@@ -42,7 +38,7 @@ ConnectionTable::ConnectionTable(const ReferenceScene& scene, const LightConnect
   if (connections_ < 2) return;
   const Box box = bounds(scene.scene());
   if (!box.empty() && box.diagonal() > 0.0) {
-    const double cells = std::clamp(budget / (kLooks * static_cast<double>(connections_)), 1.0, kMaxCells);
+    const double cells = std::max(budget / (deltalux::tuning::kPilots * static_cast<double>(connections_)), 1.0);
     const Vec3 extent = glm::max(box.extent(), Vec3(1e-3 * box.diagonal()));
     const double edge = std::cbrt(extent.x * extent.y * extent.z / cells);
     for (int i = 0; i < 3; ++i) resolution_[i] = std::clamp(static_cast<int>(extent[i] / edge), 1, 64);
@@ -86,17 +82,18 @@ std::vector<ConnectionTable::Facings> ConnectionTable::learn(const ReferenceScen
       const double reach = 0.25 * (mirror.diagonal() + glm::length(cellSize_));
       const double distance = std::max(glm::length(outside), reach);
       const Vec3 direction = glm::length(d) > reach ? glm::normalize(d) : Vec3(0);
-      addSeenFrom(direction, connection.flux / (4 * kPi * distance * distance) / (direction == Vec3(0) ? kAskew : 1.0),
+      addSeenFrom(direction,
+                  connection.flux / (4 * kPi * distance * distance) / (direction == Vec3(0) ? tuning::kAskew : 1.0),
                   weights[c]);
       continue;
     }
     Rng rng(cell, c);
-    for (int i = 0; i < kLooks; ++i) {
+    for (int i = 0; i < deltalux::tuning::kPilots; ++i) {
       const Vec3 x = origin_ + (corner + Vec3(rng.uniform(), rng.uniform(), rng.uniform())) * cellSize_;
       const Vec2 u(rng.uniform(), rng.uniform());
       lookAt(scene, connections, static_cast<int>(c), x, u, weights[c]);
     }
-    for (float& w : weights[c]) w /= kLooks;
+    for (float& w : weights[c]) w /= deltalux::tuning::kPilots;
   }
   return weights;
 }
@@ -122,7 +119,9 @@ void ConnectionTable::smooth(const std::vector<std::vector<Facings>>& learned) {
       for (const auto& s : sum) total += s[f];
       const double even = 1.0 / static_cast<double>(connections_);
       for (std::size_t c = 0; c < connections_; ++c) {
-        running += total > 0 ? kUniformShare * even + (1 - kUniformShare) * sum[c][f] / total : even;
+        running += total > 0
+                       ? deltalux::tuning::kDefensive * even + (1 - deltalux::tuning::kDefensive) * sum[c][f] / total
+                       : even;
         row[c] = static_cast<float>(running);
       }
       row[connections_ - 1] = 1.0f;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/check.hpp"
+#include "render/tuning.hpp"
 
 namespace deltalux::rendering {
 
@@ -61,7 +62,7 @@ double rootBetween(const Condition& f, double a, double fa, double b, double fb)
 
 /// The extremum of f between two azimuths by golden sections, for a pair of roots that no sample separates.
 double extremumBetween(const Condition& f, double a, double b, double sign) {
-  constexpr double kGolden = 0.6180339887498949;
+  constexpr double kGolden = 0.6180339887498949;  // [defined]
   for (int i = 0; i < 40; ++i) {
     const double left = b - kGolden * (b - a), right = a + kGolden * (b - a);
     (sign * f(left) < sign * f(right) ? b : a) = sign * f(left) < sign * f(right) ? right : left;
@@ -77,23 +78,22 @@ struct Azimuths {
   }
 };
 
-constexpr int kSteps = 48;
-
 struct UnitCircle {
-  std::array<double, kSteps> c, s;
+  std::array<double, tuning::kRootSteps> c, s;
   UnitCircle() {
-    for (int i = 0; i < kSteps; ++i) c[i] = std::cos(2 * kPi * i / kSteps), s[i] = std::sin(2 * kPi * i / kSteps);
+    for (int i = 0; i < tuning::kRootSteps; ++i)
+      c[i] = std::cos(2 * kPi * i / tuning::kRootSteps), s[i] = std::sin(2 * kPi * i / tuning::kRootSteps);
   }
 };
 
 Azimuths roots(const Condition& f) {
   static const UnitCircle circle;
-  std::array<double, kSteps> values;
-  for (int i = 0; i < kSteps; ++i) values[i] = f.value(circle.c[i], circle.s[i]);
-  const auto at = [&](int i) { return values[(i + kSteps) % kSteps]; };
-  constexpr double spacing = 2 * kPi / kSteps;
+  std::array<double, tuning::kRootSteps> values;
+  for (int i = 0; i < tuning::kRootSteps; ++i) values[i] = f.value(circle.c[i], circle.s[i]);
+  const auto at = [&](int i) { return values[(i + tuning::kRootSteps) % tuning::kRootSteps]; };
+  constexpr double spacing = 2 * kPi / tuning::kRootSteps;
   Azimuths found;
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = 0; i < tuning::kRootSteps; ++i) {
     const double left = at(i), right = at(i + 1);
     if ((left > 0) != (right > 0)) {
       found.add(rootBetween(f, i * spacing, left, (i + 1) * spacing, right));

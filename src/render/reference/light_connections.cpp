@@ -5,20 +5,15 @@
 
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "base/tuning.hpp"
 #include "render/reference/bent_way.hpp"
 #include "render/reference/curved_mirror.hpp"
 #include "render/reference/refracting_ball.hpp"
+#include "render/tuning.hpp"
 
 namespace deltalux::rendering {
 
 namespace {
-
-// More connections would dilute the choice; the rest is found by scattering.
-constexpr std::size_t kMaxSingle = 2048, kMaxDouble = 48;
-constexpr double kKeptShare = 0.9995;   // of the flux that was found: more connections would only dilute the choice
-constexpr std::size_t kMaxSecond = 24;  // single connections that are tried by way of a further bend
-constexpr int kFluxSamplesPlane = 256;  // a lit patch of a wide mirror must not be overlooked
-constexpr int kFluxSamplesCurved = 32, kFluxSamplesDouble = 24;
 
 std::uint64_t chainKey(LightId light, const BendChain& chain) {
   std::uint64_t key = light.value;
@@ -57,7 +52,8 @@ LightConnections::LightConnections(const ReferenceScene& scene) : scene_(scene) 
     double all = 0, kept = 0;
     for (const Connection& c : found) all += c.flux;
     std::size_t keeping = 0;
-    while (keeping < std::min(found.size(), count) && kept < kKeptShare * all) kept += found[keeping++].flux;
+    while (keeping < std::min(found.size(), count) && kept < (1 - double(deltalux::tuning::kNegligible)) * all)
+      kept += found[keeping++].flux;
     found.resize(keeping);
     for (const Connection& c : found) add(c);
     return found;
@@ -72,8 +68,8 @@ LightConnections::LightConnections(const ReferenceScene& scene) : scene_(scene) 
   for (const Bend& bend : bends) {
     for (LightId light : lamps) candidates.push_back(prepend(bend, {light, {}, 0}));
   }
-  std::vector<Connection> singles = keep(withFlux(candidates, 0), kMaxSingle);
-  if (singles.size() > kMaxSecond) singles.resize(kMaxSecond);
+  std::vector<Connection> singles = keep(withFlux(candidates, 0), tuning::kMostSingle);
+  if (singles.size() > tuning::kMostDouble) singles.resize(tuning::kMostDouble);
   candidates.clear();
   for (const Connection& single : singles) {
     for (const Bend& bend : bends) {
@@ -81,7 +77,7 @@ LightConnections::LightConnections(const ReferenceScene& scene) : scene_(scene) 
       if (!bothCurved && bend.surface != single.chain.bends[0].surface) candidates.push_back(prepend(bend, single));
     }
   }
-  keep(withFlux(candidates, kFluxSamplesDouble), kMaxDouble);
+  keep(withFlux(candidates, tuning::kCurvedSamples), tuning::kMostDouble);
 }
 
 void LightConnections::add(const Connection& c) {
@@ -109,7 +105,7 @@ std::optional<Bend> LightConnections::mirror(PrimitiveId p, bool front) const {
 std::optional<Bend> LightConnections::ball(PrimitiveId p, int inner) const {
   const auto* sphere = std::get_if<Sphere>(&scene_.scene()[p].shape);
   const Dielectric* body = scene_.body(p);
-  if (!sphere || sphere->inward || !body || body->ior <= 1.0f || inner > kMaxInnerReflections) return std::nullopt;
+  if (!sphere || sphere->inward || !body || body->ior <= 1.0f || inner > tuning::kMostInner) return std::nullopt;
   return Bend{Bend::Kind::Ball, p, inner};
 }
 
@@ -136,7 +132,7 @@ std::vector<Connection> LightConnections::withFlux(std::vector<Connection> candi
     Connection before{c.light, {}, 0};
     for (int k = 1; k < c.chain.count; ++k) before.chain.add(c.chain.bends[k]);
     const Bend& bend = c.chain.bends[0];
-    const int usual = bend.kind == Bend::Kind::Plane ? kFluxSamplesPlane : kFluxSamplesCurved;
+    const int usual = bend.kind == Bend::Kind::Plane ? tuning::kPlaneSamples : tuning::kCurvedSamples;
     c.flux = fluxLeaving(bend, before, samples > 0 ? samples : usual);
   });
   std::erase_if(candidates, [](const Connection& c) { return !(c.flux > 0.0); });

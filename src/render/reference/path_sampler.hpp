@@ -5,6 +5,7 @@
 
 #include "base/random.hpp"
 #include "base/sobol.hpp"
+#include "base/tuning.hpp"
 
 namespace deltalux::rendering {
 
@@ -21,7 +22,8 @@ class PathSampler {
   double next1() { return next2().x; }
 
  private:
-  static constexpr std::uint64_t kStratified = 12;  // about two bounces: later ones gain nothing
+  // Of a connection two, of a scattering two, and the roulette's.
+  static constexpr std::uint64_t kStratified = 5 * deltalux::tuning::kStratifiedEvents;  // [defined]
 
   std::uint64_t key_;
   std::uint32_t index_;

@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "base/tuning.hpp"
+#include "render/tuning.hpp"
+
 namespace deltalux::rendering {
 
 namespace {
-
-constexpr int kMeterConnections = 2;   // more cost as much as they gain
-constexpr int kRouletteFrom = 2;       // scatterings
-constexpr double kMaxSurvival = 0.99;  // so that light caught between perfect surfaces ends some day
 
 /// Weight of a strategy with density p against one with density q. [Veach97]
 double powerHeuristic(double p, double q) {
@@ -40,10 +39,10 @@ PathTracer::PathTracer(const ReferenceScene& scene, const LightConnections& conn
 RgbSum PathTracer::irradiance(const Vec3& position, const Vec3& normal, PathSampler& sampler,
                               std::uint64_t& rays) const {
   const PathVertex vertex{position, normal, normal, &meter(), nullptr};
-  RgbSum sum(connect(vertex, kMeterConnections, sampler, rays));
+  RgbSum sum(connect(vertex, tuning::kMeterConnections, sampler, rays));
   Walk walk;
   if (scatter(walk, vertex, PrimitiveId(), true, sampler)) {
-    walk.anchor.connections = kMeterConnections;
+    walk.anchor.connections = tuning::kMeterConnections;
     sum += follow(walk, sampler, rays);
   }
   return sum * kPi;
@@ -136,8 +135,8 @@ bool PathTracer::scatter(Walk& walk, const PathVertex& v, PrimitiveId primitive,
   if (s->event == scene::ScatterEvent::Refraction) walk.medium = front ? scene_.body(primitive) : nullptr;
 
   ++walk.depth;
-  if (walk.depth <= kRouletteFrom) return true;
-  const double survival = std::min<double>(kMaxSurvival, maxChannel(walk.throughput));
+  if (walk.depth <= deltalux::tuning::kRouletteFrom) return true;
+  const double survival = std::min<double>(deltalux::tuning::kMostSurvival, maxChannel(walk.throughput));
   if (!(sampler.next1() < survival)) return false;
   walk.throughput *= static_cast<float>(1.0 / survival);
   return true;

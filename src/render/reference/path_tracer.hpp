@@ -6,7 +6,7 @@
 // stratified choices): straight to a light, or by way of up
 // to two bends: plane mirrors (virtual images), and one curved mirror or refracting ball (all ways solved for). The
 // same paths found by scattering are weighted against exactly the strategy that also makes them, so these caustics of
-// suns, points and lamps converge like direct light. Panes are passed straight on the way. Russian roulette after two
+// suns, points and lamps converge like direct light. Panes are passed straight on the way. Russian roulette after some
 // bounces keeps the throughput per channel: no colour is averaged away.
 //
 // Geometric normals throughout, so that energy is conserved; vertex normals of meshes are for the display.

@@ -11,6 +11,7 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "render/reference/path_tracer.hpp"
+#include "render/tuning.hpp"
 
 namespace deltalux {
 
@@ -20,25 +21,23 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr std::uint32_t kBatch = 64;       // paths that share one stratified pattern
-constexpr std::uint64_t kMinBatches = 16;  // behind a standard error, while there are paths enough
-constexpr std::uint64_t kMaxPassBatches = 1024;
+constexpr std::uint64_t kMaxPassBatches = 1024;  // [task]
 
 /// A power of two, smaller when few paths are asked for.
 std::uint32_t batchSize(std::uint64_t samples) {
-  std::uint32_t size = kBatch;
-  while (size > 1 && samples != 0 && samples < size * kMinBatches) size /= 2;
+  std::uint32_t size = direct::tuning::kBatch;
+  while (size > 1 && samples != 0 && samples < size * rendering::tuning::kFewestEstimates) size /= 2;
   return size;
 }
 
 /// Test samples for the connection table: worth a small part of the job's paths, or of the time limit. `estimates` is
 /// the number of points or pixels; a picture's many paths are worth a finer table than a few meters' are.
 double tableBudget(const ReferenceSettings& settings, std::size_t estimates) {
-  constexpr double kMost = 4e7;
   const double perSample = std::max(500.0, 1.5 * static_cast<double>(estimates));
-  const double fromSamples = settings.samples > 0 ? perSample * static_cast<double>(settings.samples) : kMost;
-  const double fromSeconds = settings.seconds > 0 ? 1.5e5 * settings.seconds : kMost;
-  return std::clamp(std::min(fromSamples, fromSeconds), 5e4, kMost);
+  const double fromSamples =
+      settings.samples > 0 ? perSample * static_cast<double>(settings.samples) : rendering::tuning::kMostTests;
+  const double fromSeconds = settings.seconds > 0 ? 1.5e5 * settings.seconds : rendering::tuning::kMostTests;
+  return std::clamp(std::min(fromSamples, fromSeconds), 5e4, rendering::tuning::kMostTests);
 }
 
 /// Mean and spread of batch means per channel. [Welford62]
@@ -174,7 +173,7 @@ RgbSum ReferenceIntegrator::Impl::batchMean(std::uint64_t key, std::uint32_t siz
 }
 
 bool ReferenceIntegrator::Impl::settled(const BatchMoments& m) const {
-  if (settings.targetError <= 0 || m.count < 2 * kMinBatches) return false;
+  if (settings.targetError <= 0 || m.count < 2 * rendering::tuning::kFewestEstimates) return false;
   return glm::all(glm::lessThanEqual(m.standardError(), settings.targetError * m.mean));
 }
 
@@ -236,7 +235,7 @@ Image ReferenceIntegrator::render(const View& view, int width, int height, Progr
     if (batches == 0) break;
     const double before = impl.fractionDone(schedule, secondsSince(start));
     const double after = impl.fractionAfter(schedule, batches, before);
-    constexpr std::size_t kBlock = 64;
+    constexpr std::size_t kBlock = 64;  // [task]
     reporter.phase("render", before, std::max(0.0, after - before), (pixels + kBlock - 1) / kBlock);
     parallelBlocks(pixels, kBlock, [&](std::size_t begin, std::size_t end) {
       if (reporter.stopped()) return;

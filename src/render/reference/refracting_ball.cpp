@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "render/tuning.hpp"
+
 namespace deltalux::rendering {
 
 namespace {
@@ -61,7 +63,7 @@ double rootOfMiss(const Miss& f, double a, double fa, double b) {
 
 /// The extremum of f between two angles by golden sections, for a pair of roots that no sample separates.
 double extremumOfMiss(const Miss& f, double a, double b, double sign) {
-  constexpr double kGolden = 0.6180339887498949;
+  constexpr double kGolden = 0.6180339887498949;  // [defined]
   for (int i = 0; i < 30; ++i) {
     const double left = b - kGolden * (b - a), right = a + kGolden * (b - a);
     if (sign * f(left) < sign * f(right))
@@ -125,14 +127,13 @@ BallPassages ballPassages(const Sphere& sphere, double ior, int inner, const Vec
   const Course course{distance, sphere.radius, ior, inner};
   const Miss miss{course, light.infinite ? Vec2(std::atan2(flat.y, flat.x), 0.0) : flat, light.infinite};
 
-  constexpr int kSteps = 64;
   const double widest = std::asin(sphere.radius / distance) * (1.0 - 1e-12);
-  std::array<double, kSteps + 1> at, value;
-  for (int k = 0; k <= kSteps; ++k) {
+  std::array<double, tuning::kRootSteps + 1> at, value;
+  for (int k = 0; k <= tuning::kRootSteps; ++k) {
     // Finer towards the rim, where the ray turns fastest; an even number of steps puts no sample on the axis itself.
-    at[k] = widest * std::sin(0.5 * kPi * (2.0 * (k + 0.25) / (kSteps + 0.5) - 1.0));
+    at[k] = widest * std::sin(0.5 * kPi * (2.0 * (k + 0.25) / (tuning::kRootSteps + 0.5) - 1.0));
     if (k == 0) at[k] = -widest;
-    if (k == kSteps) at[k] = widest;
+    if (k == tuning::kRootSteps) at[k] = widest;
     value[k] = miss(at[k]);
   }
   const auto found = [&](double a, double fa, double b) {
@@ -145,7 +146,7 @@ BallPassages ballPassages(const Sphere& sphere, double ior, int inner, const Vec
     if (inner > 0 && (at[k] > 0) != (at[k + 1] > 0)) return false;
     return !light.infinite || std::abs(value[k + 1] - value[k]) < kPi;
   };
-  for (int k = 0; k < kSteps; ++k) {
+  for (int k = 0; k < tuning::kRootSteps; ++k) {
     if ((value[k + 1] > 0) != (value[k] > 0)) {
       if (joined(k)) found(at[k], value[k], at[k + 1]);
       continue;

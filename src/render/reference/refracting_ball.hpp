@@ -27,8 +27,6 @@ struct BallPassages {
   int count = 0;
 };
 
-constexpr int kMaxInnerReflections = 3;
-
 /// The passage with `inner` reflections that enters at `entry`, coming from `x` outside. `ior` of the ball over the
 /// outside, above 1.
 BallPassage passageFrom(const Sphere&, double ior, int inner, const Vec3& x, const Vec3& entry);

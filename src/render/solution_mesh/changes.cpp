@@ -20,8 +20,8 @@ MeshChange changedSince(const SolutionMesh& now, std::uint64_t version) {
 
 namespace {
 
-constexpr float kUnit = 1e-3f;        // that a normal's length may be off by
-constexpr float kBeyondEdge = 1e-4f;  // of texture coordinates, by rounding
+constexpr float kUnit = 1e-3f;        // that a normal's length may be off by [rounding]
+constexpr float kBeyondEdge = 1e-4f;  // of texture coordinates, by rounding [rounding]
 
 [[noreturn]] void failAt(std::size_t side, const char* what) {
   throw std::logic_error("solution mesh: side " + std::to_string(side) + ": " + what);

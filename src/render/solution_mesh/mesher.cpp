@@ -13,7 +13,7 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr std::size_t kSidesBlock = 8;
+constexpr std::size_t kSidesBlock = 8;  // [task]
 
 /// What was there before, or what is there now with its versions.
 std::shared_ptr<const SurfaceMesh> withVersions(SurfaceMesh side, const std::shared_ptr<const SurfaceMesh>& before,

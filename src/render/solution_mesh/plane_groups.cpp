@@ -10,8 +10,8 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr double kOnePlane = 1 - 1e-7;  // cosine between normals
-constexpr double kTouching = 2e-6;      // of the polygons' size: distance within which they touch
+constexpr double kOnePlane = 1 - 1e-7;  // cosine between normals [rounding]
+constexpr double kTouching = 2e-6;      // of the polygons' size: distance within which they touch [rounding]
 
 std::uint32_t sideNumber(std::uint32_t primitive, bool front) { return 2 * primitive + (front ? 0 : 1); }
 

@@ -3,15 +3,15 @@
 #include <algorithm>
 
 #include "base/parallel.hpp"
+#include "hierarchy/tuning.hpp"
 #include "scene/light_sampling.hpp"
 
 namespace deltalux::rendering {
 
 namespace {
 
-constexpr std::size_t kReadBlock = 256;
-constexpr float kInside = 0.02f;  // of the way to a torn leaf's middle
-constexpr std::uint32_t kNowhere = 0xffffffffu;
+constexpr std::size_t kReadBlock = 256;          // [task]
+constexpr std::uint32_t kNowhere = 0xffffffffu;  // [sentinel]
 
 /// Where a vertex reads the field; no leaf: it is dark.
 struct ReadingPlace {
@@ -72,7 +72,7 @@ class SideLayout {
     for (std::size_t i = first; i < places_.size(); ++i) middle += places_[i].position;
     middle /= static_cast<float>(std::max<std::size_t>(places_.size() - first, 1));
     for (std::size_t i = first; i < places_.size(); ++i)
-      places_[i].position = glm::mix(places_[i].position, middle, kInside);
+      places_[i].position = glm::mix(places_[i].position, middle, static_cast<float>(hierarchy::tuning::kTouching));
   }
 
   const SideShape& shape_;

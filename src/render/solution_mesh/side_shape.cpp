@@ -11,9 +11,9 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr double kThin = 1e-9;      // of a piece's area: a fan's triangle has more
-constexpr double kOnBorder = 1e-5;  // of a curved surface's parameters
-constexpr std::uint32_t kNoPoint = 0xffffffffu;
+constexpr double kThin = 1e-9;                   // of a piece's area: a fan's triangle has more [rounding]
+constexpr double kOnBorder = 1e-5;               // of a curved surface's parameters [rounding]
+constexpr std::uint32_t kNoPoint = 0xffffffffu;  // [sentinel]
 
 bool fanFits(const std::vector<Vec2>& ring, const Vec2& center) {
   const double least = kThin * hierarchy::outlineArea(ring);
@@ -99,7 +99,7 @@ class SideMaker {
 
   /// The side's vertex at a point: one for all pieces, but where a mesh has several normals or textures there.
   std::uint32_t vertexAt(const SurfacePiece& piece, std::uint32_t point, const Vec2& uv) {
-    constexpr float kSame = 1e-4f;
+    constexpr float kSame = 1e-4f;  // [rounding]
     std::uint32_t& first = vertexOf_[point];
     if (!mesh_ && first != kNoPoint) return first;
     const MeshVertex v = vertexFor(piece, points_.at(point), uv);

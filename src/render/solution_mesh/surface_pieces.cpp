@@ -5,14 +5,14 @@
 #include "base/sort_unique.hpp"
 #include "hierarchy/below.hpp"
 #include "hierarchy/outline.hpp"
+#include "hierarchy/tuning.hpp"
+#include "render/tuning.hpp"
 
 namespace deltalux::rendering {
 
 namespace {
 
-constexpr int kFewestSteps = 8, kMostSteps = 128;  // round: powers of two, as leaves are
-constexpr double kSagitta = 3e-5;                  // of the scene: how far flat pieces may be off a curved surface
-constexpr double kApart = 1e-5;                    // of the parameters: cuts nearer to a leaf's border are left out
+constexpr double kApart = 1e-5;  // of the parameters: cuts nearer to a border are left out [rounding]
 
 double largestRadius(const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
@@ -100,8 +100,8 @@ bool isInside(const Shape& shape, bool front) {
 int stepsRound(const Shape& shape, double sceneSize) {
   const double radius = largestRadius(shape);
   if (!(radius > 0)) return 0;
-  int steps = kFewestSteps;
-  while (steps < kMostSteps && radius * (1 - std::cos(kPi / steps)) > kSagitta * sceneSize) steps *= 2;
+  int steps = hierarchy::tuning::kGrid;
+  while (steps < tuning::kMostPieces && radius * (1 - std::cos(kPi / steps)) > tuning::kSagitta * sceneSize) steps *= 2;
   return steps;
 }
 

@@ -10,7 +10,7 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr double kCell = 16;  // in tolerances
+constexpr double kCell = 16;  // in tolerances [task]
 
 BoxF boxAround(const Vec3& low, const Vec3& high, double slack) {
   // Single precision may round a point out of its own box.

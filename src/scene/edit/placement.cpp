@@ -6,7 +6,7 @@ namespace deltalux::scene::edits {
 
 namespace {
 
-constexpr double kRounding = 1e-12;
+constexpr double kRounding = 1e-12;  // [rounding]
 
 bool finiteMap(const Mat4& m) {
   for (int c = 0; c < 4; ++c)

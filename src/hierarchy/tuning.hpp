@@ -1,0 +1,38 @@
+#pragma once
+// The tuned constants of the hierarchy: purpose, unit, normal value, and what breaks.
+#include <cstddef>
+#include <cstdint>
+
+namespace deltalux::hierarchy::tuning {
+
+/// Surfaces that a cluster may hold without looking at their sizes, and the size against its cluster from which one
+/// stays in it. More, smaller: links to clusters err. Fewer, larger: deep trees.
+constexpr std::size_t kLeafGroups = 4;
+constexpr double kLarge = 0.5;
+/// Least mean free path, relative to that of the surroundings. Less: slots between boards fill with elements.
+constexpr float kSlot = 0.5f;
+/// Within which things touch, are aligned, or end, in the size of what they are parts of: what stands on a surface,
+/// lines along its foot, ends of patches. Larger: splits along lines where nothing stands. Smaller: walls of scanned or
+/// rounded coordinates are overlooked.
+constexpr double kTouching = 0.02;
+/// Sine of how far what stands on a surface may lean. Larger: lines below ramps. Smaller: tapered legs are overlooked.
+constexpr double kUpright = 0.3;
+/// Least share of a patch that a line has to cross, and least height of what it is the foot of, in the patch's side, to
+/// be split along. Less: crooked patches around small things. More: light leaks below walls.
+constexpr float kCrossed = 0.5f;
+constexpr double kWall = 0.2;
+/// Points along each parameter of a curved patch or of a part of the sky, that bound it and tell its mean. Fewer: loose
+/// bounds, and normals that are off. More: time in the square.
+constexpr int kGrid = 8;
+/// Patches of the input level that one thing is worth: a mesh of no more faces may be the polygons that it is made of;
+/// one that is fine has at least as many, but for so many faces in each, and is fine where it has two. Fewer, more:
+/// coarse light on statues. More, fewer: time and memory for all that is of many triangles.
+constexpr std::uint32_t kInputs = 64, kFewestOfInput = 256;
+/// Share of what a closed cavity of such patches would send, that one may be given back. More: light between facing
+/// patches grows without end. Less: halls of white plaster are too dark.
+constexpr float kMostReturned = 0.98f;
+/// Tolerance of a leaf relative to its surface's first estimate; and light below which changes are compared with that,
+/// relative to the mean. Lower: work in dark corners. Higher: leaks and what has changed stay.
+constexpr float kDarkest = 0.1f, kBrightest = 2.0f;
+
+}  // namespace deltalux::hierarchy::tuning
