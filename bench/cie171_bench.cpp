@@ -108,13 +108,7 @@ int run(std::vector<std::string> a) {
     for (const int sky : skiesOf(d)) skies.push_back(daylightCase(d, sky));
     measure(skies, errors);
     if (d.roof) continue;
-    const test::cie171::Daylight tiled = inTiles(d);
-    for (Case& c : skies) {
-      const std::vector<Light> sky = c.scene.lights;
-      c.variant += " tiled", c.scene = {};
-      addFacets(c.scene, tiled.facets);
-      c.scene.lights = sky;
-    }
+    for (Case& c : skies) c.variant += " tiled", cutIntoTiles(c, d);
     measure(skies, errors);
   }
   return 0;

@@ -56,7 +56,7 @@ bool Engine::State::outshines(const engine::SceneUpdate& edits) const {
   const Solution& s = *solution;
   return std::any_of(edits.dimmed.begin(), edits.dimmed.end(), [&](LightId light) {
     return light.index() >= s.sampledScale.size() ||  // it was not there
-           gray(s.scene[light].scale) > engine::tuning::kHasty * gray(s.sampledScale[light.index()]);
+           gray(s.scene[light].scale) > engine::tuning::kBrighter * gray(s.sampledScale[light.index()]);
   });
 }
 

@@ -32,9 +32,11 @@ constexpr double kNewCost = 0.5;
 /// Rays that measure what particles bring, and lines that measure where light ends. Fewer: the ledger closes less well.
 constexpr std::size_t kLedgerRays = 1 << 18, kLedgerLines = 1 << 19;
 
-/// Error of links in the first round, relative to the last; how many times that when time is limited, or for a first
-/// look; and how many times as bright as it was a light may become before all is solved for anew. Larger: the first
-/// rounds tell little. Smaller: the first picture is late.
+/// Error of links in the first round, relative to the last, and how many times that when time is limited, or for a
+/// first look. Larger: the first rounds tell little. Smaller: the first picture is late.
 constexpr double kFirstError = 64, kHasty = 8;
+/// How many times as bright as it was a light may become before links are refined from the start. Larger: they are too
+/// few for it. Smaller: brightening takes a solve.
+constexpr double kBrighter = 8;
 
 }  // namespace deltalux::engine::tuning

@@ -22,7 +22,8 @@ class DomeTable {
   double pdf(const Vec3& towards) const;
 
  private:
-  static constexpr int kSectors = tuning::kDomeSectors, kRings = tuning::kDomeRings;
+  static constexpr int kRings = tuning::kDomeRings;
+  static constexpr int kSectors = 2 * kRings;  // around: twice as many [defined]
 
   Vec3 direction(double azimuth, double height) const;
 

@@ -11,7 +11,7 @@ constexpr int kNominalOctaves = 4;
 /// Triangles of an emitter that is sampled by solid angle: of more, one is chosen by area. Fewer: noise near lamps of
 /// many faces. More: time for each.
 constexpr std::size_t kMostBySolidAngle = 8;
-/// Cells of a sky's table, around and along height, and looks of each, a side. Fewer: noise under an uneven sky.
-constexpr int kDomeSectors = 64, kDomeRings = 32, kDomeLooks = 3;
+/// Cells of a sky's table along height, and looks of each, a side. Fewer: noise under an uneven sky.
+constexpr int kDomeRings = 32, kDomeLooks = 3;
 
 }  // namespace deltalux::scene::tuning

@@ -45,9 +45,8 @@ struct KnownSky {
   std::uint64_t skies = 0;  // direct::Skies::key()
   std::vector<direct::SkyAtLeaf> at;
   std::vector<direct::SkyKey> key;
-  LargeArray<lines::LineCode>
-      rays;  // direct::tuning::kManyRays of each leaf; of those that there were not, without reach
-  LargeArray<std::uint8_t> cells;  // of the same
+  LargeArray<lines::LineCode> rays;  // kManyRays of each leaf; of those that there were not, without reach
+  LargeArray<std::uint8_t> cells;    // of the same
 };
 
 /// Direct light of a leaf in the dark, from many points.

@@ -54,6 +54,8 @@ std::vector<Daylight> daylightVariants();
 Daylight findDaylight(const std::string& name, const std::string& variant);
 /// The same, what is grey near the room cut into squares of a metre: the solver splits no leaf for light of the sky.
 Daylight inTiles(Daylight);
+/// A case of it with its surfaces in tiles.
+void cutIntoTiles(Case&, const Daylight&);
 /// Under a sky of that type, 10 klx on open ground: A to F on a wall from above, G to N on the floor.
 Case daylightCase(const Daylight&, int sky);
 constexpr std::size_t kFirstOnFloor = 6;  // of its points

@@ -117,6 +117,13 @@ Daylight inTiles(Daylight d) {
   return d;
 }
 
+void cutIntoTiles(Case& c, const Daylight& d) {
+  std::vector<Light> lights = std::move(c.scene.lights);
+  c.scene = {};
+  addFacets(c.scene, inTiles(d).facets);
+  c.scene.lights = std::move(lights);
+}
+
 std::vector<double> daylightReference(const Daylight& d, int type, int order, bool polynomialGlass) {
   const GeneralSky sky{type, kSun};
   const double zenith = zenithLuminance(sky);

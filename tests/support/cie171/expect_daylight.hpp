@@ -13,10 +13,7 @@ inline void expectDaylight(const Daylight& d, int sky, double error) {
   constexpr double kSureness = 3;
   constexpr std::uint64_t kParticles = 20000;  // behind glass, where they bring the ground what panes reflect
   Case c = daylightCase(d, sky);
-  std::vector<Light> lights = std::move(c.scene.lights);
-  c.scene = {};
-  addFacets(c.scene, inTiles(d).facets);
-  c.scene.lights = std::move(lights);
+  cutIntoTiles(c, d);
   SolveSettings settings;
   settings.error = error, settings.particles = kParticles;
   Engine engine(c.scene, settings);
