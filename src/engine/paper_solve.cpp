@@ -67,9 +67,7 @@ void Engine::State::prepare(Progress* progress) {
   s.report.counts.raysVisibility += coarse.rays;
   s.report.times.hierarchy += time.seconds() - s.report.times.particles;
   nextError = linksJudged().error * engine::tuning::kFirstError *
-              (previewed          ? engine::tuning::kHasty
-               : budget.limited() ? engine::tuning::kHasty
-                                  : 1.0);
+              (previewed || budget.limited() ? engine::tuning::kHasty : 1.0);
   if (progress) progress->report("hierarchy", 1.0);
 }
 
