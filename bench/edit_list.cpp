@@ -176,4 +176,15 @@ std::vector<EditPhase> loadEditList(const std::filesystem::path& path, const Sce
   return parseEditList(text.str(), path.string(), scene);
 }
 
+EditPhase movesSpread(const std::vector<EditPhase>& phases, std::size_t count) {
+  std::vector<NamedEdit> moves;
+  for (const EditPhase& phase : phases)
+    for (const NamedEdit& edit : phase.edits)
+      if (edit.kind == "move") moves.push_back(edit);
+  count = std::min(count, moves.size());
+  EditPhase spread{"move", {}};
+  for (std::size_t i = 0; i < count; ++i) spread.edits.push_back(moves[i * moves.size() / count]);
+  return spread;
+}
+
 }  // namespace deltalux::bench

@@ -35,4 +35,7 @@ struct EditPhase {
 std::vector<EditPhase> parseEditList(std::string_view text, const std::string& file, const Scene&);
 std::vector<EditPhase> loadEditList(const std::filesystem::path&, const Scene&);
 
+/// So many of the moves in them, evenly from the list; all where there are no more.
+EditPhase movesSpread(const std::vector<EditPhase>&, std::size_t count);
+
 }  // namespace deltalux::bench

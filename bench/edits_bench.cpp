@@ -15,7 +15,8 @@
 //   the edit that takes so long.
 //
 // leaves_changed may exceed leaves_of_solve where moved shadows split leaves: old and new ones are counted.
-// Options: metres=M (of a scene unit), error=E, first=N (of each kind, not all), once, unchecked.
+// Options: metres=M (of a scene unit), error=E, first=N (of each kind, not all), spread=N (moves alone, N of them from
+// all over the list), copies=K (of the scene, side by side: the first is edited), once, unchecked.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,6 +30,7 @@
 #include <stdexcept>
 
 #include "edit_list.hpp"
+#include "scene_copies.hpp"
 #include "stopwatch.hpp"
 
 namespace deltalux::bench {
@@ -43,6 +45,8 @@ struct Options {
   ImportSettings import;
   SolveSettings solve;
   std::size_t first = std::numeric_limits<std::size_t>::max();
+  std::size_t spread = 0;
+  int copies = 1;
   bool checked = true, once = false;
 
   static Options parse(const std::vector<std::string>& words) {
@@ -54,6 +58,10 @@ struct Options {
         o.solve.error = std::stod(word.substr(6));
       else if (word.starts_with("first="))
         o.first = std::stoul(word.substr(6));
+      else if (word.starts_with("spread="))
+        o.spread = std::stoul(word.substr(7));
+      else if (word.starts_with("copies="))
+        o.copies = std::stoi(word.substr(7));
       else if (word == "once")
         o.once = true;
       else if (word == "unchecked")
@@ -160,7 +168,9 @@ CheckReport check(const Engine& engine) {
 void run(const std::string& name, const std::string& file, const std::string& list, const Options& o) {
   Scene scene = loadScene({file}, o.import).scene;
   addAreaLights(scene);
-  const std::vector<EditPhase> phases = loadEditList(list, scene);
+  std::vector<EditPhase> phases = loadEditList(list, scene);
+  if (o.spread > 0) phases = {movesSpread(phases, o.spread)};
+  if (o.copies > 1) scene = sideBySide(scene, o.copies);
   Solved solved = solve(std::move(scene), o.solve);
   Table table(name, o.solve.error, solved.seconds, solved.engine.solution().report().counts.leafElements);
   for (const EditPhase& phase : phases) {
@@ -196,7 +206,7 @@ int main(int argc, char** argv) {
   std::fputs(
       "usage: edits_bench columns\n"
       "       edits_bench NAME SCENE LIST.txt OPTIONS...\n"
-      "options: metres=M, error=E, first=N, once, unchecked\n",
+      "options: metres=M, error=E, first=N, spread=N, copies=K, once, unchecked\n",
       stderr);
   return 2;
 }

@@ -1,6 +1,5 @@
 // update_bench replay NAME SCENE EDITS.json OPTIONS...
 // update_bench far NAME SCENE OPTIONS...
-// update_bench copies NAME SCENE EDITS.json K OPTIONS...
 // update_bench table1 NAME SCENE EDITS.json OPTIONS...
 //
 // Updates against solving, in one run, as CSV rows: one an edit (columns: kColumns). Times are wall seconds, and
@@ -9,7 +8,6 @@
 //   step, or every one with `each`, is held against a fresh solve of the
 //           edited scene, whose time is then the one that updates are related to; with `unchecked` none is.
 //   far     the scene with a small box ten of its diagonals away, which moves by its own size.
-//   copies  k copies of the scene side by side, the edits applied to the first: never checked.
 //   table1  the columns of Table 1 of [GD01] and what its Figures 7 and 9 tell of each position, with the published
 //           values beside ours where the scene is of the same kind (kTableColumns).
 // Options: diffuse-only, error=E, metres=M (of a scene unit), each, unchecked.
@@ -25,7 +23,6 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "scene_copies.hpp"
 #include "stopwatch.hpp"
 
 namespace deltalux::bench {
@@ -181,12 +178,6 @@ void far(const std::string& name, const std::string& file, const Options& o) {
   play({name, "far", o.settings}, solve(std::move(scene), o.settings), {TransformObject{object, matrix}}, o.checked);
 }
 
-void copies(const std::string& name, const std::string& scene, const std::string& file, int k, const Options& o) {
-  const std::vector<Edit> edits = editsOf(file, o.import);
-  play({fmt::format("{} x {}", name, k), stemOf(file), o.settings},
-       solve(sideBySide(loadScene({scene}, o.import).scene, k), o.settings), edits, Checked::None);
-}
-
 /// What [GD01 7] says of its scenes; nothing of ours that it has no like of.
 struct Published {
   std::string name;
@@ -276,8 +267,6 @@ bool run(const std::vector<std::string>& words) {
     table1(words[1], words[2], words[3], rest(4));
   else if (command == "far" && words.size() >= 3)
     far(words[1], words[2], rest(3));
-  else if (command == "copies" && words.size() >= 5)
-    copies(words[1], words[2], words[3], std::stoi(words[4]), rest(5));
   else
     return false;
   return true;
@@ -298,7 +287,6 @@ int main(int argc, char** argv) {
       "usage: update_bench columns | table1-columns\n"
       "       update_bench replay NAME SCENE EDITS.json OPTIONS...\n"
       "       update_bench far NAME SCENE OPTIONS...\n"
-      "       update_bench copies NAME SCENE EDITS.json K OPTIONS...\n"
       "       update_bench table1 NAME SCENE EDITS.json OPTIONS...\n"
       "options: diffuse-only, error=E, metres=M, each, unchecked\n",
       stderr);

@@ -1,6 +1,8 @@
 #pragma once
 // What a user may set about a solution. Everything else follows from `error` and the scene.
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace deltalux {
 
@@ -8,6 +10,14 @@ namespace deltalux {
 enum class SolveMethod : std::uint8_t {
   Lines,  // stored lines that count at both ends
   Paper,  // hierarchical links, refined to the error
+};
+
+/// Lights whose names match are dimmed together, as the group of that name. A pattern is a name as edits have it
+/// ("lanterns" is "lanterns" and every "lanterns.*"), in which * stands for any characters.
+struct LightPattern {
+  std::string group, pattern;
+
+  bool operator==(const LightPattern&) const = default;
 };
 
 struct SolveSettings {
@@ -18,6 +28,8 @@ struct SolveSettings {
   bool causticTextures = true;  // off: the mesh shows the light of particles everywhere, refined for it
   std::uint64_t seed = 1;
   SolveMethod method = SolveMethod::Lines;
+  bool byLight = false;  // the light of each lamp, of each sun and of the skies is kept apart (light_groups.hpp)
+  std::vector<LightPattern> groups = {};  // of those, what is to be dimmed together
 };
 
 }  // namespace deltalux

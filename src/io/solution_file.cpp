@@ -27,6 +27,7 @@ void forEachSection(auto& solution, const auto& visit) {
   visit("DEVI", solution.deviation);
   visit("SCAL", solution.sampledScale);
   visit("CAUS", solution.caustics);
+  visit("COLS", solution.columns);
   visit("REPT", solution.report);
 }
 

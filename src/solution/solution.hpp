@@ -7,6 +7,7 @@
 #include "hierarchy/link.hpp"
 #include "lines/lines.hpp"
 #include "particles/particles.hpp"
+#include "solution/light_columns.hpp"
 #include "solution/solve_memory.hpp"
 #include "tracing/ray_tracer.hpp"
 
@@ -24,6 +25,7 @@ struct Solution {
   std::shared_ptr<SolveMemory> memory;  // of the last solve over lines, had it all the time it wanted; not in files
   std::vector<Rgb> sampledScale;        // by light: its scale when links last followed it
   caustics::Caustics caustics;          // how the particles' light is shown; never feeds back
+  LightColumns columns;                 // the same light by groups of lights, where the settings ask for it
   SolveReport report;
 };
 

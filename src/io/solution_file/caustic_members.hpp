@@ -1,7 +1,8 @@
 #pragma once
-// The members of caustic textures, for archives.
+// The members of caustic textures, and of light by groups of lights, for archives.
 #include "caustics/caustics.hpp"
 #include "io/solution_file/scene_members.hpp"
+#include "solution/light_columns.hpp"
 
 namespace deltalux::io {
 
@@ -36,6 +37,19 @@ void members(auto& archive, Is<caustics::SurfaceCaustics> auto& s) {
 void members(auto& archive, Is<caustics::Caustics> auto& c) {
   auto& [surfaces, ofPrimitive] = c;
   transferAll(archive, surfaces, ofPrimitive);
+}
+
+void members(auto& archive, Is<LightGroup> auto& g) {
+  auto& [name, lights] = g;
+  transferAll(archive, name, lights);
+}
+void members(auto& archive, Is<LightColumn> auto& c) {
+  auto& [direct, indirect, particle, deviation, caustics] = c;
+  transferAll(archive, direct, indirect, particle, deviation, caustics);
+}
+void members(auto& archive, Is<LightColumns> auto& c) {
+  auto& [groups, of] = c;
+  transferAll(archive, groups, of);
 }
 
 }  // namespace deltalux::io

@@ -174,6 +174,8 @@ void checkReferences(const Solution& s) {
   require(s.links.all.empty() || s.sampledScale.size() == s.scene.lights.size(), "scales: one a light");
   checkLines(s.lines, s.deviation, s.elements, s.scene);
   checkCaustics(s.caustics, s.scene);
+  for (const LightColumn& c : s.columns.of) checkCaustics(c.caustics, s.scene);
+  validate(s.columns, s.scene, hierarchy::LeafTable(s.elements).size());
 }
 
 }  // namespace deltalux::io

@@ -11,9 +11,13 @@ struct EnumRange<SolveMethod> {
   static constexpr SolveMethod first = SolveMethod::Lines, last = SolveMethod::Paper;
 };
 
+void members(auto& archive, Is<LightPattern> auto& p) {
+  auto& [group, pattern] = p;
+  transferAll(archive, group, pattern);
+}
 void members(auto& archive, Is<SolveSettings> auto& s) {
-  auto& [error, particles, seconds, diffuseOnly, causticTextures, seed, method] = s;
-  transferAll(archive, error, particles, seconds, diffuseOnly, causticTextures, seed, method);
+  auto& [error, particles, seconds, diffuseOnly, causticTextures, seed, method, byLight, groups] = s;
+  transferAll(archive, error, particles, seconds, diffuseOnly, causticTextures, seed, method, byLight, groups);
 }
 
 void members(auto& archive, Is<EnergyLedger> auto& e) {

@@ -1,0 +1,70 @@
+// session_bench EDITS [EVERY]
+//
+// A long session: so many random edits of a furnished room (tests/support/furnished_room.hpp), an update after each, as
+// CSV rows every hundred edits (or EVERY): resident memory, time of the hundred, and whether mesh, lines and particles are those
+// of a fresh solve of the scene as it is then.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <deltalux/engine.hpp>
+#include <deltalux/memory.hpp>
+#include <fstream>
+#include <stdexcept>
+
+#include "run_main.hpp"
+#include "stopwatch.hpp"
+#include "support/furnished_room.hpp"
+#include "support/solved.hpp"
+
+namespace deltalux::bench {
+namespace {
+
+constexpr int kUsually = 100;
+constexpr std::uint64_t kSeed = 41;
+
+/// Of this process [MB].
+double residentMegabytes() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t pages = 0, resident = 0;
+  file >> pages >> resident;
+  return 1e-6 * static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+int run(const std::vector<std::string>& words) {
+  const int edits = words.empty() ? 0 : std::atoi(words[0].c_str()),
+            every = words.size() > 1 ? std::atoi(words[1].c_str()) : kUsually;
+  if (edits < 1 || every < 1 || words.size() > 2) throw std::runtime_error("usage: session_bench EDITS [EVERY]");
+  fmt::print("edits,resident_mb,seconds,rays,leaves,lines_mb,particles_mb,fresh_seconds,as_fresh\n");
+  Engine engine(test::furnishedRoom(), test::coarse());
+  engine.solve();
+  test::RandomEdits session(engine, test::editableOfFurnishedRoom(), kSeed);
+  std::uint64_t rays = 0;
+  double seconds = 0;
+  int differing = 0;
+  for (int i = 1; i <= edits; ++i) {
+    const Stopwatch watch;
+    rays += session.step().rays;
+    seconds += watch.wall();
+    if (i % every != 0 && i != edits) continue;
+    const double resident = residentMegabytes();  // before the fresh solve
+    const SolveReport report = engine.solution().report();
+    const Stopwatch solving;
+    const bool same = test::isTheFreshOne(engine);
+    differing += !same;
+    fmt::print("{},{:.1f},{:.4g},{},{},{:.1f},{:.1f},{:.4g},{}\n", i, resident, seconds, rays,
+               report.counts.leafElements, 1e-6 * static_cast<double>(report.memory.lines),
+               1e-6 * static_cast<double>(report.memory.particles), solving.wall(), same ? "yes" : "no");
+    std::fflush(stdout);
+    rays = 0, seconds = 0;
+  }
+  return differing > 0;
+}
+
+}  // namespace
+}  // namespace deltalux::bench
+
+int main(int argc, char** argv) {
+  deltalux::keepFreedMemory();
+  return deltalux::bench::runMain("session_bench", argc, argv, deltalux::bench::run);
+}

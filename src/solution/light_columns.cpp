@@ -1,0 +1,141 @@
+#include "solution/light_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "base/check.hpp"
+#include "base/parallel.hpp"
+#include "hierarchy/input_level.hpp"
+#include "hierarchy/leaf_table.hpp"
+#include "hierarchy/pull.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux {
+
+namespace {
+
+constexpr std::size_t kLeaves = 4096;  // of a task [task]
+
+bool isSky(const Light& light) { return std::holds_alternative<DomeLight>(light.emitter); }
+
+/// `*` in the pattern stands for any characters.
+bool matches(std::string_view name, std::string_view pattern) {
+  if (pattern.empty()) return name.empty();
+  if (pattern.front() == '*')
+    return matches(name, pattern.substr(1)) || (!name.empty() && matches(name.substr(1), pattern));
+  return !name.empty() && name.front() == pattern.front() && matches(name.substr(1), pattern.substr(1));
+}
+
+/// The pattern, or what it names with parts.
+bool isNamedBy(std::string_view name, std::string_view pattern) {
+  if (matches(name, pattern)) return true;
+  for (std::size_t dot = name.find('.'); dot != std::string_view::npos; dot = name.find('.', dot + 1))
+    if (matches(name.substr(0, dot), pattern)) return true;
+  return false;
+}
+
+/// The group that a light belongs to.
+std::string groupOf(const Light& light, const std::vector<LightPattern>& patterns, const std::string& skies) {
+  for (const LightPattern& p : patterns)
+    if (isNamedBy(light.name, p.pattern)) return p.group;
+  return isSky(light) ? skies : light.name;
+}
+
+}  // namespace
+
+std::vector<LightGroup> groupsOf(const Scene& scene, const std::vector<LightPattern>& patterns) {
+  // Skies are one group, whichever of them a pattern names.
+  std::string skies;
+  for (const Light& light : scene.lights)
+    if (isSky(light) && skies.empty()) skies = groupOf(light, patterns, light.name);
+  std::vector<LightGroup> groups;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    const std::string name = isSky(light) ? skies : groupOf(light, patterns, skies);
+    auto at = std::ranges::find(groups, name, &LightGroup::name);
+    if (at == groups.end()) at = groups.insert(groups.end(), {name, {}});
+    at->lights.emplace_back(i);
+  }
+  return groups;
+}
+
+std::size_t LightColumns::memoryBytes() const {
+  std::size_t bytes = 0;
+  for (const LightColumn& c : of)
+    bytes += (c.direct.capacity() + c.indirect.capacity() + c.particle.capacity()) * sizeof(Rgb) +
+             c.deviation.capacity() * sizeof(float) + c.caustics.memoryBytes();
+  return bytes;
+}
+
+void addUp(Solution& s, std::span<const Rgb> weights) {
+  const hierarchy::LeafTable leaves(s.elements);
+  const std::vector<LightColumn>& columns = s.columns.of;
+  DELTALUX_CHECK(weights.size() == columns.size(), "a weight a group");
+  s.deviation.resize(leaves.size());
+  parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
+    hierarchy::ElementLight& l = s.elements.radiometry[leaves[i].index()];
+    l.direct = l.indirect = l.particle = Rgb(0.0f);
+    double variance = 0;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const LightColumn& c = columns[k];
+      l.direct += weights[k] * c.direct[i], l.indirect += weights[k] * c.indirect[i];
+      l.particle += weights[k] * c.particle[i];
+      const double deviation = double(gray(weights[k])) * c.deviation[i];
+      variance += deviation * deviation;
+    }
+    s.deviation[i] = static_cast<float>(std::sqrt(variance));
+  });
+  hierarchy::pull(s.elements);
+}
+
+void validate(const LightColumns& columns, const Scene& scene, std::size_t leaves) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::logic_error(std::string("light columns: ") + what);
+  };
+  require(columns.groups.size() == columns.of.size(), "a column a group");
+  std::set<LightId> known;
+  for (const LightGroup& group : columns.groups)
+    for (const LightId light : group.lights) {
+      require(light.index() < scene.lights.size(), "lights are those of the scene");
+      require(known.insert(light).second, "no light is in two groups");
+    }
+  for (const LightColumn& c : columns.of) {
+    for (const std::vector<Rgb>* values : {&c.direct, &c.indirect, &c.particle}) {
+      require(values->size() == leaves, "a value a leaf");
+      for (const Rgb& v : *values)
+        for (int channel = 0; channel < 3; ++channel)
+          require(std::isfinite(v[channel]) && v[channel] >= 0, "irradiance is finite and not negative");
+    }
+    require(c.deviation.size() == leaves, "a deviation a leaf");
+    caustics::validate(c.caustics);
+  }
+}
+
+std::vector<LightGroup> lightGroups(const SolutionView& view) {
+  const Solution& s = view.get();
+  if (!s.columns.empty()) return s.columns.groups;
+  LightGroup all{"all", {}};
+  for (std::size_t i = 0; i < s.scene.lights.size(); ++i) all.lights.emplace_back(i);
+  return {all};
+}
+
+SolutionView lightOf(const SolutionView& view, std::size_t group) {
+  if (view.get().columns.empty()) return view;
+  auto alone = std::make_shared<Solution>(view.get());
+  std::vector<Rgb> weights(alone->columns.of.size(), Rgb(0.0f));
+  weights.at(group) = Rgb(1.0f);
+  for (Light& light : alone->scene.lights) light.scale = Rgb(0.0f);
+  for (const LightId light : alone->columns.groups[group].lights) alone->scene.lights[light.index()].scale = Rgb(1.0f);
+  addUp(*alone, weights);
+  alone->caustics = alone->columns.of[group].caustics;
+  alone->columns = {}, alone->memory.reset();
+  std::vector<LightId> lights;
+  for (std::size_t i = 0; i < alone->scene.lights.size(); ++i) lights.emplace_back(i);
+  for (const hierarchy::ElementId e : hierarchy::elementsOf(alone->elements, lights))
+    hierarchy::setEmission(alone->elements, alone->scene, e);
+  return SolutionView(std::move(alone));
+}
+
+}  // namespace deltalux

@@ -1,0 +1,37 @@
+#pragma once
+// The light of a solution by groups of lights, each a column: irradiance is their sum, each times what its lights are
+// dimmed to. Suns are lights like others; skies, which shadow rays do not tell apart, are one group.
+#include <deltalux/light_groups.hpp>
+
+#include "caustics/caustics.hpp"
+
+namespace deltalux {
+
+/// Of a group's lights at scale 1, all others being off. By receiving leaf, in order [W/m2].
+struct LightColumn {
+  std::vector<Rgb> direct, indirect, particle;
+  std::vector<float> deviation;  // standard error, gray
+  caustics::Caustics caustics;
+};
+
+struct LightColumns {
+  std::vector<LightGroup> groups;
+  std::vector<LightColumn> of;  // by group
+
+  bool empty() const { return of.empty(); }
+  std::size_t memoryBytes() const;
+};
+
+struct Solution;
+
+/// The groups of a scene's lights: one a light, the skies together, and those that patterns name.
+std::vector<LightGroup> groupsOf(const Scene&, const std::vector<LightPattern>&);
+
+/// Light of the leaves, and above them, as the sum of columns by weight; the scene's scales and the textures are left
+/// as they are.
+void addUp(Solution&, std::span<const Rgb> weights);
+
+/// Recounts: as many values as leaves, finite and not negative. Throws std::logic_error.
+void validate(const LightColumns&, const Scene&, std::size_t leaves);
+
+}  // namespace deltalux
