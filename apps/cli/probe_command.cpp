@@ -1,6 +1,7 @@
 // deltalux probe: irradiance at points, from the solution.
 #include <fmt/format.h>
 
+#include <deltalux/light_groups.hpp>
 #include <deltalux/output.hpp>
 #include <deltalux/points.hpp>
 #include <deltalux/render.hpp>
@@ -21,6 +22,19 @@ struct ProbeOptions {
   bool mesh = false;
 };
 
+/// Each group's lux at the points, all groups by themselves: a column each.
+void probeByLight(const ProbeOptions& options, const SolutionView& solution, const PointTable& table,
+                  const ProbeSettings& settings, Progress& progress) {
+  const std::vector<ProbePoint> points = pointsIn(solution.scene(), table);
+  std::vector<std::string> names;
+  std::vector<std::vector<ProbeResult>> results;
+  for (const LightGroup& group : lightGroups(solution)) {
+    results.push_back(probe(lightOf(solution, results.size()), points, settings, &progress));
+    names.push_back(group.name);
+  }
+  writeProbeColumns(options.output, table, names, results, solution.scene().luminousEfficacy);
+}
+
 void runProbe(const ProbeOptions& options) {
   Run run("probe", options.run);
   checkWritable(options.output);
@@ -32,8 +46,12 @@ void runProbe(const ProbeOptions& options) {
     ProgressPrinter progress(options.run.progressStyle());
     const SolutionView solution = options.source.load(run, options.run, progress);
     settings.error = kShareOfError * solution.settings().error, settings.maxSamples = kMostSamples;
-    const std::vector<ProbeResult> results = probe(solution, pointsIn(solution.scene(), table), settings, &progress);
-    writeProbeResults(options.output, table, results, solution.scene().luminousEfficacy);
+    if (options.source.byLight()) {
+      probeByLight(options, solution, table, settings, progress);
+    } else {
+      const std::vector<ProbeResult> results = probe(solution, pointsIn(solution.scene(), table), settings, &progress);
+      writeProbeResults(options.output, table, results, solution.scene().luminousEfficacy);
+    }
   }
   run.say(fmt::format("{}: {} points", options.output, table.points.size()));
   run.finish();
@@ -51,6 +69,8 @@ void addProbeCommand(CLI::App& app) {
       ->type_name("OUT.csv")
       ->required();
   command->add_flag("--mesh", options->mesh, "The mesh's own values: nothing reconstructed, no shadow rays");
+  options->source.readByLight(
+      *command, "A column lux_NAME for each group of lights instead: what it brings at scale 1, all others off");
   options->run.addLongWork(*command);
   options->run.addReport(*command);
   command->callback([options] { runProbe(*options); });

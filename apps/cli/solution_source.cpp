@@ -3,6 +3,8 @@
 #include "solution_source.hpp"
 
 #include <deltalux/engine.hpp>
+#include <deltalux/error.hpp>
+#include <deltalux/light_groups.hpp>
 #include <deltalux/solution_file.hpp>
 
 #include "dark_scene.hpp"
@@ -31,10 +33,36 @@ void SolveOptions::add(CLI::App& app) {
                "Drop specular lobes and mirrors; thin glass still passes light");
   app.add_flag("!--no-caustic-textures", settings.causticTextures,
                "Show the light of particles on a finer mesh instead of in caustic textures");
+  app.add_flag("--by-light", settings.byLight,
+               "Keep the light of each lamp, of each sun and of the skies apart: dimming is a weight then");
+  app.add_option_function<std::vector<std::string>>(
+         "--group",
+         [this](const std::vector<std::string>& groups) {
+           for (const std::string& group : groups) {
+             const std::size_t at = group.find('=');
+             if (at == 0 || at == std::string::npos || at + 1 == group.size())
+               throw CLI::ValidationError("--group " + group + ": not NAME=PATTERN");
+             settings.groups.push_back({group.substr(0, at), group.substr(at + 1)});
+           }
+           settings.byLight = true;
+         },
+         "Lights that are dimmed together, by their names, in which * stands for anything; implies --by-light; may be "
+         "repeated")
+      ->type_name("NAME=PATTERN")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 SolutionView SolveOptions::solve(Scene scene, Run& run, const RunOptions& options, Progress& progress,
                                  Then then) const {
+  for (const LightPattern& p : settings.groups)
+    if (lightsMatching(scene, p.pattern).empty()) {
+      std::vector<std::string> names;
+      for (const Light& light : scene.lights) names.push_back(light.name);
+      throw CLI::ValidationError(fmt::format("--group {}={}: no light is called so; there {} {}", p.group, p.pattern,
+                                             names.size() == 1 ? "is" : "are",
+                                             fmt::join(nearMisses(p.pattern, names), ", ")));
+    }
   SolveSettings withSeed = settings;
   withSeed.seed = options.seed;
   Engine engine(std::move(scene), withSeed);
@@ -57,10 +85,18 @@ void SolutionSource::add(CLI::App& app) {
   for (const char* name : sceneAndSolveOptions()) sceneOnly_.push_back(app.get_option(name));
 }
 
+void SolutionSource::readByLight(CLI::App& app, const std::string& description) {
+  CLI::Option* option = app.get_option("--by-light");
+  option->description(description);
+  std::erase(sceneOnly_, option);
+}
+
 SolutionView SolutionSource::load(Run& run, const RunOptions& options, Progress& progress,
                                   const std::function<void(const Scene&)>& check) const {
   if (scene_.files.size() == 1 && isSolutionFile(scene_.files.front())) {
     const SolutionView solution = loadFile(run);
+    if (byLight() && !solution.settings().byLight)
+      throw InputError(scene_.files.front(), 0, "does not keep its lights apart", "solve the scene with --by-light");
     if (check) check(solution.scene());
     return solution;
   }

@@ -15,7 +15,8 @@ struct SolveOptions {
 
   void add(CLI::App&);  // names()
   static std::vector<const char*> names() {
-    return {"--error", "--particles", "--method", "--diffuse-only", "--no-caustic-textures"};
+    return {"--error", "--particles", "--method", "--diffuse-only", "--no-caustic-textures",
+            "--by-light", "--group"};
   }
   enum class Then : std::uint8_t { Edited, Read };  // what is to become of the solution
   /// Solves; notes times, counts and energy in the run's report. Throws Interrupted.
@@ -25,6 +26,9 @@ struct SolveOptions {
 class SolutionSource {
  public:
   void add(CLI::App&);
+  /// Where --by-light, said of this, is about what is read too: a solution must have been solved so. After add().
+  void readByLight(CLI::App&, const std::string& description);
+  bool byLight() const { return solve_.settings.byLight; }
 
   /// Reads the solution, or the scene and solves it; notes times, counts and energy in the run's report. `check` sees
   /// the scene before it is solved, so that a mistake does not wait for that. Throws InputError, Interrupted.

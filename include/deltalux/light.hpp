@@ -136,7 +136,8 @@ struct DomeLight {
 struct Light {
   std::string name;
   std::variant<AreaLight, PointLight, SpotLight, LambertPointLight, PhotometricLight, SunLight, DomeLight> emitter;
-  Rgb scale{1.0f};  // an edit's dimming and colour, on top of the emitter's own values
+  Rgb scale{1.0f};       // an edit's dimming and colour, on top of the emitter's own values
+  bool standby = false;  // of suns and skies: sampled as if it were on, so that switching it on traces no ray
 };
 
 /// Radiance that arrives from `towards` (unit, pointing to the sky) [W/(sr m2)]; 0 outside the dome's cone.

@@ -29,6 +29,12 @@ std::vector<ProbePoint> pointsIn(const Scene&, const PointTable&);
 /// the scene's.
 std::string formatProbeResults(const PointTable& table, std::span<const ProbeResult> results,
                                double luminousEfficacy = kLuminousEfficacy);
+/// The same with columns lux_NAME in place of the results', by group of lights: `results` has each group's at all
+/// points. They are a matrix A: where lights are dimmed by w, illuminance is A w [lux].
+std::string formatProbeColumns(const PointTable& table, std::span<const std::string> names,
+                               std::span<const std::vector<ProbeResult>> results, double luminousEfficacy);
+void writeProbeColumns(const std::filesystem::path&, const PointTable& table, std::span<const std::string> names,
+                       std::span<const std::vector<ProbeResult>> results, double luminousEfficacy);
 /// formatProbeResults into a file, atomically. Throws OutputError.
 void writeProbeResults(const std::filesystem::path&, const PointTable& table, std::span<const ProbeResult> results,
                        double luminousEfficacy);

@@ -14,9 +14,11 @@ Engine::Engine(Scene scene, SolveSettings settings) : state_(std::make_unique<St
   addAreaLights(scene);
   if (settings.diffuseOnly) scene::dropSpeculars(scene);
   validate(scene);
+  DELTALUX_CHECK(!settings.byLight || settings.method == SolveMethod::Lines, "light is kept apart over lines alone");
   Solution& s = *state_->solution;
   s.scene = std::move(scene);
-  s.settings = settings;
+  s.settings = std::move(settings);
+  state_->standBy();
   s.tracer = tracing::makeEmbreeTracer(s.scene);
 }
 

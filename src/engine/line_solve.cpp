@@ -7,6 +7,7 @@
 #include "base/check.hpp"
 #include "caustics/choice.hpp"
 #include "engine/clock.hpp"
+#include "engine/light_columns.hpp"
 #include "engine/particle_settings.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/patch.hpp"
@@ -63,6 +64,14 @@ bool traceParticles(Solution& s, const TimeBudget& budget) {
   s.particles = budget.limited() ? tracing.traceWithin(tuning::kParticleTime * budget.seconds()) : tracing.trace();
   DELTALUX_VALIDATED(validate(s.particles, s.scene));
   return tracing.count() >= wanted;
+}
+
+/// The light of the lines, by groups of lights.
+void keepColumns(LineSolve& x, Progress* progress) {
+  const hierarchy::LeafTable leaves(x.s.elements);
+  if (!x.transfer) x.transfer.emplace(x.s.particles, x.s.elements, x.s.scene);
+  keepLightsApart(x.s, {leaves, *x.exchange, lampsOf(x.samples, x.dim, leaves), x.sky, x.nominal, *x.transfer},
+                  progress);
 }
 
 /// Sides whose particles textures show need no fine mesh for them.
@@ -201,6 +210,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
   lightLeaves(x, std::move(traced), Dimming::of(s.scene, x.skies),
               x.known ? lines::tuning::kConvergedAgain : lines::tuning::kConverged);
   hierarchy::pull(s.elements);
+  if (s.settings.byLight) keepColumns(x, progress);
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.error = estimateError(s);
   s.report.times.gather += watch.lap();

@@ -92,7 +92,7 @@ void Engine::State::solveAfresh(Progress* progress) {
   transfer.reset();
   if (!known) tracing.reset(), newPaths.reset(), groups = {}, s.particles = {};
   if (!newPaths) upkeep.reset(), s.caustics = {};
-  s.elements = {}, s.links = {}, s.lines = {}, s.deviation.clear(), lineSolve.reset();
+  s.elements = {}, s.links = {}, s.lines = {}, s.columns = {}, s.deviation.clear(), lineSolve.reset();
   s.report = {};
   finished = false;
   clock = {};

@@ -84,12 +84,18 @@ struct Engine::State {
 
   // Updating.
   Restore apply(const Edit& edit);
+  /// Lights that are to be switched on without a ray are sampled as if they were on.
+  void standBy();
   /// While the scene is still what the particles and textures are of.
   void prepareToFollow();
   /// What a fresh solve would make of the edited scene, from the solution there is. [GD01 5]
   StepReport update(Progress* progress);
   /// Edits wait for the next update from now on.
   void takeIn(StepReport& step);
+  /// Of edits that have but dimmed lights, where the light of each group is kept apart: what each is multiplied by.
+  std::optional<std::vector<Rgb>> weightsAlone(const engine::SceneUpdate& edits) const;
+  /// The sum of these, then. [solution/light_columns.hpp]
+  void addUpColumns(const engine::SceneUpdate& edits, std::span<const Rgb> weights);
   /// What the solve before knows that edits leave as it was, for the next.
   void recall(const engine::SceneUpdate& edits);
   /// Of edits that have but dimmed lights, by less than would change what they count for; nullopt of others.

@@ -15,7 +15,14 @@ namespace deltalux {
 
 Restore Engine::State::apply(const Edit& edit) {
   if (pending.empty() && waiting.empty()) prepareToFollow();
-  return engine::applyInto(pending, solution->scene, edit);
+  Restore restore = engine::applyInto(pending, solution->scene, edit);
+  standBy();
+  return restore;
+}
+
+void Engine::State::standBy() {
+  if (!solution->settings.byLight) return;
+  for (Light& light : solution->scene.lights) light.standby = true;
 }
 
 void Engine::State::prepareToFollow() {
@@ -38,7 +45,9 @@ StepReport Engine::State::update(Progress* progress) {
   const Solution& s = *solution;
   if (byLines() || !engine::haveElements(s.elements, s.scene, taken) || outshines(taken)) {
     lineMotion.reset(), counts = {};
-    if (const auto dimming = dimmingAlone(taken)) {
+    if (const auto weights = weightsAlone(taken)) {
+      addUpColumns(taken, *weights);
+    } else if (const auto dimming = dimmingAlone(taken)) {
       relightOverLines(taken, *dimming);
     } else {
       recall(taken);
@@ -70,6 +79,28 @@ std::optional<engine::Dimming> Engine::State::dimmingAlone(const engine::SceneUp
   const direct::Skies skies(s.scene);
   if (skies.key() != s.memory->sky.skies) return {};
   return engine::Dimming::of(s.scene, skies);
+}
+
+std::optional<std::vector<Rgb>> Engine::State::weightsAlone(const engine::SceneUpdate& edits) const {
+  const Solution& s = *solution;
+  if (!finished || s.columns.empty() || !edits.moved.empty() || !edits.movedLights.empty() || !edits.materials.empty())
+    return {};
+  return weightsOf(s.columns, s.scene);
+}
+
+void Engine::State::addUpColumns(const engine::SceneUpdate& edits, std::span<const Rgb> weights) {
+  Solution& s = *solution;
+  const engine::Clock time;
+  for (const hierarchy::ElementId e : hierarchy::elementsOf(s.elements, edits.dimmed))
+    hierarchy::setEmission(s.elements, s.scene, e);
+  newPaths.reset();
+  if (tracing) newPaths = followWithParticles(edits.whole, counts);
+  addUp(s, weights);
+  s.report.error = engine::estimateError(s);
+  s.report.times = {};
+  s.report.times.gather = time.seconds();
+  followTextures(counts);
+  countLight();
 }
 
 void Engine::State::relightOverLines(const engine::SceneUpdate& edits, const engine::Dimming& dimming) {

@@ -41,6 +41,14 @@ std::string_view unquoted(std::string_view field) {
   return field;
 }
 
+/// Quoted where a comma or a quote is in it.
+std::string quotedField(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
 class Parser {
  public:
   Parser(std::string_view text, const std::string& file) : rest_(text), file_(file) {}
@@ -140,6 +148,33 @@ std::vector<ProbePoint> pointsIn(const Scene& scene, const PointTable& table) {
   std::vector<ProbePoint> points = table.points;
   for (ProbePoint& p : points) p.position -= scene.origin;
   return points;
+}
+
+std::string formatProbeColumns(const PointTable& table, std::span<const std::string> names,
+                               std::span<const std::vector<ProbeResult>> results, double luminousEfficacy) {
+  DELTALUX_CHECK(results.size() == names.size(), "results of each group");
+  std::vector<std::string> added;
+  for (const std::string& name : names) added.push_back(quotedField("lux_" + name));
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    if (std::ranges::find(added, table.columns[i]) == added.end()) kept.push_back(i);
+  std::vector<std::string> fields;
+  for (const std::size_t i : kept) fields.push_back(table.columns[i]);
+  fields.insert(fields.end(), added.begin(), added.end());
+  std::string text = fmt::format("{}\n", fmt::join(fields, ","));
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    fields.clear();
+    for (const std::size_t i : kept) fields.push_back(table.rows[row][i]);
+    for (const std::vector<ProbeResult>& group : results)
+      fields.push_back(fmt::format("{:.7g}", photometric(group[row].irradiance, luminousEfficacy)));
+    text += fmt::format("{}\n", fmt::join(fields, ","));
+  }
+  return text;
+}
+
+void writeProbeColumns(const std::filesystem::path& path, const PointTable& table, std::span<const std::string> names,
+                       std::span<const std::vector<ProbeResult>> results, double luminousEfficacy) {
+  io::writeFile(path, formatProbeColumns(table, names, results, luminousEfficacy));
 }
 
 std::string formatProbeResults(const PointTable& table, std::span<const ProbeResult> results, double luminousEfficacy) {

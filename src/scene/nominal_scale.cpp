@@ -8,15 +8,17 @@ namespace deltalux::scene {
 
 namespace {
 
-bool isFar(const Light& light) {
+/// Whether it counts for less when it is dimmed.
+bool fades(const Light& light) {
+  if (light.standby) return false;
   return std::holds_alternative<SunLight>(light.emitter) || std::holds_alternative<DomeLight>(light.emitter);
 }
 
 float nominalScale(const Light& light) {
   const float scale = maxChannel(light.scale);
-  if (!(scale > 0)) return isFar(light) ? 0.0f : 1.0f;
+  if (!(scale > 0)) return fades(light) ? 0.0f : 1.0f;
   const int step = static_cast<int>(std::ceil(std::log2(scale) / tuning::kNominalOctaves));
-  return std::ldexp(1.0f, tuning::kNominalOctaves * (isFar(light) ? step : std::max(step, 0)));
+  return std::ldexp(1.0f, tuning::kNominalOctaves * (fades(light) ? step : std::max(step, 0)));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace deltalux::scene {
 
 /// By light: 1, whatever it is dimmed to, or switched off; brighter, the next power of 16. Suns and skies that are
 /// dimmed by more than 16 times count as less, by powers of 16, and as nothing when they are off: lamps at night are
-/// not to be measured by the day.
+/// not to be measured by the day. Those that stand by count as lamps do.
 std::vector<Rgb> nominalScales(const Scene&);
 /// By light: its scale at present.
 std::vector<Rgb> scalesOf(const Scene&);

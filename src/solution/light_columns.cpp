@@ -17,6 +17,7 @@ namespace deltalux {
 namespace {
 
 constexpr std::size_t kLeaves = 4096;  // of a task [task]
+constexpr float kRounding = 1e-5f;     // of scales, relative [rounding]
 
 bool isSky(const Light& light) { return std::holds_alternative<DomeLight>(light.emitter); }
 
@@ -61,6 +62,31 @@ std::vector<LightGroup> groupsOf(const Scene& scene, const std::vector<LightPatt
   return groups;
 }
 
+std::optional<std::vector<Rgb>> weightsOf(const LightColumns& columns, const Scene& scene) {
+  std::vector<Rgb> weights;
+  for (std::size_t k = 0; k < columns.groups.size(); ++k) {
+    const std::vector<LightId>& lights = columns.groups[k].lights;
+    const std::vector<Rgb>& scales = columns.of[k].scales;
+    Rgb weight(0.0f);
+    for (std::size_t i = 0; i < lights.size(); ++i)
+      for (int c = 0; c < 3; ++c)
+        if (scales[i][c] > 0) weight[c] = std::max(weight[c], scene[lights[i]].scale[c] / scales[i][c]);
+    for (std::size_t i = 0; i < lights.size(); ++i)
+      for (int c = 0; c < 3; ++c)
+        if (std::abs(weight[c] * scales[i][c] - scene[lights[i]].scale[c]) > kRounding * scene[lights[i]].scale[c])
+          return {};
+    weights.push_back(weight);
+  }
+  return weights;
+}
+
+std::vector<LightId> lightsMatching(const Scene& scene, std::string_view pattern) {
+  std::vector<LightId> found;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (isNamedBy(scene.lights[i].name, pattern)) found.emplace_back(i);
+  return found;
+}
+
 std::size_t LightColumns::memoryBytes() const {
   std::size_t bytes = 0;
   for (const LightColumn& c : of)
@@ -101,7 +127,9 @@ void validate(const LightColumns& columns, const Scene& scene, std::size_t leave
       require(light.index() < scene.lights.size(), "lights are those of the scene");
       require(known.insert(light).second, "no light is in two groups");
     }
-  for (const LightColumn& c : columns.of) {
+  for (std::size_t k = 0; k < columns.of.size(); ++k) {
+    const LightColumn& c = columns.of[k];
+    require(c.scales.size() == columns.groups[k].lights.size(), "a scale a light");
     for (const std::vector<Rgb>* values : {&c.direct, &c.indirect, &c.particle}) {
       require(values->size() == leaves, "a value a leaf");
       for (const Rgb& v : *values)
@@ -127,7 +155,8 @@ SolutionView lightOf(const SolutionView& view, std::size_t group) {
   std::vector<Rgb> weights(alone->columns.of.size(), Rgb(0.0f));
   weights.at(group) = Rgb(1.0f);
   for (Light& light : alone->scene.lights) light.scale = Rgb(0.0f);
-  for (const LightId light : alone->columns.groups[group].lights) alone->scene.lights[light.index()].scale = Rgb(1.0f);
+  for (std::size_t i = 0; i < alone->columns.groups[group].lights.size(); ++i)
+    alone->scene.lights[alone->columns.groups[group].lights[i].index()].scale = alone->columns.of[group].scales[i];
   addUp(*alone, weights);
   alone->caustics = alone->columns.of[group].caustics;
   alone->columns = {}, alone->memory.reset();

@@ -3,12 +3,16 @@
 // dimmed to. Suns are lights like others; skies, which shadow rays do not tell apart, are one group.
 #include <deltalux/light_groups.hpp>
 
+#include <optional>
+#include <span>
+
 #include "caustics/caustics.hpp"
 
 namespace deltalux {
 
-/// Of a group's lights at scale 1, all others being off. By receiving leaf, in order [W/m2].
+/// Of a group's lights at these scales, all others being off. By receiving leaf, in order [W/m2].
 struct LightColumn {
+  std::vector<Rgb> scales;  // by light of the group: 1, or what they were when they were not dimmed alike
   std::vector<Rgb> direct, indirect, particle;
   std::vector<float> deviation;  // standard error, gray
   caustics::Caustics caustics;
@@ -26,6 +30,10 @@ struct Solution;
 
 /// The groups of a scene's lights: one a light, the skies together, and those that patterns name.
 std::vector<LightGroup> groupsOf(const Scene&, const std::vector<LightPattern>&);
+
+/// What columns are to be multiplied by for the scales that the scene's lights have; nullopt where lights of a group are
+/// dimmed otherwise than in its column.
+std::optional<std::vector<Rgb>> weightsOf(const LightColumns&, const Scene&);
 
 /// Light of the leaves, and above them, as the sum of columns by weight; the scene's scales and the textures are left
 /// as they are.

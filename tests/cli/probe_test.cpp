@@ -64,6 +64,30 @@ TEST(ProbeCommand, ThreadsDoNotDecide) {
   EXPECT_EQ(run("1"), run("2"));
 }
 
+TEST(ProbeCommand, ColumnsByLightAddUpToTheWhole) {
+  const TempFolder folder;
+  const std::string scene = bundledScene("cornell/cornell.rad"), solution = folder / "c.dlx";
+  const std::string points = folder.write("p.csv", "x,y,z,nx,ny,nz\n.3,.3,0,0,0,1\n.45,.1,0,0,0,1\n");
+  ASSERT_EQ(runCli({"solve", scene, "--error", "0.1", "--by-light", "-o", solution}).exitCode, 0);
+  ASSERT_EQ(runCli({"probe", solution, "--points", points, "--by-light", "-o", folder / "a.csv"}).exitCode, 0);
+  ASSERT_EQ(runCli({"probe", solution, "--points", points, "-o", folder / "e.csv"}).exitCode, 0);
+  const PointTable columns = readPoints(folder / "a.csv"), whole = readPoints(folder / "e.csv");
+  for (std::size_t row = 0; row < 2; ++row)
+    EXPECT_NEAR(column(columns, row, "lux_lamp") / column(whole, row, "lux"), 1, 0.02);
+}
+
+TEST(ProbeCommand, ColumnsByLightWantASolutionThatHasThem) {
+  const TempFolder folder;
+  const std::string scene = bundledScene("cornell/cornell.rad"), solution = folder / "c.dlx";
+  ASSERT_EQ(runCli({"solve", scene, "--error", "0.2", "-o", solution}).exitCode, 0);
+  const std::string points = folder.write("p.csv", "x,y,z,nx,ny,nz\n.3,.3,0,0,0,1\n");
+  const auto refused = runCli({"probe", solution, "--points", points, "--by-light", "-o", folder / "a.csv"});
+  EXPECT_EQ(refused.exitCode, 3);
+  EXPECT_NE(refused.err.find("--by-light"), std::string::npos) << refused.err;
+  EXPECT_EQ(runCli({"solve", scene, "--group", "lamp", "-o", solution}).exitCode, 2);
+  EXPECT_EQ(runCli({"solve", scene, "--group", "x=no_such_lamp", "-o", solution}).exitCode, 2);
+}
+
 TEST(ProbeCommand, FailuresLeaveWhatStoodThere) {
   const TempFolder folder;
   const std::string scene = bundledScene("furnace/furnace.gltf"), out = folder.write("out.csv", "old");

@@ -85,6 +85,24 @@ SolveSettings settingsOf(const io::JsonView& document) {
   const io::JsonView textures = json.member("caustic_textures");
   textures.expectBool();
   if (textures.present()) s.causticTextures = textures.value().get<bool>();
+  const io::JsonView method = json.member("method"), byLight = json.member("by_light"), groups = json.member("groups");
+  if (method.present()) {
+    method.expectString();
+    const std::string name = method.value().get<std::string>();
+    if (name != "lines" && name != "paper") method.fail("is neither \"lines\" nor \"paper\"");
+    s.method = name == "paper" ? SolveMethod::Paper : SolveMethod::Lines;
+  }
+  byLight.expectBool();
+  if (byLight.present()) s.byLight = byLight.value().get<bool>();
+  if (groups.present())
+    for (const io::JsonView& g : groups.objects()) {
+      for (const char* key : {"name", "lights"}) {
+        g.member(key).expectPresent("a group has a name and the lights of it");
+        g.member(key).expectString();
+      }
+      s.groups.push_back({g.member("name").value().get<std::string>(), g.member("lights").value().get<std::string>()});
+    }
+  if (s.byLight && s.method == SolveMethod::Paper) method.fail("keeps no lights apart");
   s.seed = count(document, "seed", s.seed);
   return s;
 }
@@ -108,6 +126,8 @@ std::string toJson(const Recording& r) {
   for (const fs::path& file : r.scene) scene.push_back(file.string());
   for (const Luminaire& l : r.luminaires)
     luminaires.push_back({{"file", l.file.string()}, {"position", triple(l.position)}});
+  io::Json groups = io::Json::array();
+  for (const LightPattern& g : r.settings.groups) groups.push_back({{"name", g.group}, {"lights", g.pattern}});
   for (const EditStep& step : r.steps) edits.push_back(io::entryOf(step));
   io::Json document{
       {"recording", kRecordingVersion},
@@ -120,7 +140,10 @@ std::string toJson(const Recording& r) {
         {"particles", r.settings.particles},
         {"seconds", r.settings.seconds},
         {"diffuse_only", r.settings.diffuseOnly},
-        {"caustic_textures", r.settings.causticTextures}}},
+        {"caustic_textures", r.settings.causticTextures},
+        {"method", r.settings.method == SolveMethod::Paper ? "paper" : "lines"},
+        {"by_light", r.settings.byLight},
+        {"groups", std::move(groups)}}},
       {"edits", std::move(edits)}};
   return document.dump(2, ' ', false, io::Json::error_handler_t::replace) + "\n";
 }

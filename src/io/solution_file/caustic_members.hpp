@@ -44,8 +44,8 @@ void members(auto& archive, Is<LightGroup> auto& g) {
   transferAll(archive, name, lights);
 }
 void members(auto& archive, Is<LightColumn> auto& c) {
-  auto& [direct, indirect, particle, deviation, caustics] = c;
-  transferAll(archive, direct, indirect, particle, deviation, caustics);
+  auto& [scales, direct, indirect, particle, deviation, caustics] = c;
+  transferAll(archive, scales, direct, indirect, particle, deviation, caustics);
 }
 void members(auto& archive, Is<LightColumns> auto& c) {
   auto& [groups, of] = c;

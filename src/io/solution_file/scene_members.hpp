@@ -154,8 +154,8 @@ void members(auto& archive, Is<DomeLight> auto& l) {
   transferAll(archive, axis, halfAngle, scale, distribution, up);
 }
 void members(auto& archive, Is<Light> auto& l) {
-  auto& [name, emitter, scale] = l;
-  transferAll(archive, name, emitter, scale);
+  auto& [name, emitter, scale, standby] = l;
+  transferAll(archive, name, emitter, scale, standby);
 }
 
 // The rest

@@ -1,0 +1,82 @@
+#include "engine/light_columns.hpp"
+
+#include <algorithm>
+#include <deltalux/error.hpp>
+
+#include "base/check.hpp"
+#include "base/parallel.hpp"
+#include "hierarchy/pull.hpp"
+#include "lines/tuning.hpp"
+
+namespace deltalux::engine {
+
+namespace {
+
+constexpr std::size_t kColumnLeaves = 4096;  // of a task [task]
+
+/// Scales of a group's lights in its column.
+std::vector<Rgb> columnScales(const Scene& scene, const LightGroup& group) {
+  const auto scale = [&](LightId light) { return scene[light].scale; };
+  const bool alike =
+      std::ranges::all_of(group.lights, [&](LightId light) { return scale(light) == scale(group.lights.front()); });
+  std::vector<Rgb> scales;
+  for (const LightId light : group.lights) scales.push_back(alike ? Rgb(1.0f) : scale(light));
+  return scales;
+}
+
+/// What a column's lights send of what samples took them for, by its scales of all lights.
+Dimming dimmingOf(const Scene& scene, const std::vector<Rgb>& scales, const std::vector<Rgb>& nominal) {
+  Dimming dimming{std::vector<Rgb>(scales.size(), Rgb(0.0f)), Rgb(0.0f)};
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    if (isBlack(nominal[i])) continue;
+    dimming.lights[i] = scales[i] / nominal[i];
+    if (!std::holds_alternative<DomeLight>(scene.lights[i].emitter)) continue;
+    // Skies that are not dimmed alike were taken for what they are, and so they are in their column.
+    const bool alike = std::ranges::all_of(scene.lights, [&](const Light& other) {
+      const auto k = static_cast<std::size_t>(&other - scene.lights.data());
+      return !std::holds_alternative<DomeLight>(other.emitter) || isBlack(nominal[k]) ||
+             other.scale / nominal[k] == scene.lights[i].scale / nominal[i];
+    });
+    if (!isBlack(scales[i])) dimming.skies = alike ? dimming.lights[i] : Rgb(1.0f);
+  }
+  return dimming;
+}
+
+LightColumn columnOf(Solution& s, const LightParts& parts, const LightGroup& group) {
+  LightColumn column;
+  column.scales = columnScales(s.scene, group);
+  std::vector<Rgb> scales(s.scene.lights.size(), Rgb(0.0f));
+  for (std::size_t i = 0; i < group.lights.size(); ++i) scales[group.lights[i].index()] = column.scales[i];
+  parts.transfer.apply(s.elements, scales);
+  const std::size_t n = parts.leaves.size();
+  parallelFor(n, kColumnLeaves,
+              [&](std::size_t i) { s.elements.radiometry[parts.leaves[i].index()].indirect = Rgb(0.0f); });
+  relight(s, parts.leaves, parts.exchange, parts.lamps, parts.sky, dimmingOf(s.scene, scales, parts.nominal),
+          lines::tuning::kConverged);
+  hierarchy::pull(s.elements);
+  column.direct.resize(n), column.indirect.resize(n), column.particle.resize(n), column.deviation = s.deviation;
+  parallelFor(n, kColumnLeaves, [&](std::size_t i) {
+    const hierarchy::ElementLight& l = s.elements.radiometry[parts.leaves[i].index()];
+    column.direct[i] = l.direct, column.indirect[i] = l.indirect, column.particle[i] = l.particle;
+  });
+  if (s.settings.causticTextures && s.particles.impacts() > 0)
+    column.caustics = caustics::makeCaustics(
+        s.scene, s.elements, particles::impacts(s.particles, s.elements, s.scene, scales), s.settings.error);
+  return column;
+}
+
+}  // namespace
+
+void keepLightsApart(Solution& s, const LightParts& parts, Progress* progress) {
+  s.columns = {groupsOf(s.scene, s.settings.groups), {}};
+  for (const LightGroup& group : s.columns.groups) {
+    if (progress && progress->stopRequested()) throw Interrupted();
+    s.columns.of.push_back(columnOf(s, parts, group));
+    const std::size_t done = s.columns.of.size(), all = s.columns.groups.size();
+    if (progress) progress->report("light by light", static_cast<double>(done) / static_cast<double>(all));
+  }
+  addUp(s, weightsOf(s.columns, s.scene).value());
+  DELTALUX_VALIDATED(validate(s.columns, s.scene, parts.leaves.size()));
+}
+
+}  // namespace deltalux::engine
