@@ -28,6 +28,7 @@ class SolutionSource {
   void add(CLI::App&);
   /// Where --by-light, said of this, is about what is read too: a solution must have been solved so. After add().
   void readByLight(CLI::App&, const std::string& description);
+  void wantByLight() { solve_.settings.byLight = true; }
   bool byLight() const { return solve_.settings.byLight; }
 
   /// Reads the solution, or the scene and solves it; notes times, counts and energy in the run's report. `check` sees

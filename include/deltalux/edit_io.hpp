@@ -48,6 +48,8 @@ struct Recording {
 
 /// The recording as JSON text. Steps hold no Restore: sessions say undo (checked).
 std::string toJson(const Recording&);
+/// Steps as an edits file, atomically; files that they add must be named from its folder. Throws OutputError.
+void saveEdits(const std::filesystem::path&, const std::vector<EditStep>&);
 /// toJson into a file, atomically, with files named from its folder. Files that steps add must lie there, or below.
 /// Throws OutputError.
 void saveRecording(const std::filesystem::path&, const Recording&);

@@ -34,9 +34,9 @@ struct Landed {
 };
 
 /// Looks round from points of surfaces for light.
-class Lookout {
+class LampSight {
  public:
-  Lookout(const Scene& scene, const tracing::RayTracer& tracer, const IsLit& lit)
+  LampSight(const Scene& scene, const tracing::RayTracer& tracer, const IsLit& lit)
       : scene_(scene), tracer_(tracer), lit_(lit) {}
 
   /// Whether anything is seen from here but sides that are dark. A lit side may be dark just there, in a hollow that it
@@ -63,13 +63,13 @@ class Lookout {
 };
 
 /// Whether a path starts at a light, or at a point that sees light.
-bool startsInLight(const Particles& p, std::uint32_t path, const Scene& scene, const Lookout& lookout) {
+bool startsInLight(const Particles& p, std::uint32_t path, const Scene& scene, const LampSight& sight) {
   const SenderCell& cell = p.senderCells[p.sender[path]];
   if (cell.kind != SenderKind::Side) return true;
   const Vec3f origin = p.verticesOf(path)[0];
   const Vec3 up = normalAt(scene[cell.primitive].shape, Vec3(origin), p.originTriangle[path]);
   Rng rng(path, 0x6c69u);
-  return lookout.sees(origin, Vec3f(cell.front ? up : -up), rng);
+  return sight.sees(origin, Vec3f(cell.front ? up : -up), rng);
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ void addReachedSides(std::vector<hierarchy::SurfaceSide>& sides, const Particles
 void addReachedSides(std::vector<hierarchy::SurfaceSide>& sides, const Particles& particles,
                      std::span<const std::uint32_t> paths, const Scene& scene, const tracing::RayTracer& tracer,
                      const IsLit& lit) {
-  const Lookout lookout(scene, tracer, lit);
+  const LampSight sight(scene, tracer, lit);
   std::map<std::pair<PrimitiveId, std::uint32_t>, Landed> landed;  // by primitive, triangle and side
   for (const std::uint32_t path : paths) {
     const double power =
@@ -103,7 +103,7 @@ void addReachedSides(std::vector<hierarchy::SurfaceSide>& sides, const Particles
   for (const auto& [where, l] : landed) {
     hierarchy::SurfaceSide s{where.first, where.second >> 1, (where.second & 1) == 0, 0, Rgb(0.0f), 0};
     if (std::binary_search(sides.begin(), sides.end(), s, before)) continue;
-    const auto starts = [&](std::uint32_t path) { return startsInLight(particles, path, scene, lookout); };
+    const auto starts = [&](std::uint32_t path) { return startsInLight(particles, path, scene, sight); };
     if (!lit(s.primitive, s.triangle, s.front) && std::none_of(l.paths.begin(), l.paths.end(), starts)) continue;
     const double A = areaOf(scene, s);
     s.irradiance = Rgb(l.flux / A);

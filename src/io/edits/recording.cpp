@@ -148,6 +148,13 @@ std::string toJson(const Recording& r) {
   return document.dump(2, ' ', false, io::Json::error_handler_t::replace) + "\n";
 }
 
+void saveEdits(const fs::path& path, const std::vector<EditStep>& steps) {
+  io::Json edits = io::Json::array();
+  for (const EditStep& step : steps) edits.push_back(io::entryOf(step));
+  const io::Json document{{"edits", std::move(edits)}};
+  io::writeFile(path, document.dump(2, ' ', false, io::Json::error_handler_t::replace) + "\n");
+}
+
 void saveRecording(const fs::path& path, const Recording& recording) {
   Recording fromThere = recording;
   const fs::path folder = fs::absolute(path).parent_path();
