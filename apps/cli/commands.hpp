@@ -13,6 +13,7 @@ void addReplayCommand(CLI::App&);
 void addProbeCommand(CLI::App&);
 void addRenderCommand(CLI::App&);
 void addReferenceCommand(CLI::App&);
+void addExportCommand(CLI::App&);
 #ifdef DELTALUX_VIEWER
 void addViewCommand(CLI::App&);
 #endif
@@ -26,6 +27,7 @@ inline void addCommands(CLI::App& app) {
   addProbeCommand(app);
   addRenderCommand(app);
   addReferenceCommand(app);
+  addExportCommand(app);
 #ifdef DELTALUX_VIEWER
   addViewCommand(app);
 #endif
