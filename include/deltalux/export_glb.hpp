@@ -16,7 +16,8 @@ struct GlbSettings {
   int atlasSize = 2048;       // side of the largest page [texels], 64 to 16384
   int gutter = 2;             // texels around a chart that no other uses, 0 to 16
   double crease = 40;         // degrees, below 90: how far triangles of a mesh may turn within one chart
-  double clipped = 0.001;     // share of the lit texels that the 8-bit lightmap may clip, in [0, 1)
+  double clipped = 0.01;      // share of the lit texels that the 8-bit lightmap may clip, in [0, 1)
+  double range = 8;           // brightness of charts that share a page, over each other, above 1
   bool meshopt = false;       // geometry by EXT_meshopt_compression, without loss
 };
 

@@ -17,6 +17,7 @@ struct AtlasChart {
   std::vector<std::uint32_t> vertices;   // of the side, ascending
   std::vector<Vec2> places;              // by vertices [scene units]; the least coordinates are 0
   std::vector<std::uint32_t> corners;    // three per triangle, into vertices
+  int group = 0;                         // charts of different groups lie on different pages
   Vec2 size{0};                          // largest coordinates [scene units]
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/check.hpp"
 #include "export/atlas_pack.hpp"
@@ -62,6 +63,25 @@ Packing packedTightly(const std::vector<glm::ivec2>& sizes, int side) {
   return packing;
 }
 
+/// The groups one after the other, in ascending order.
+Packing packedByGroup(const std::vector<AtlasChart>& charts, const std::vector<glm::ivec2>& sizes, int side) {
+  std::map<int, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < charts.size(); ++i) groups[charts[i].group].push_back(i);
+  Packing all;
+  all.at.resize(charts.size());
+  for (const auto& [group, members] : groups) {
+    std::vector<glm::ivec2> own;
+    for (const std::size_t i : members) own.push_back(sizes[i]);
+    const Packing packing = packedTightly(own, side);
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      all.at[members[k]] = packing.at[k];
+      all.at[members[k]].page += static_cast<std::uint32_t>(all.pages.size());
+    }
+    all.pages.insert(all.pages.end(), packing.pages.begin(), packing.pages.end());
+  }
+  return all;
+}
+
 }  // namespace
 
 Atlas layOut(std::vector<AtlasChart> charts, const AtlasSettings& settings, double finest) {
@@ -72,7 +92,7 @@ Atlas layOut(std::vector<AtlasChart> charts, const AtlasSettings& settings, doub
                             ? settings.texelsPerUnit
                             : fittingDensity(charts, settings, finest > 0 ? 1 / finest : kInfinity);
   const std::vector<glm::ivec2> sizes = sizesAt(charts, settings, atlas.texelsPerUnit);
-  const Packing packing = packedTightly(sizes, settings.side);
+  const Packing packing = packedByGroup(charts, sizes, settings.side);
   for (std::size_t i = 0; i < charts.size(); ++i)
     atlas.places.push_back(
         {packing.at[i].page, packing.at[i].corner + settings.gutter, sizes[i] - 2 * settings.gutter});

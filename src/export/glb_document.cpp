@@ -17,6 +17,7 @@ void requireRanges(const GlbSettings& s) {
   DELTALUX_CHECK(s.atlasSize >= 64 && s.atlasSize <= 16384, "a page has 64 to 16384 texels a side");
   DELTALUX_CHECK(s.gutter >= 0 && s.gutter <= 16, "a gutter has 0 to 16 texels");
   DELTALUX_CHECK(s.crease > 0 && s.crease < 90, "a crease is between 0 and 90 degrees");
+  DELTALUX_CHECK(s.range > 1 && std::isfinite(s.range), "a range of brightness is above 1");
   DELTALUX_CHECK(s.clipped >= 0 && s.clipped < 1, "what is clipped is a share below 1");
 }
 
@@ -35,6 +36,7 @@ ChartedMesh chartedMesh(const SolutionView& solution, const GlbSettings& setting
   result.mesh = SolutionReader(solution).mesh();
   advance(progress, "charts", 0);
   std::vector<AtlasChart> charts = litCharts(result.mesh, glm::radians(settings.crease));
+  groupByBrightness(charts, result.mesh, settings.range);
   AtlasSettings layout;
   layout.texelsPerUnit = settings.texelsPerMetre * result.mesh.scene->metresPerUnit;
   layout.side = settings.atlasSize, layout.gutter = settings.gutter;

@@ -136,6 +136,21 @@ std::vector<AtlasChart> litCharts(const SolutionMesh& mesh, double crease) {
   return charts;
 }
 
+void groupByBrightness(std::vector<AtlasChart>& charts, const SolutionMesh& mesh, double range) {
+  std::vector<float> values;
+  for (AtlasChart& chart : charts) {
+    values.clear();
+    for (const std::uint32_t v : chart.vertices) {
+      const float E = maxChannel(irradianceOf(mesh.surfaces[chart.side]->vertices[v]));
+      if (E > 0) values.push_back(E);
+    }
+    if (values.empty()) continue;  // lit by caustic textures alone
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    chart.group = static_cast<int>(std::floor(std::log(*middle) / std::log(range)));
+  }
+}
+
 double finestTexel(const SolutionMesh& mesh, const std::vector<AtlasChart>& charts) {
   std::vector<double> sizes;
   for (const AtlasChart& c : charts)

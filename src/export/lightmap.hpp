@@ -14,6 +14,9 @@ namespace deltalux::exporting {
 /// Charts of all sides that light falls on. `crease` [radians] as for chartsOf().
 std::vector<AtlasChart> litCharts(const SolutionMesh&, double crease);
 bool isLit(const SolutionMesh&, std::size_t side);
+/// Puts charts of different brightness into different groups, by the median over their vertices: within a group one is
+/// at most `range` times as bright as another. Eight bits of a page then serve all of it.
+void groupByBrightness(std::vector<AtlasChart>&, const SolutionMesh&, double range);
 
 /// The size of texel below which nothing more would be seen: a quarter of the median size of a triangle of the charts,
 /// or the median texel of the caustic textures where those are finer [scene units].

@@ -1,5 +1,6 @@
 # blender -b --factory-startup --python-exit-code 1 -P blender_lux.py -- FILE.glb POINTS.csv: reads a file of `deltalux export`
-# in Blender and prints the lux that its .exr has at points, as tests/export/three_lux.cjs does in three.js.
+# in Blender and prints the lux that its .exr has at points, as tests/export/three_lux.cjs does in three.js. Right for files
+# of one page alone: it reads the first.
 import csv
 import json
 import math
