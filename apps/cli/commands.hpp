@@ -14,6 +14,7 @@ void addProbeCommand(CLI::App&);
 void addRenderCommand(CLI::App&);
 void addReferenceCommand(CLI::App&);
 void addDesignCommand(CLI::App&);
+void addExportCommand(CLI::App&);
 #ifdef DELTALUX_VIEWER
 void addViewCommand(CLI::App&);
 #endif
@@ -28,6 +29,7 @@ inline void addCommands(CLI::App& app) {
   addRenderCommand(app);
   addReferenceCommand(app);
   addDesignCommand(app);
+  addExportCommand(app);
 #ifdef DELTALUX_VIEWER
   addViewCommand(app);
 #endif

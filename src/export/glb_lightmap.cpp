@@ -1,0 +1,183 @@
+// exportGlb: geometry, materials and irradiance.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deltalux/light_groups.hpp>
+#include <deltalux/solution_reader.hpp>
+#include <map>
+#include <tuple>
+
+#include "export/glb_document.hpp"
+#include "export/glb_images.hpp"
+#include "export/glb_material.hpp"
+#include "export/lightmap.hpp"
+#include "io/image/formats.hpp"
+
+namespace deltalux {
+
+namespace exporting {
+
+namespace {
+
+/// The pages of an atlas in the file, and the irradiance that their full scale stands for [W/m2].
+struct LightmapTextures {
+  std::vector<std::size_t> textures;
+  std::vector<float> whites;
+};
+
+/// The value that all but a share of the covered pixels' channels stay within; 1 where all is dark.
+float whiteOf(const Image& page, const std::vector<char>& covered, double clipped) {
+  std::vector<float> peaks;
+  for (std::size_t i = 0; i < page.pixels.size(); ++i)
+    if (covered[i] && !isBlack(page.pixels[i])) peaks.push_back(maxChannel(page.pixels[i]));
+  if (peaks.empty()) return 1;
+  const auto at = peaks.begin() + static_cast<std::ptrdiff_t>((1 - clipped) * static_cast<double>(peaks.size() - 1));
+  std::nth_element(peaks.begin(), at, peaks.end());
+  return *at;
+}
+
+LightmapTextures addLightmaps(GlbContainer& glb, const std::vector<Image>& pages,
+                              const std::vector<std::vector<char>>& covered, double clipped) {
+  LightmapTextures result;
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    result.whites.push_back(whiteOf(pages[i], covered[i], clipped));
+    result.textures.push_back(
+        addAtlasTexture(glb, linearPicture(pages[i], result.whites[i]), fmt::format("lightmap {}", i)));
+  }
+  return result;
+}
+
+/// The materials of the file: one per material, what a side of it has, and page.
+class LitMaterials {
+ public:
+  LitMaterials(GlbContainer& glb, const Scene& scene, const LightmapTextures& lightmaps)
+      : glb_(glb), scene_(scene), lightmaps_(lightmaps) {}
+
+  std::size_t of(const SurfaceMesh& side, std::optional<std::uint32_t> page) {
+    const Rgb &a = side.albedo, &L = side.radiance;
+    const bool back = !side.front && std::holds_alternative<Mirror>(scene_.materialOf(side.primitive).surface);
+    const Key key{scene_[side.primitive].material.value, page ? int(*page) : -1, back, a.r, a.g, a.b, L.r, L.g, L.b};
+    const auto [place, fresh] = known_.try_emplace(key, 0);
+    if (fresh) place->second = add(side, page);
+    return place->second;
+  }
+
+ private:
+  using Key = std::tuple<std::uint32_t, int, bool, float, float, float, float, float, float>;
+
+  std::size_t add(const SurfaceMesh& side, std::optional<std::uint32_t> page) {
+    GlbJson json = litMaterial(glb_, scene_, side);
+    const auto* opaque = std::get_if<Opaque>(&scene_.materialOf(side.primitive).surface);
+    const auto* mesh = std::get_if<Mesh>(&scene_[side.primitive].shape);
+    if (opaque && opaque->diffuseTexture.valid() && mesh && !mesh->texcoords.empty())
+      json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", textureOf(opaque->diffuseTexture)}};
+    if (page) {
+      json["extensions"]["MOZ_lightmap"] = {
+          {"index", lightmaps_.textures[*page]}, {"texCoord", 1}, {"intensity", lightmaps_.whites[*page]}};
+      glb_.use("MOZ_lightmap");
+    }
+    return glb_.add("materials", std::move(json));
+  }
+
+  std::size_t textureOf(TextureId id) {
+    const auto [place, fresh] = textures_.try_emplace(id.value, 0);
+    if (fresh) place->second = addSceneTexture(glb_, scene_.textures[id.index()]);
+    return place->second;
+  }
+
+  GlbContainer& glb_;
+  const Scene& scene_;
+  const LightmapTextures& lightmaps_;
+  std::map<Key, std::size_t> known_;
+  std::map<std::uint32_t, std::size_t> textures_;
+};
+
+std::filesystem::path besides(const std::filesystem::path& glb, const std::string& what) {
+  std::filesystem::path path = glb;
+  path.replace_filename(glb.stem().string() + ".lightmap" + what + ".exr");
+  return path;
+}
+
+/// Letters, digits, dots and dashes of a name; the rest as underscores.
+std::string fitForFile(std::string name) {
+  for (char& c : name)
+    if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-')) c = '_';
+  return name;
+}
+
+std::string pageSuffix(std::size_t page) { return page == 0 ? "" : fmt::format(".{}", page); }
+
+Rgb irradianceAt(const BakedTexel& texel) { return texel.irradiance; }
+
+GlbJson lightmapExtras(const std::filesystem::path& glb, const LightmapTextures& lightmaps, double clipped) {
+  GlbJson extras{{"quantity", "irradiance E of direct, indirect and caustic light, without 1/pi"},
+                 {"units", "W/m2"},
+                 {"factor", 1},
+                 {"encoding", "linear, 8 bits: E = texel / 255 * intensity of the material's MOZ_lightmap * factor"},
+                 {"clippedShare", clipped},
+                 {"texCoord", 1}};
+  for (std::size_t i = 0; i < lightmaps.textures.size(); ++i)
+    extras["pages"].push_back({{"texture", lightmaps.textures[i]},
+                               {"intensity", lightmaps.whites[i]},
+                               {"exr", besides(glb, pageSuffix(i)).filename().string()}});
+  return extras;
+}
+
+/// The .glb and its pages as .exr.
+std::vector<FileBytes> litFiles(const ChartedMesh& charted, const std::filesystem::path& path,
+                                const GlbSettings& settings, GeometryCounts& counts) {
+  std::vector<std::vector<char>> covered;
+  const std::vector<Image> pages = bake(charted.atlas, charted.mesh, charted.mesh, irradianceAt, &covered);
+  GlbContainer glb;
+  glb.json["asset"] = assetOf(*charted.mesh.scene);
+  const LightmapTextures lightmaps = addLightmaps(glb, pages, covered, settings.clipped);
+  glb.json["asset"]["extras"]["deltalux"]["lightmap"] = lightmapExtras(path, lightmaps, settings.clipped);
+  LitMaterials materials(glb, *charted.mesh.scene, lightmaps);
+  counts = addGeometry(
+      glb, charted.mesh, charted.atlas, AtlasSet::Second,
+      [&](const SurfaceMesh& side, std::optional<std::uint32_t> page) { return materials.of(side, page); },
+      addViewBy(settings));
+  std::vector<FileBytes> files{{path, glb.bytes()}};
+  for (std::size_t i = 0; i < pages.size(); ++i)
+    files.push_back({besides(path, pageSuffix(i)), io::encodeExr(pages[i])});
+  return files;
+}
+
+void addGroupFiles(std::vector<FileBytes>& files, const SolutionView& solution, const ChartedMesh& charted,
+                   const std::filesystem::path& path, Progress* progress) {
+  const std::vector<LightGroup> groups = lightGroups(solution);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    advance(progress, "groups", static_cast<double>(g) / static_cast<double>(groups.size()));
+    const SolutionMesh light = SolutionReader(lightOf(solution, g)).mesh();
+    const std::vector<Image> pages = bake(charted.atlas, charted.mesh, light, irradianceAt);
+    for (std::size_t i = 0; i < pages.size(); ++i)
+      files.push_back({besides(path, "." + fitForFile(groups[g].name) + pageSuffix(i)), io::encodeExr(pages[i])});
+  }
+}
+
+}  // namespace
+
+}  // namespace exporting
+
+GlbReport exportGlb(const SolutionView& solution, const std::filesystem::path& path, const GlbSettings& settings,
+                    Progress* progress) {
+  const exporting::ChartedMesh charted = exporting::chartedMesh(solution, settings, progress);
+  exporting::advance(progress, "light", 0);
+  exporting::GeometryCounts counts;
+  const std::vector<exporting::FileBytes> files = exporting::litFiles(charted, path, settings, counts);
+  exporting::writeAll(files);
+  return exporting::reportOf(charted, counts, files);
+}
+
+GlbReport exportGlbByLight(const SolutionView& solution, const std::filesystem::path& path, const GlbSettings& settings,
+                           Progress* progress) {
+  const exporting::ChartedMesh charted = exporting::chartedMesh(solution, settings, progress);
+  exporting::advance(progress, "light", 0);
+  exporting::GeometryCounts counts;
+  std::vector<exporting::FileBytes> files = exporting::litFiles(charted, path, settings, counts);
+  exporting::addGroupFiles(files, solution, charted, path, progress);
+  exporting::writeAll(files);
+  return exporting::reportOf(charted, counts, files);
+}
+
+}  // namespace deltalux
