@@ -12,6 +12,7 @@ void addUpdateCommand(CLI::App&);
 void addReplayCommand(CLI::App&);
 void addProbeCommand(CLI::App&);
 void addRenderCommand(CLI::App&);
+void addExportCommand(CLI::App&);
 void addReferenceCommand(CLI::App&);
 #ifdef DELTALUX_VIEWER
 void addViewCommand(CLI::App&);
@@ -25,6 +26,7 @@ inline void addCommands(CLI::App& app) {
   addReplayCommand(app);
   addProbeCommand(app);
   addRenderCommand(app);
+  addExportCommand(app);
   addReferenceCommand(app);
 #ifdef DELTALUX_VIEWER
   addViewCommand(app);

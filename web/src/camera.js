@@ -8,13 +8,23 @@ export class Eye {
     this.metre = 1 / header.metresPerUnit;
     this.changed = changed;
     this.up = new THREE.Vector3().fromArray(header.up);
-    this.orbit = new OrbitControls(camera, element);
-    this.orbit.enableDamping = false;
-    this.orbit.zoomToCursor = true;
-    this.orbit.addEventListener('change', changed);
+    this.sceneUp = this.up.clone();
+    this.element = element;
     this.walking = false;
+    this.controls();
     this.keys = new Set();
     this.listen(element);
+  }
+
+  /** OrbitControls learn once what is up. */
+  controls() {
+    this.orbit?.dispose();
+    this.camera.up.copy(this.up);
+    this.orbit = new OrbitControls(this.camera, this.element);
+    this.orbit.enableDamping = false;
+    this.orbit.zoomToCursor = true;
+    this.orbit.enabled = !this.walking;
+    this.orbit.addEventListener('change', this.changed);
   }
 
   listen(element) {
@@ -88,13 +98,18 @@ export class Eye {
     this.keys.clear();
   }
 
-  /** {position, direction, angle}: angle is the full vertical one in degrees. */
+  /** {position, direction, up, angle}: angle is the full vertical one in degrees; up may be left out where it is the scene's. */
   get view() {
     const round = (v) => v.toArray().map((x) => Number(x.toFixed(4)));
-    return { position: round(this.camera.position), direction: round(this.forward()), angle: Number(this.camera.fov.toFixed(2)) };
+    const up = this.up.equals(this.sceneUp) ? {} : { up: round(this.up) };
+    return { position: round(this.camera.position), direction: round(this.forward()), ...up, angle: Number(this.camera.fov.toFixed(2)) };
   }
 
-  set view({ position, direction, angle }) {
+  set view({ position, direction, up, angle }) {
+    const now = up ? new THREE.Vector3().fromArray(up) : this.sceneUp;
+    // Views that tilt a little look straight all the same.
+    const kept = now.dot(this.sceneUp) > 0.5 ? this.sceneUp : now;
+    if (!kept.equals(this.up)) this.up.copy(kept), this.controls();
     this.camera.fov = angle;
     this.camera.updateProjectionMatrix();
     this.look(new THREE.Vector3().fromArray(position), new THREE.Vector3().fromArray(direction));

@@ -52,7 +52,7 @@ export class Drawing {
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.toneMapping = THREE.NoToneMapping;
     canvasParent.append(this.renderer.domElement);
-    this.camera = new THREE.PerspectiveCamera(60, 1, 0.02 / header.metresPerUnit, 2000 / header.metresPerUnit);
+    this.camera = new THREE.PerspectiveCamera(60, 1, 0.05 / header.metresPerUnit, Math.max(header.step * 2 ** 25, 10 / header.metresPerUnit));
     this.camera.up.fromArray(header.up);
     this.shared = {
       materials: { value: this.makeMaterialTable() },

@@ -1,12 +1,12 @@
-// The state in the URL's hash, as short as it can be read: v=x,y,z,dx,dy,dz,angle & e=EV & f=top lux (false colour)
+// The state in the URL's hash, as short as it can be read: v=x,y,z,dx,dy,dz,angle[,ux,uy,uz] & e=EV & f=top lux (false colour)
 // & l=group:state;... (only those that are not as exported) & b=name:view;... (bookmarks)
 const number = (x) => Number(Number(x).toFixed(4)).toString();
 
-const viewText = ({ position, direction, angle }) => [...position, ...direction, angle].map(number).join(',');
+const viewText = ({ position, direction, angle, up = [] }) => [...position, ...direction, angle, ...up].map(number).join(',');
 function viewOf(text) {
   const n = text.split(',').map(Number);
-  if (n.length !== 7 || n.some((x) => !Number.isFinite(x))) return null;
-  return { position: n.slice(0, 3), direction: n.slice(3, 6), angle: Math.min(Math.max(n[6], 5), 150) };
+  if ((n.length !== 7 && n.length !== 10) || n.some((x) => !Number.isFinite(x))) return null;
+  return { position: n.slice(0, 3), direction: n.slice(3, 6), angle: Math.min(Math.max(n[6], 5), 150), ...(n.length === 10 ? { up: n.slice(7) } : {}) };
 }
 
 const dimmerText = (d) => (d.on ? '' : '!') + number(d.dim) + (d.kelvin ? 'k' + d.kelvin : d.colour ? 'c' + d.colour.slice(1) : '');
@@ -18,7 +18,7 @@ function dimmerOf(text) {
 
 export function hashOf(state, initial) {
   const parts = [`v=${viewText(state.view)}`, `e=${number(state.ev)}`];
-  if (state.falseColour) parts.push(`f=${number(state.top)}`);
+  if (state.falseColour && state.top) parts.push(`f=${number(state.top)}`);
   const lights = state.dimmers
     .map((d, g) => (dimmerText(d) === dimmerText(initial[g]) ? null : `${g}:${dimmerText(d)}`)).filter(Boolean);
   if (lights.length) parts.push(`l=${lights.join(';')}`);

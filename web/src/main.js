@@ -25,7 +25,7 @@ async function start() {
   const initial = header.groups.map(initialDimmer), said = readHash(location.hash);
   const state = {
     dimmers: initial.map((d, g) => ({ ...d, ...said.dimmers[g] })),
-    ev: said.ev ?? header.ev, falseColour: said.top > 0, top: said.top ?? header.top, linearTone: false,
+    ev: said.ev ?? header.ev, falseColour: said.top > 0, top: said.top ?? null, linearTone: false,
     bookmarks: said.bookmarks.length ? said.bookmarks : stored('bookmarks', []), marks: false,
     get view() { return eye.view; },
   };
@@ -41,9 +41,17 @@ async function start() {
     });
   }
   function drawNow() {
+    if ((state.falseColour || state.marks) && !state.top) chooseTop();
     drawing.lookRound();
     drawing.draw({ ...state });
     if (marks && state.marks) drawing.renderer.render(marks.scene, drawing.camera);
+  }
+  /** Once, when a scale is asked for: from what is in sight. */
+  function chooseTop() {
+    state.top = roundUp(drawing.automaticTop());
+    panel?.update();
+    showLegend();
+    marks?.show(grids.lux(relight.weights), state.top, decades);
   }
   const eye = new Eye(drawing.camera, drawing.renderer.domElement, header, () => (redraw(), settle()));
   const goTo = (v) => (eye.view = fitted(v));
@@ -64,7 +72,7 @@ async function start() {
     drawing.takeWeights();
     panel?.update();
     panel?.showGrids(grids.figures(relight.weights));
-    marks?.show(grids.lux(relight.weights), state.top, decades);
+    if (state.top) marks?.show(grids.lux(relight.weights), state.top, decades);
     showReading();
     redraw();
   }
@@ -164,7 +172,7 @@ async function start() {
   function showLegend() {
     const legend = byId('legend');
     legend.hidden = !state.falseColour && !state.marks;
-    if (!legend.hidden) drawLegend(legend, state.top, decades);
+    if (!legend.hidden && state.top) drawLegend(legend, state.top, decades);
   }
   function resize() {
     const { width, height } = stage.getBoundingClientRect();

@@ -29,8 +29,10 @@ export class Meter {
     const E = this.relight.groupsAt(corners, hit.at);
     this.addCaustics(E, origin, direction, hit.distance);
     const groups = E.map((e) => this.efficacy * gray(e));
+    const [a, b, c] = corners.map((v) => tree.positions.subarray(3 * v, 3 * v + 3));
+    const normal = unit(cross(difference(b, a), difference(c, a)));
     const position = origin.map((o, c) => o + hit.distance * direction[c]);
-    return { position, lux: groups.reduce((s, v) => s + v, 0), groups, material: this.drawing.mesh.materials[corners[0]] };
+    return { position, normal, lux: groups.reduce((s, v) => s + v, 0), groups, material: this.drawing.mesh.materials[corners[0]] };
   }
 
   addCaustics(E, origin, direction, distance) {
@@ -48,6 +50,9 @@ export class Meter {
   }
 }
 
+const difference = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const unit = (a) => a.map((v) => v / Math.hypot(...a));
 const clamp = (v, n) => Math.min(Math.max(v, 0), n - 1);
 
 function texelShows({ width, height, shows }, [u, v]) {

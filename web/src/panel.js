@@ -26,7 +26,7 @@ export class Panel {
     this.state = state;
     this.hands = hands;
     this.rows = header.groups.map((group, g) => this.lightRow(group, g));
-    root.append(
+    root.append(...[
       element('header', {}, element('h1', { textContent: header.title }), button('Hide', () => this.fold(), { id: 'fold', title: 'Hide the panel (H)' })),
       section('Presets', (this.presets = element('div', { className: 'buttons', id: 'presets' }))),
       section('Lights', ...this.rows.map((r) => r.row)),
@@ -37,7 +37,7 @@ export class Panel {
         button('edits.json', hands.saveEdits, { id: 'save-edits', title: 'For deltalux update SOLUTION --edits edits.json' }),
         button('Copy link', hands.copyLink, { title: 'The whole state stands in the address' }))),
       element('footer', {}, ...this.notes().map((n) => element('p', { textContent: n }))),
-    );
+    ].filter(Boolean));
     this.showPresets();
     this.showViews();
     this.update();
@@ -137,9 +137,9 @@ export class Panel {
     this.ev.value = state.ev;
     this.evText.textContent = `${state.ev >= 0 ? '+' : ''}${state.ev.toFixed(1)} EV`;
     this.fc.checked = state.falseColour;
-    this.top.value = String(state.top);
-    if (this.top.selectedIndex < 0) {
-      this.top.append(element('option', { value: state.top, textContent: `${state.top} lx` }));
+    if (state.top) this.top.value = String(state.top);
+    if (state.top && this.top.selectedIndex < 0) {
+      this.top.append(element('option', { value: state.top, textContent: `${state.top.toLocaleString('en-GB')} lx` }));
       this.top.value = String(state.top);
     }
   }

@@ -51,15 +51,21 @@ export function decodeRgb9e5(words, out = new Float32Array(3 * words.length)) {
   return out;
 }
 
-/** RGB9E5 words from planes of bytes: exponents, upper eight bits of r, g, b, and their lowest bits. */
+/** RGB9E5 words from planes of what they differ in from their colour before (src/export/byte_planes.hpp). */
 export function joinRgb9e5(bytes, count) {
   const words = new Uint32Array(count);
-  let e = 0, r = 0, g = 0, b = 0;
+  let e0 = 0, r0 = 0, g0 = 0, b0 = 0;
   for (let i = 0; i < count; ++i) {
-    e = (e + bytes[i]) & 255, r = (r + bytes[count + i]) & 255;
-    g = (g + bytes[2 * count + i]) & 255, b = (b + bytes[3 * count + i]) & 255;
-    const low = bytes[4 * count + i];
-    words[i] = ((e << 27) | (((b << 1) | (low >> 2)) << 18) | (((g << 1) | ((low >> 1) & 1)) << 9) | (r << 1) | (low & 1)) >>> 0;
+    const high = bytes[4 * count + i], e = (e0 + bytes[i]) & 255;
+    let z = bytes[2 * count + i] | ((high & 12) << 6);
+    const scaled = e === e0 ? g0 : Math.min(Math.floor(g0 * 2 ** (e0 - e) + 0.5), 511);
+    const g = scaled + ((z >>> 1) ^ -(z & 1));
+    z = bytes[count + i] | ((high & 3) << 8);
+    const r = (g0 > 0 ? Math.min(Math.floor((r0 * g) / g0 + 0.5), 511) : r0) + ((z >>> 1) ^ -(z & 1));
+    z = bytes[3 * count + i] | ((high & 48) << 4);
+    const b = (g0 > 0 ? Math.min(Math.floor((b0 * g) / g0 + 0.5), 511) : b0) + ((z >>> 1) ^ -(z & 1));
+    words[i] = ((e << 27) | (b << 18) | (g << 9) | r) >>> 0;
+    e0 = e, r0 = r, g0 = g, b0 = b;
   }
   return words;
 }

@@ -12,11 +12,13 @@ export class TriangleTree {
     const middles = new Float32Array(3 * count);
     this.bounds = [];  // six numbers a node
     this.nodes = [];   // first, count (leaf) or child, 0
-    for (let i = 0; i < count; ++i)
+    for (let i = 0; i < count; ++i) {
+      const a = 3 * triangles[3 * i], b = 3 * triangles[3 * i + 1], d = 3 * triangles[3 * i + 2];
       for (let c = 0; c < 3; ++c) {
-        const [p, q, r] = [0, 1, 2].map((k) => positions[3 * triangles[3 * i + k] + c]);
+        const p = positions[a + c], q = positions[b + c], r = positions[d + c];
         middles[3 * i + c] = (Math.min(p, q, r) + Math.max(p, q, r)) / 2;
       }
+    }
     this.middles = middles;
     if (count > 0) {
       this.addNode();
