@@ -84,7 +84,7 @@ void exportPage(const SolutionView& solution, const std::filesystem::path& path,
     page.layers.push_back(pageLayer(page.mesh, mesh));
     page.caustics.push_back(pageCaustics(page.mesh, mesh));
   }
-  simplify(page.mesh, page.layers, {kShareOfError * solution.settings().error});
+  simplify(page.mesh, page.layers, {kShareOfError * solution.settings().error}, sidesUnderTextures(page.mesh, meshes));
   widenSides(page.mesh, kOverlap / scene.metresPerUnit);
   page.skies = pageSkies(scene, groups, !page.byLight), page.suns = pageSuns(scene, groups, !page.byLight);
   tell(progress, static_cast<double>(groups.size()) / static_cast<double>(groups.size() + 1));

@@ -243,7 +243,7 @@ using SideTriangles = std::vector<std::array<std::uint32_t, 3>>;
 
 /// The triangles that sides keep, numbered within them. A side is in several draws with the same triangles.
 std::vector<SideTriangles> keptTriangles(const PageMesh& mesh, const std::vector<std::vector<Rgb>>& layers,
-                                         double tolerance) {
+                                         double tolerance, const std::vector<char>& whole) {
   const std::vector<std::uint32_t> sideOf = sideOfVertex(mesh);
   std::vector<SideTriangles> of(mesh.sides.size());
   for (const PageDraw& d : mesh.draws) {
@@ -254,6 +254,7 @@ std::vector<SideTriangles> keptTriangles(const PageMesh& mesh, const std::vector
     }
   }
   parallelFor(mesh.sides.size(), 1, [&](std::size_t s) {
+    if (!whole.empty() && whole[s]) return;
     const PageMesh::Side& side = mesh.sides[s];
     std::vector<std::span<const Rgb>> light;
     for (const auto& layer : layers) light.emplace_back(layer.data() + side.first, side.count);
@@ -267,9 +268,10 @@ std::vector<SideTriangles> keptTriangles(const PageMesh& mesh, const std::vector
 
 }  // namespace
 
-void simplify(PageMesh& mesh, std::vector<std::vector<Rgb>>& layers, const LightTolerance& tolerance) {
+void simplify(PageMesh& mesh, std::vector<std::vector<Rgb>>& layers, const LightTolerance& tolerance,
+              const std::vector<char>& whole) {
   const std::vector<std::uint32_t> sideOf = sideOfVertex(mesh);
-  const std::vector<SideTriangles> kept = keptTriangles(mesh, layers, tolerance.relative);
+  const std::vector<SideTriangles> kept = keptTriangles(mesh, layers, tolerance.relative, whole);
   // Triangles of the draws, side after side, in the old numbers.
   std::vector<std::uint32_t> triangles;
   for (PageDraw& d : mesh.draws) {
@@ -305,6 +307,18 @@ void simplify(PageMesh& mesh, std::vector<std::vector<Rgb>>& layers, const Light
   for (auto& layer : layers) keep(layer);
   for (std::uint32_t& v : triangles) v = number[v];
   mesh.triangles = std::move(triangles);
+}
+
+std::vector<char> sidesUnderTextures(const PageMesh& mesh, const std::vector<SolutionMesh>& groups) {
+  std::vector<char> whole(mesh.sides.size(), 0);
+  for (std::size_t s = 0; s < mesh.sides.size(); ++s)
+    for (const SolutionMesh& group : groups) {
+      const std::uint32_t side = mesh.sides[s].side;
+      if (side >= group.caustics.size() || !group.caustics[side] || group.caustics[side]->textures.empty()) continue;
+      const Shape& shape = (*group.scene)[group.caustics[side]->primitive].shape;
+      if (!std::holds_alternative<Polygon>(shape)) whole[s] = 1;
+    }
+  return whole;
 }
 
 }  // namespace deltalux::exporting

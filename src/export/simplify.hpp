@@ -20,7 +20,12 @@ struct LightTolerance {
   double relative = 0.01;
 };
 
-/// Leaves vertices out of the mesh and of `layers`, which are by group and vertex [W/m2].
-void simplify(PageMesh&, std::vector<std::vector<Rgb>>& layers, const LightTolerance&);
+/// Leaves vertices out of the mesh and of `layers`, which are by group and vertex [W/m2]. `whole`: by side of the page,
+/// those that stay as they are; empty: none.
+void simplify(PageMesh&, std::vector<std::vector<Rgb>>& layers, const LightTolerance&,
+              const std::vector<char>& whole = {});
+
+/// Sides that caustic textures lie on and that are not flat: both have to keep to one shape.
+std::vector<char> sidesUnderTextures(const PageMesh&, const std::vector<SolutionMesh>& groups);
 
 }  // namespace deltalux::exporting

@@ -60,6 +60,7 @@ export class Drawing {
       ambient: { value: new THREE.Vector3() },
       upwards: { value: new THREE.Vector3().fromArray(header.up) },
       eye: { value: new THREE.Vector3() },
+      lift: { value: 1e-3 / header.metresPerUnit },
     };
     this.attributes = {
       position: new THREE.BufferAttribute(mesh.positions, 3),
@@ -106,7 +107,7 @@ export class Drawing {
     if (draw.kind === 'opaque') this.add(geometry, this.shader(textured, {}, image), 0);
     if (draw.kind === 'mirror') this.addMirror(geometry, draw);
     if (draw.kind === 'behind')
-      this.add(geometry, this.shader(['BEHIND'], { ...added, side: THREE.BackSide, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -2 }), 1);
+      this.add(geometry, this.shader(['BEHIND'], { ...added, side: THREE.BackSide }), 1);
     if (draw.kind === 'pane') {
       const passes = { transmissivity: { value: new THREE.Vector3().fromArray(draw.transmissivity) }, index: { value: draw.index } };
       this.add(geometry, this.shader(['PASSES'], { ...over, blendSrc: THREE.ZeroFactor, blendDst: THREE.SrcColorFactor,
@@ -139,7 +140,7 @@ export class Drawing {
     const weight = { value: new THREE.Vector3() };
     this.add(geometry, this.shader(['CAUSTIC'], {
       transparent: true, depthWrite: false, blending: THREE.CustomBlending, blendEquation: THREE.AddEquation,
-      blendSrc: THREE.OneFactor, blendDst: THREE.OneFactor, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -4,
+      blendSrc: THREE.OneFactor, blendDst: THREE.OneFactor,
     }, { light: { value: light }, shows: { value: mask }, weight }), 2);
     this.caustics.push({ group, width, height, positions, texels, triangles, words, shows, weight });
   }
@@ -261,6 +262,25 @@ export class Drawing {
     renderer.render(this.world, camera);
   }
 
+  /** Of a polygon's bounding rectangle; the whole picture has 4. */
+  areaInPicture(corners) {
+    const near = -0.01, box = new THREE.Box2();
+    const inView = corners.map((p) => p.clone().applyMatrix4(this.camera.matrixWorldInverse));
+    const put = (q) => {
+      q = q.clone().applyMatrix4(this.camera.projectionMatrix);
+      box.expandByPoint(new THREE.Vector2(q.x, q.y));
+    };
+    inView.forEach((p, i) => {
+      const q = inView[(i + 1) % inView.length];
+      if (p.z < near) put(p);
+      if (p.z < near !== q.z < near) put(p.clone().lerp(q, (near - p.z) / (q.z - p.z)));
+    });
+    box.intersect(new THREE.Box2(new THREE.Vector2(-1, -1), new THREE.Vector2(1, 1)));
+    if (box.isEmpty()) return 0;
+    const size = box.getSize(new THREE.Vector2());
+    return size.x * size.y;
+  }
+
   /** The mirrors in sight, each drawn from behind itself: flat ones, the few that look largest. */
   drawMirrors(most) {
     const seen = [];
@@ -269,20 +289,7 @@ export class Drawing {
       const [nx, ny, nz, d] = m.plane, n = new THREE.Vector3(nx, ny, nz);
       const height = n.dot(this.camera.position) - d;
       if (height <= 0) continue;
-      let area = 0;
-      const box = new THREE.Box2();
-      for (const p of m.corners) {
-        const q = p.clone().applyMatrix4(this.camera.matrixWorldInverse);
-        if (q.z > -0.01) { area = 4; continue; }
-        q.applyMatrix4(this.camera.projectionMatrix);
-        box.expandByPoint(new THREE.Vector2(q.x, q.y));
-      }
-      if (!area) {
-        box.intersect(new THREE.Box2(new THREE.Vector2(-1, -1), new THREE.Vector2(1, 1)));
-        if (box.isEmpty()) continue;
-        const size = box.getSize(new THREE.Vector2());
-        area = size.x * size.y;
-      }
+      const area = this.seen && !this.seen(m, n) ? 0 : this.areaInPicture(m.corners);
       if (area > 0.004) seen.push({ m, area, n, d });
     }
     seen.sort((a, b) => b.area - a.area);
@@ -312,8 +319,8 @@ export class Drawing {
     virtual.matrixWorld.multiplyMatrices(reflect, camera.matrixWorld);
     virtual.matrixWorldInverse.multiplyMatrices(camera.matrixWorldInverse, reflect);
     virtual.position.setFromMatrixPosition(virtual.matrixWorld);
-    // The near plane is the mirror: what stands behind it is not seen. [Lengyel05]
-    const plane = new THREE.Plane(n.clone(), -d).applyMatrix4(virtual.matrixWorldInverse);
+    // The near plane is a millimetre before the mirror: what stands behind, its own back too, is not seen. [Lengyel05]
+    const plane = new THREE.Plane(n.clone(), -d - 1e-3 / this.header.metresPerUnit).applyMatrix4(virtual.matrixWorldInverse);
     const P = virtual.projectionMatrix.elements;
     const q = new THREE.Vector4((Math.sign(plane.normal.x) + P[8]) / P[0], (Math.sign(plane.normal.y) + P[9]) / P[5], -1, (1 + P[10]) / P[14]);
     const c = new THREE.Vector4(plane.normal.x, plane.normal.y, plane.normal.z, plane.constant);

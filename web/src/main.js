@@ -209,12 +209,22 @@ async function start() {
   window.addEventListener('hashchange', () => location.reload());
   setTimeout(() => {
     meter = new Meter(drawing);
+    // Mirrors behind walls need no picture: one of their corners, or the middle, is to be seen.
+    drawing.seen = ({ corners }) => {
+      const from = drawing.camera.position, middle = corners.reduce((s, p) => s.add(p), new THREE.Vector3()).divideScalar(corners.length);
+      return [middle, ...corners.map((p) => p.clone().lerp(middle, 0.1))].some((p) => {
+        const way = p.clone().sub(from), distance = way.length();
+        const hit = meter.tree.nearest(from.toArray(), way.divideScalar(distance).toArray());
+        return !hit || hit.distance > distance * 0.999 - 0.002;
+      });
+    };
+    redraw();
     performance.mark('ready');
     window.deltalux.ready = true;
   }, 0);
   // For scripts and tests: what the page shows, as numbers.
   window.deltalux = {
-    ready: false, header, state, hands, readingAt, relight, drawNow, setAll, goTo,
+    ready: false, drawing, header, state, hands, readingAt, relight, drawNow, setAll, goTo,
     meterAt: (origin, direction) => meter.at(origin, direction),
     grids: () => grids.figures(relight.weights), gridLux: () => Array.from(grids.lux(relight.weights)),
     edits: () => editsOf(header.groups, state.dimmers), hash: () => hashOf(state, initial),

@@ -13,22 +13,23 @@ in vec3 position;
 #ifdef CAUSTIC
 in vec2 texel;
 uniform float size_u, size_v;
-out vec2 place;
+centroid out vec2 place;
 #else
 in vec3 irradiance;
-out vec3 E;
+centroid out vec3 E;
 #endif
 in vec2 bend;       // normal, octahedral
 in float material;
 #ifdef TEXTURED
 in vec2 uv;
-out vec2 materialUv;
+centroid out vec2 materialUv;
 #endif
 uniform mat4 modelViewMatrix, projectionMatrix;
 uniform sampler2D materials;
 uniform vec3 eye;
+uniform float lift;   // a millimetre
 flat out vec3 reflects, emitted, gloss;
-out vec3 towards, normal;
+centroid out vec3 towards, normal;
 
 vec4 entry(int k) {
   int id = int(material + 0.5);
@@ -36,7 +37,12 @@ vec4 entry(int k) {
 }
 
 void main() {
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  vec3 shown = position;
+#if defined(CAUSTIC) || defined(BEHIND)
+  // Over the surface that it is added to, on the way to the eye: pixels stay where they are.
+  shown += (eye - position) * (3e-4 + lift / max(distance(eye, position), lift));
+#endif
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(shown, 1.0);
 #ifdef CAUSTIC
   place = texel;
 #else
@@ -69,15 +75,15 @@ precision highp float;
 precision highp int;
 precision highp sampler2D;
 #ifdef CAUSTIC
-in vec2 place;
+centroid in vec2 place;
 uniform sampler2D light;   // E of the particles
 uniform sampler2D shows;   // 1 where it shows
 uniform vec3 weight;
 #else
-in vec3 E;
+centroid in vec3 E;
 #endif
 #ifdef TEXTURED
-in vec2 materialUv;
+centroid in vec2 materialUv;
 uniform sampler2D image;
 #endif
 #ifdef PASSES
@@ -93,7 +99,7 @@ uniform bool showsIrradiance;
 uniform vec3 ambient;      // L, what a mirror shows that nothing is drawn in
 uniform vec3 upwards;
 flat in vec3 reflects, emitted, gloss;
-in vec3 towards, normal;
+centroid in vec3 towards, normal;
 out vec4 colour;
 
 float fresnel(float c, float n) {
