@@ -12,6 +12,7 @@ void addUpdateCommand(CLI::App&);
 void addReplayCommand(CLI::App&);
 void addProbeCommand(CLI::App&);
 void addRenderCommand(CLI::App&);
+void addExportCommand(CLI::App&);
 void addReferenceCommand(CLI::App&);
 void addDesignCommand(CLI::App&);
 void addExportCommand(CLI::App&);
@@ -27,6 +28,7 @@ inline void addCommands(CLI::App& app) {
   addReplayCommand(app);
   addProbeCommand(app);
   addRenderCommand(app);
+  addExportCommand(app);
   addReferenceCommand(app);
   addDesignCommand(app);
   addExportCommand(app);

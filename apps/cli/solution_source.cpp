@@ -102,7 +102,9 @@ SolutionView SolutionSource::load(Run& run, const RunOptions& options, Progress&
   }
   ImportedScene imported = scene_.load(run);
   if (check) check(imported.scene);
-  return solve_.solve(std::move(imported.scene), run, options, progress);
+  SolveOptions solving = solve_;
+  if (preferByLight_ && solving.settings.method == SolveMethod::Lines) solving.settings.byLight = true;
+  return solving.solve(std::move(imported.scene), run, options, progress);
 }
 
 SolutionView SolutionSource::loadFile(Run& run) const {

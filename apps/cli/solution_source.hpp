@@ -15,8 +15,7 @@ struct SolveOptions {
 
   void add(CLI::App&);  // names()
   static std::vector<const char*> names() {
-    return {"--error", "--particles", "--method", "--diffuse-only", "--no-caustic-textures",
-            "--by-light", "--group"};
+    return {"--error", "--particles", "--method", "--diffuse-only", "--no-caustic-textures", "--by-light", "--group"};
   }
   enum class Then : std::uint8_t { Edited, Read };  // what is to become of the solution
   /// Solves; notes times, counts and energy in the run's report. Throws Interrupted.
@@ -28,6 +27,9 @@ class SolutionSource {
   void add(CLI::App&);
   /// Where --by-light, said of this, is about what is read too: a solution must have been solved so. After add().
   void readByLight(CLI::App&, const std::string& description);
+  /// A scene is solved by light; a solution is taken as it is.
+  void preferByLight() { preferByLight_ = true; }
+  /// A solution must have been solved so.
   void wantByLight() { solve_.settings.byLight = true; }
   bool byLight() const { return solve_.settings.byLight; }
 
@@ -40,6 +42,7 @@ class SolutionSource {
 
   SceneOptions scene_;
   SolveOptions solve_;
+  bool preferByLight_ = false;
   std::vector<CLI::Option*> sceneOnly_;  // options that a solution leaves nothing to do for
 };
 

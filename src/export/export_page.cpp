@@ -1,0 +1,95 @@
+// A page of a solution: read once for each group of lights, packed, put into the template.
+#include <deltalux/error.hpp>
+#include <deltalux/export.hpp>
+#include <deltalux/light_groups.hpp>
+#include <deltalux/render.hpp>
+#include <deltalux/solution_reader.hpp>
+
+#include "export/overlap.hpp"
+#include "export/page_data.hpp"
+#include "export/page_html.hpp"
+#include "export/page_points.hpp"
+#include "export/page_template.hpp"
+#include "export/simplify.hpp"
+#include "io/atomic_file.hpp"
+#include "solution/solution.hpp"
+
+namespace deltalux {
+
+namespace {
+
+using namespace exporting;
+
+constexpr double kShareOfError = 0.5;  // of the solution's: what leaving vertices out may add [limit]
+constexpr double kOverlap = 3e-4;      // of sides over their outlines [m] [shown]
+constexpr int kExposureWidth = 96, kExposureHeight = 72;  // of the picture that the exposure is chosen from [shown]
+
+void tell(Progress* progress, double fraction) {
+  if (!progress) return;
+  if (progress->stopRequested()) throw Interrupted();
+  progress->report("export", fraction);
+}
+
+std::vector<View> viewsOf(const Scene& scene, const PageSettings& settings) {
+  std::vector<View> views = settings.views;
+  views.insert(views.end(), scene.views.begin(), scene.views.end());
+  std::erase_if(views, [](const View& v) { return v.kind != View::Kind::Perspective; });
+  for (std::size_t i = 0; i < views.size(); ++i)
+    if (views[i].name.empty()) views[i].name = "view " + std::to_string(i + 1);
+  return views;
+}
+
+double exposureOf(const SolutionView& solution, const std::vector<View>& views) {
+  if (views.empty()) return 0;
+  RenderSettings settings;
+  settings.width = kExposureWidth, settings.height = kExposureHeight, settings.samplesPerPixel = 1;
+  settings.meshDirect = true;
+  return automaticEv(render(solution, views.front(), settings));
+}
+
+/// Reads the mesh, and the points, of every group.
+std::vector<SolutionMesh> readGroups(const SolutionView& solution, const std::vector<LightGroup>& groups,
+                                     const PageSettings& settings, PageData& page, Progress* progress) {
+  ProbeSettings meters;
+  meters.error = settings.meterError, meters.maxSamples = settings.meterSamples, meters.seed = settings.seed;
+  const std::vector<ProbePoint> points = pointsOf(page.grids);
+  std::vector<Rgb> whole;
+  if (!points.empty())
+    for (const ProbeResult& r : probe(solution, points, meters)) whole.emplace_back(r.irradiance);
+  std::vector<SolutionMesh> meshes;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    tell(progress, static_cast<double>(g) / static_cast<double>(groups.size() + 1));
+    SolutionReader reader(lightOf(solution, g));
+    meshes.push_back(reader.mesh());
+    if (!points.empty()) page.pointLight.push_back(groupAtPoints(reader, points, whole, meters));
+  }
+  return meshes;
+}
+
+}  // namespace
+
+void exportPage(const SolutionView& solution, const std::filesystem::path& path, const PageSettings& settings,
+                Progress* progress) {
+  const Scene& scene = solution.scene();
+  const std::vector<LightGroup> groups = lightGroups(solution);
+  PageData page;
+  page.title = settings.title, page.efficacy = scene.luminousEfficacy, page.grids = settings.grids;
+  page.byLight = !solution.get().columns.empty();
+  page.groups = pageGroups(scene, groups, !page.byLight);
+  page.views = viewsOf(scene, settings);
+  page.ev = settings.ev ? *settings.ev : exposureOf(solution, page.views);
+  const std::vector<SolutionMesh> meshes = readGroups(solution, groups, settings, page, progress);
+  page.mesh = pageMesh(groups, meshes);
+  for (const SolutionMesh& mesh : meshes) {
+    page.layers.push_back(pageLayer(page.mesh, mesh));
+    page.caustics.push_back(pageCaustics(page.mesh, mesh));
+  }
+  simplify(page.mesh, page.layers, {kShareOfError * solution.settings().error}, sidesUnderTextures(page.mesh, meshes));
+  widenSides(page.mesh, kOverlap / scene.metresPerUnit);
+  page.skies = pageSkies(scene, groups, !page.byLight), page.suns = pageSuns(scene, groups, !page.byLight);
+  tell(progress, static_cast<double>(groups.size()) / static_cast<double>(groups.size() + 1));
+  io::writeFile(path, pageHtml(pageTemplate(), pageBytes(page, scene)));
+  tell(progress, 1);
+}
+
+}  // namespace deltalux

@@ -1,0 +1,69 @@
+#include "export/overlap.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "base/parallel.hpp"
+
+namespace deltalux::exporting {
+
+namespace {
+
+constexpr double kLongest = 2;  // of a corner's way, over the width [shown]
+
+using Place = std::tuple<float, float, float>;
+Place placeOf(const MeshVertex& v) { return {v.position.x, v.position.y, v.position.z}; }
+
+/// Outward directions of the outline's edges at a point of it.
+struct Outward {
+  Vec3 sum{0};
+  double count = 0;
+
+  void add(const Vec3& n) { sum += n, count += 1; }
+  /// So far that each edge moves by 1.
+  Vec3 offset() const {
+    const double length = glm::length(sum);
+    if (!(length > 0)) return Vec3(0);
+    const double cosine = std::max(length / count, 1 / kLongest);
+    return sum / (length * cosine);
+  }
+};
+
+void widen(PageMesh& mesh, const PageMesh::Side& side, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+           double width) {
+  std::map<std::pair<Place, Place>, std::pair<int, Vec3>> edges;  // how often, and outwards
+  for (const auto& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 a(mesh.vertices[t[k]].position), b(mesh.vertices[t[(k + 1) % 3]].position),
+          c(mesh.vertices[t[(k + 2) % 3]].position);
+      const Vec3 outward = glm::cross(b - a, glm::cross(b - a, c - a));
+      const double length = glm::length(outward);
+      auto& edge = edges[std::minmax({placeOf(mesh.vertices[t[k]]), placeOf(mesh.vertices[t[(k + 1) % 3]])})];
+      ++edge.first, edge.second = length > 0 ? outward / length : Vec3(0);
+    }
+  std::map<Place, Outward> points;
+  for (const auto& [ends, edge] : edges)
+    if (edge.first == 1) points[ends.first].add(edge.second), points[ends.second].add(edge.second);
+  for (std::uint32_t v = side.first; v < side.first + side.count; ++v) {
+    const auto at = points.find(placeOf(mesh.vertices[v]));
+    if (at != points.end()) mesh.vertices[v].position += Vec3f(width * at->second.offset());
+  }
+}
+
+}  // namespace
+
+void widenSides(PageMesh& mesh, double width) {
+  std::vector<std::uint32_t> sideOf(mesh.vertices.size());
+  for (std::uint32_t s = 0; s < mesh.sides.size(); ++s)
+    std::fill_n(sideOf.begin() + mesh.sides[s].first, mesh.sides[s].count, s);
+  std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles(mesh.sides.size());
+  for (const PageDraw& d : mesh.draws)
+    if (d.kind != PageDraw::Kind::Behind)
+      for (std::uint32_t i = d.first; i < d.first + d.count; i += 3)
+        triangles[sideOf[mesh.triangles[i]]].push_back(
+            {mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]});
+  parallelFor(mesh.sides.size(), 1, [&](std::size_t s) { widen(mesh, mesh.sides[s], triangles[s], width); });
+}
+
+}  // namespace deltalux::exporting

@@ -1,0 +1,196 @@
+#include "export/page_mesh.hpp"
+
+#include <algorithm>
+#include <deltalux/error.hpp>
+#include <map>
+
+namespace deltalux::exporting {
+
+namespace {
+
+using Kind = PageDraw::Kind;
+
+constexpr double kMirrorArea = 0.05;        // of a flat mirror that gets a picture of its own, at least [m2] [shown]
+constexpr double kMirrorReflectance = 0.3;  // the same; below it is drawn like gloss [shown]
+
+bool sameShape(const SurfaceMesh& a, const SurfaceMesh& b) {
+  return a.triangles == b.triangles && std::ranges::equal(a.vertices, b.vertices, [](const auto& v, const auto& w) {
+           return v.position == w.position;
+         });
+}
+
+bool sameShape(const SolutionMesh& a, const SolutionMesh& b) {
+  return std::ranges::equal(a.surfaces, b.surfaces, [](const auto& s, const auto& t) {
+    return !s == !t && (!s || s == t || sameShape(*s, *t));
+  });
+}
+
+std::optional<PagePane> paneOf(const Material& m) {
+  if (const auto* body = std::get_if<Dielectric>(&m.surface)) return PagePane{Rgb(1.0f), body->ior};
+  if (!passesStraight(m)) return std::nullopt;
+  const auto* glass = std::get_if<ThinGlass>(&m.surface);
+  if (glass && m.coverage >= 1) return PagePane{glass->transmissivity, glass->ior};
+  return PagePane{straightTransmittance(m, 1), 1.0f};
+}
+
+/// What is reflected otherwise than diffusely, about; of glass as it is seen at a slant.
+Rgb glossOf(const Material& m, bool front) {
+  constexpr double kSlant = 0.8;  // cosine [shown]
+  struct Visitor {
+    bool front;
+    Rgb operator()(const Opaque& s) const { return s.specular.reflectance; }
+    Rgb operator()(const Mirror& s) const { return front ? s.reflectance : Rgb(0.0f); }
+    Rgb operator()(const ThinGlass& s) const { return deltalux::reflectance(s, kSlant); }
+    Rgb operator()(const Dielectric& s) const {
+      return Rgb(static_cast<float>(fresnelDielectric(kSlant, double(s.ior))));
+    }
+    Rgb operator()(const Trans& s) const { return s.reflection.reflectance; }
+  };
+  return m.coverage * std::visit(Visitor{front}, m.surface);
+}
+
+/// A flat mirror that is large enough for a picture of its own.
+std::optional<PageMirror> mirrorOf(const Scene& scene, PrimitiveId p, bool front) {
+  const Material& m = scene.materialOf(p);
+  const auto* polygon = std::get_if<Polygon>(&scene[p].shape);
+  const auto* opaque = std::get_if<Opaque>(&m.surface);
+  const bool polished = opaque && opaque->specular.roughness <= 0;
+  if (!polygon || !(std::holds_alternative<Mirror>(m.surface) || polished)) return std::nullopt;
+  if (gray(glossOf(m, front)) < kMirrorReflectance) return std::nullopt;
+  if (polygon->area * scene.metresPerUnit * scene.metresPerUnit < kMirrorArea) return std::nullopt;
+  const Vec3 n = front ? polygon->normal : -polygon->normal;
+  return PageMirror{glm::dvec4(n, glm::dot(n, polygon->origin)), polygon->vertices};
+}
+
+TextureId textureOf(const Scene& scene, PrimitiveId p) {
+  const auto* opaque = std::get_if<Opaque>(&scene.materialOf(p).surface);
+  const auto* mesh = std::get_if<Mesh>(&scene[p].shape);
+  return opaque && mesh && !mesh->texcoords.empty() ? opaque->diffuseTexture : TextureId();
+}
+
+/// By primitive: the group that its emission belongs to.
+std::vector<std::optional<std::size_t>> emitters(const Scene& scene, const std::vector<LightGroup>& groups) {
+  std::vector<std::optional<std::size_t>> of(scene.primitives.size());
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const LightId light : groups[g].lights)
+      if (const auto* area = std::get_if<AreaLight>(&scene[light].emitter)) of[area->primitive.index()] = g;
+  return of;
+}
+
+class Builder {
+ public:
+  Builder(const std::vector<LightGroup>& groups, const std::vector<SolutionMesh>& meshes)
+      : meshes_(meshes), scene_(*meshes.front().scene), emitters_(emitters(scene_, groups)) {}
+
+  PageMesh build() {
+    const auto& surfaces = meshes_.front().surfaces;
+    for (std::size_t s = 0; s < surfaces.size(); ++s)
+      if (surfaces[s] && !surfaces[s]->triangles.empty()) addSide(s, *surfaces[s]);
+    for (auto& [draw, sides] : draws_) addDraw(draw, sides);
+    for (auto& [draw, side] : mirrors_) addDraw(draw, {side});
+    return std::move(page_);
+  }
+
+ private:
+  /// Draws of one kind, texture and pane are one.
+  struct Key {
+    Kind kind;
+    std::size_t texture;
+    std::array<float, 4> pane;
+    auto operator<=>(const Key&) const = default;
+  };
+
+  void addSide(std::size_t s, const SurfaceMesh& side) {
+    const PageMesh::Side placed{static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(page_.vertices.size()),
+                                static_cast<std::uint32_t>(side.vertices.size()), materialAt(s, side)};
+    page_.vertices.insert(page_.vertices.end(), side.vertices.begin(), side.vertices.end());
+    const std::size_t number = page_.sides.size();
+    page_.sides.push_back(placed);
+    const std::optional<PagePane> pane = paneOf(scene_.materialOf(side.primitive));
+    const TextureId texture = textureOf(scene_, side.primitive);
+    const auto mirror = mirrorOf(scene_, side.primitive, side.front);
+    if (mirror && !pane)
+      mirrors_.push_back({PageDraw{Kind::Mirror, {}, {}, mirror, 0, 0}, number});
+    else
+      enter({pane ? Kind::Pane : Kind::Opaque, texture, pane, {}, 0, 0}, number);
+    if (!isBlack(side.transmittance)) enter({Kind::Behind, {}, {}, {}, 0, 0}, number);
+  }
+
+  void enter(const PageDraw& draw, std::size_t side) {
+    Key key{draw.kind, draw.texture.valid() ? draw.texture.index() + 1 : 0, {0, 0, 0, 0}};
+    if (draw.pane)
+      key.pane = {draw.pane->transmissivity.r, draw.pane->transmissivity.g, draw.pane->transmissivity.b,
+                  draw.pane->index};
+    const auto [at, added] = known_.try_emplace(key, draws_.size());
+    if (added) draws_.push_back({draw, {}});
+    draws_[at->second].second.push_back(side);
+  }
+
+  void addDraw(PageDraw draw, const std::vector<std::size_t>& sides) {
+    draw.first = static_cast<std::uint32_t>(page_.triangles.size());
+    for (const std::size_t number : sides) {
+      const PageMesh::Side& placed = page_.sides[number];
+      for (const std::uint32_t i : meshes_.front().surfaces[placed.side]->triangles)
+        page_.triangles.push_back(placed.first + i);
+    }
+    draw.count = static_cast<std::uint32_t>(page_.triangles.size()) - draw.first;
+    page_.draws.push_back(std::move(draw));
+  }
+
+  /// Radiance counts once: of the group that the light belongs to, or of the solution where no light is known of.
+  std::vector<PageEmission> emissionOf(std::size_t s, const SurfaceMesh& side) const {
+    const auto group = emitters_[side.primitive.index()];
+    const Rgb L = group ? meshes_[*group].surfaces[s]->radiance : side.radiance;
+    if (isBlack(L)) return {};
+    return {PageEmission{0, group, L}};
+  }
+
+  std::uint32_t materialAt(std::size_t s, const SurfaceMesh& side) {
+    const std::vector<PageEmission> emission = emissionOf(s, side);
+    PageMaterial material{side.albedo, side.transmittance, glossOf(scene_.materialOf(side.primitive), side.front), 0};
+    if (!emission.empty()) {
+      const PageEmission& e = emission.front();
+      const std::array<float, 4> key{e.radiance.r, e.radiance.g, e.radiance.b,
+                                     e.group ? static_cast<float>(*e.group) : -1.0f};
+      material.emitter =
+          emitterNumbers_.try_emplace(key, static_cast<std::uint32_t>(emitterNumbers_.size() + 1)).first->second;
+    }
+    const auto same = std::ranges::find(page_.materials, material);
+    if (same != page_.materials.end()) return static_cast<std::uint32_t>(same - page_.materials.begin());
+    const auto number = static_cast<std::uint32_t>(page_.materials.size());
+    page_.materials.push_back(material);
+    for (PageEmission e : emission) e.material = number, page_.emission.push_back(e);
+    return number;
+  }
+
+  const std::vector<SolutionMesh>& meshes_;
+  const Scene& scene_;
+  const std::vector<std::optional<std::size_t>> emitters_;
+  PageMesh page_;
+  std::map<Key, std::size_t> known_;
+  std::vector<std::pair<PageDraw, std::vector<std::size_t>>> draws_;
+  std::vector<std::pair<PageDraw, std::size_t>> mirrors_;
+  std::map<std::array<float, 4>, std::uint32_t> emitterNumbers_;
+};
+
+}  // namespace
+
+PageMesh pageMesh(const std::vector<LightGroup>& groups, const std::vector<SolutionMesh>& meshes) {
+  for (std::size_t g = 1; g < meshes.size(); ++g)
+    if (!sameShape(meshes.front(), meshes[g]))
+      throw InputError(
+          "", 0,
+          "the lights '" + groups.front().name + "' and '" + groups[g].name + "' of the solution have different meshes",
+          "solve the scene again");
+  return Builder(groups, meshes).build();
+}
+
+std::vector<Rgb> pageLayer(const PageMesh& page, const SolutionMesh& mesh) {
+  std::vector<Rgb> light;
+  light.reserve(page.vertices.size());
+  for (const PageMesh::Side& side : page.sides)
+    for (const MeshVertex& v : mesh.surfaces[side.side]->vertices) light.push_back(v.direct + v.indirect + v.particle);
+  return light;
+}
+
+}  // namespace deltalux::exporting
