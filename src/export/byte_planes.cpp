@@ -42,19 +42,29 @@ std::string differencePlanes(std::span<const std::int32_t> numbers) {
   return out;
 }
 
-std::string rgb9e5Planes(std::span<const std::uint32_t> words) {
+std::string rgb9e5Planes(std::span<const std::uint32_t> words, std::span<const std::uint8_t> slack) {
   const std::size_t count = words.size();
   std::string out(5 * count, '\0');
   Word before;
   for (std::size_t i = 0; i < count; ++i) {
     const Word w = split(words[i]);
-    const std::uint32_t off[3] = {folded(w.red - otherFrom(before.red, before, w.green)),
-                                  folded(w.green - greenFrom(before, w.exponent)),
-                                  folded(w.blue - otherFrom(before.blue, before, w.green))};
+    const int step = 2 * (slack.empty() ? 0 : slack[i]) + 1;
+    Word now{w.exponent, 0, 0, 0};
+    std::uint32_t off[3];
+    // What is read back is what the next word is told from: errors do not add up.
+    const auto tell = [&](int value, int expected, std::size_t channel) {
+      int d = (std::abs(value - expected) + step / 2) / step * step * (value < expected ? -1 : 1);
+      if (expected + d < 0 || expected + d > kMost) d = value - expected;
+      off[channel] = folded(d);
+      return expected + d;
+    };
+    now.green = tell(w.green, greenFrom(before, w.exponent), 1);
+    now.red = tell(w.red, otherFrom(before.red, before, now.green), 0);
+    now.blue = tell(w.blue, otherFrom(before.blue, before, now.green), 2);
     out[i] = static_cast<char>((w.exponent - before.exponent) & 0xff);
     for (std::size_t k = 0; k < 3; ++k) out[(k + 1) * count + i] = static_cast<char>(off[k] & 0xff);
     out[4 * count + i] = static_cast<char>(off[0] >> 8 | off[1] >> 8 << 2 | off[2] >> 8 << 4);
-    before = w;
+    before = now;
   }
   return out;
 }

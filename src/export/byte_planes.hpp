@@ -17,6 +17,8 @@ std::string differencePlanes(std::span<const std::int32_t> numbers);
 ///
 /// (rounded, at most 511), signs folded in: lowest bytes of red, green and blue, and their upper two bits each in one
 /// byte, red's lowest.
-std::string rgb9e5Planes(std::span<const std::uint32_t> words);
+///
+/// `slack`: by word, by how much its mantissas may come back otherwise, for the differences to be round (empty: 0).
+std::string rgb9e5Planes(std::span<const std::uint32_t> words, std::span<const std::uint8_t> slack = {});
 
 }  // namespace deltalux::exporting

@@ -80,9 +80,9 @@ void exportPage(const SolutionView& solution, const std::filesystem::path& path,
   page.ev = settings.ev ? *settings.ev : exposureOf(solution, page.views);
   const std::vector<SolutionMesh> meshes = readGroups(solution, groups, settings, page, progress);
   page.mesh = pageMesh(groups, meshes);
-  for (const SolutionMesh& mesh : meshes) {
-    page.layers.push_back(pageLayer(page.mesh, mesh));
-    page.caustics.push_back(pageCaustics(page.mesh, mesh));
+  for (std::size_t g = 0; g < meshes.size(); ++g) {
+    page.layers.push_back(pageLayer(page.mesh, g, meshes[g]));
+    page.caustics.push_back(pageCaustics(page.mesh, meshes[g]));
   }
   simplify(page.mesh, page.layers, {kShareOfError * solution.settings().error}, sidesUnderTextures(page.mesh, meshes));
   widenSides(page.mesh, kOverlap / scene.metresPerUnit);

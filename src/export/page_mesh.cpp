@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deltalux/error.hpp>
 #include <map>
+#include <numeric>
 
 namespace deltalux::exporting {
 
@@ -13,10 +14,41 @@ using Kind = PageDraw::Kind;
 constexpr double kMirrorArea = 0.05;        // of a flat mirror that gets a picture of its own, at least [m2] [shown]
 constexpr double kMirrorReflectance = 0.3;  // the same; below it is drawn like gloss [shown]
 
+/// The same triangles in the same order, whichever vertices they share.
 bool sameShape(const SurfaceMesh& a, const SurfaceMesh& b) {
-  return a.triangles == b.triangles && std::ranges::equal(a.vertices, b.vertices, [](const auto& v, const auto& w) {
-           return v.position == w.position;
-         });
+  return std::ranges::equal(a.triangles, b.triangles, [&](std::uint32_t v, std::uint32_t w) {
+    return a.vertices[v].position == b.vertices[w].position;
+  });
+}
+
+/// A side's vertices that are told apart in any group's mesh.
+struct SharedVertices {
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::vector<std::uint32_t>> of;  // by group and vertex: the group's own
+};
+
+SharedVertices sharedVertices(const std::vector<SolutionMesh>& meshes, std::size_t side) {
+  SharedVertices shared{meshes.front().surfaces[side]->triangles, {{}}};
+  shared.of[0].resize(meshes.front().surfaces[side]->vertices.size());
+  std::iota(shared.of[0].begin(), shared.of[0].end(), 0u);
+  for (std::size_t g = 1; g < meshes.size(); ++g) {
+    const std::vector<std::uint32_t>& own = meshes[g].surfaces[side]->triangles;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs(own.size());
+    for (std::size_t i = 0; i < own.size(); ++i) pairs[i] = {shared.triangles[i], own[i]};
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> known = pairs;
+    std::ranges::sort(known);
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+    for (std::size_t i = 0; i < own.size(); ++i)
+      shared.triangles[i] = static_cast<std::uint32_t>(std::ranges::lower_bound(known, pairs[i]) - known.begin());
+    for (std::vector<std::uint32_t>& vertices : shared.of) {
+      std::vector<std::uint32_t> now;
+      for (const auto& pair : known) now.push_back(vertices[pair.first]);
+      vertices = std::move(now);
+    }
+    shared.of.emplace_back();
+    for (const auto& pair : known) shared.of.back().push_back(pair.second);
+  }
+  return shared;
 }
 
 bool sameShape(const SolutionMesh& a, const SolutionMesh& b) {
@@ -101,9 +133,14 @@ class Builder {
   };
 
   void addSide(std::size_t s, const SurfaceMesh& side) {
+    SharedVertices shared = sharedVertices(meshes_, s);
     const PageMesh::Side placed{static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(page_.vertices.size()),
-                                static_cast<std::uint32_t>(side.vertices.size()), materialAt(s, side)};
-    page_.vertices.insert(page_.vertices.end(), side.vertices.begin(), side.vertices.end());
+                                static_cast<std::uint32_t>(shared.of[0].size()), materialAt(s, side)};
+    for (const std::uint32_t v : shared.of[0]) page_.vertices.push_back(side.vertices[v]);
+    page_.source.resize(meshes_.size());
+    for (std::size_t g = 0; g < meshes_.size(); ++g)
+      page_.source[g].insert(page_.source[g].end(), shared.of[g].begin(), shared.of[g].end());
+    triangles_.push_back(std::move(shared.triangles));
     const std::size_t number = page_.sides.size();
     page_.sides.push_back(placed);
     const std::optional<PagePane> pane = paneOf(scene_.materialOf(side.primitive));
@@ -130,8 +167,7 @@ class Builder {
     draw.first = static_cast<std::uint32_t>(page_.triangles.size());
     for (const std::size_t number : sides) {
       const PageMesh::Side& placed = page_.sides[number];
-      for (const std::uint32_t i : meshes_.front().surfaces[placed.side]->triangles)
-        page_.triangles.push_back(placed.first + i);
+      for (const std::uint32_t i : triangles_[number]) page_.triangles.push_back(placed.first + i);
     }
     draw.count = static_cast<std::uint32_t>(page_.triangles.size()) - draw.first;
     page_.draws.push_back(std::move(draw));
@@ -167,6 +203,7 @@ class Builder {
   const Scene& scene_;
   const std::vector<std::optional<std::size_t>> emitters_;
   PageMesh page_;
+  std::vector<std::vector<std::uint32_t>> triangles_;  // by side of the page, numbered within it
   std::map<Key, std::size_t> known_;
   std::vector<std::pair<PageDraw, std::vector<std::size_t>>> draws_;
   std::vector<std::pair<PageDraw, std::size_t>> mirrors_;
@@ -185,11 +222,14 @@ PageMesh pageMesh(const std::vector<LightGroup>& groups, const std::vector<Solut
   return Builder(groups, meshes).build();
 }
 
-std::vector<Rgb> pageLayer(const PageMesh& page, const SolutionMesh& mesh) {
+std::vector<Rgb> pageLayer(const PageMesh& page, std::size_t group, const SolutionMesh& mesh) {
   std::vector<Rgb> light;
   light.reserve(page.vertices.size());
   for (const PageMesh::Side& side : page.sides)
-    for (const MeshVertex& v : mesh.surfaces[side.side]->vertices) light.push_back(v.direct + v.indirect + v.particle);
+    for (std::uint32_t i = side.first; i < side.first + side.count; ++i) {
+      const MeshVertex& v = mesh.surfaces[side.side]->vertices[page.source[group][i]];
+      light.push_back(v.direct + v.indirect + v.particle);
+    }
   return light;
 }
 

@@ -57,17 +57,21 @@ struct PageMesh {
     std::uint32_t first = 0, count = 0, material = 0;
   };
   std::vector<Side> sides;
-  std::vector<MeshVertex> vertices;      // without light
+  std::vector<MeshVertex> vertices;  // without light
+  std::vector<std::vector<std::uint32_t>>
+      source;                            // by group and vertex: the side's in the group's mesh; until simplify()
   std::vector<std::uint32_t> triangles;  // three indices each
   std::vector<PageDraw> draws;
   std::vector<PageMaterial> materials;
   std::vector<PageEmission> emission;
 };
 
-/// `meshes`: by group of lights, those of lightOf(). Throws InputError where they are not of one shape.
+/// `meshes`: by group of lights, those of lightOf(). Their triangles are the same; which of them share a vertex may
+/// differ, as light decides whether patches that something stands on do: in the page's mesh those share one that do so
+/// for every group. Throws InputError where they are not of one shape.
 PageMesh pageMesh(const std::vector<LightGroup>&, const std::vector<SolutionMesh>& meshes);
 
-/// Irradiance by vertex of the page's mesh, of one group's mesh [W/m2].
-std::vector<Rgb> pageLayer(const PageMesh&, const SolutionMesh&);
+/// Irradiance by vertex of the page's mesh as it was built, of a group and its mesh [W/m2].
+std::vector<Rgb> pageLayer(const PageMesh&, std::size_t group, const SolutionMesh&);
 
 }  // namespace deltalux::exporting

@@ -307,6 +307,7 @@ void simplify(PageMesh& mesh, std::vector<std::vector<Rgb>>& layers, const Light
   for (auto& layer : layers) keep(layer);
   for (std::uint32_t& v : triangles) v = number[v];
   mesh.triangles = std::move(triangles);
+  mesh.source.clear();
 }
 
 std::vector<char> sidesUnderTextures(const PageMesh& mesh, const std::vector<SolutionMesh>& groups) {

@@ -74,7 +74,7 @@ TEST(PageMesh, RadianceCountsForTheGroupThatSendsIt) {
 TEST(PageMesh, LayersAreTheVerticesLight) {
   const TwoGroups two(test::oneOfEverything());
   const PageMesh page = pageMesh(two.groups, two.meshes);
-  const std::vector<Rgb> layer = pageLayer(page, two.meshes[1]);
+  const std::vector<Rgb> layer = pageLayer(page, 1, two.meshes[1]);
   ASSERT_EQ(layer.size(), page.vertices.size());
   for (const PageMesh::Side& side : page.sides) {
     const SurfaceMesh& mesh = *two.meshes[1].surfaces[side.side];
@@ -85,6 +85,29 @@ TEST(PageMesh, LayersAreTheVerticesLight) {
       EXPECT_EQ(page.vertices[side.first + i].position, v.position);
     }
   }
+}
+
+TEST(PageMesh, VerticesAreSharedWhereEveryGroupSharesThem) {
+  TwoGroups two(test::oneOfEverything());
+  const auto at =
+      std::ranges::find_if(two.meshes[1].surfaces, [](const auto& s) { return s && s->triangles.size() > 6; });
+  // In the second group's mesh a corner has a vertex of its own, in other light.
+  auto other = std::make_shared<SurfaceMesh>(**at);
+  const std::uint32_t corner = other->triangles[0];
+  const auto uses = std::ranges::count(other->triangles, corner);
+  other->triangles[0] = static_cast<std::uint32_t>(other->vertices.size());
+  other->vertices.push_back(other->vertices[corner]);
+  other->vertices.back().direct += Rgb(5.0f);
+  *at = other;
+  const PageMesh page = pageMesh(two.groups, two.meshes);
+  const std::vector<Rgb> first = pageLayer(page, 0, two.meshes[0]), second = pageLayer(page, 1, two.meshes[1]);
+  const auto side =
+      std::ranges::find(page.sides, std::uint32_t(at - two.meshes[1].surfaces.begin()), &PageMesh::Side::side);
+  ASSERT_NE(side, page.sides.end());
+  EXPECT_EQ(side->count, other->vertices.size() - (uses == 1 ? 1 : 0));
+  std::size_t differ = 0;
+  for (std::size_t v = 0; v < first.size(); ++v) differ += glm::length(second[v] - first[v]) > 4.0f;
+  EXPECT_EQ(differ, 1u);
 }
 
 TEST(PageMesh, GroupsOfDifferentMeshesAreOneError) {
