@@ -20,6 +20,7 @@ async function start() {
   const payload = await readPayload(byId('solution')), { header } = payload;
   document.title = `${header.title} - deltalux`;
   const mesh = unpackMesh(payload), relight = Relight.of(payload);
+  performance.mark('unpacked');
   const stage = byId('stage'), drawing = new Drawing(payload, mesh, relight, stage), grids = new Grids(payload);
   const marks = grids.count ? new Marks(grids, header) : null;
   const initial = header.groups.map(initialDimmer), said = readHash(location.hash);
@@ -33,7 +34,7 @@ async function start() {
 
   let waiting = false, meter = null, panel = null, pointer = null;
   function redraw() {
-    if (waiting) return;
+    if (waiting || !panel) return;
     waiting = true;
     requestAnimationFrame(() => {
       waiting = false;
@@ -185,7 +186,9 @@ async function start() {
   relight.setWeights(weights());
   drawing.takeWeights();
   goTo(said.view ?? header.views[0] ?? header.overview);
-  drawNow();
+  performance.mark('prepared');
+  drawing.lookRound();
+  drawing.draw({ ...state }, 0);  // mirrors follow
   byId('message').remove();
   performance.mark('first-picture');
 

@@ -3,7 +3,8 @@
 // header.sections: name -> [offset from the end of the zeros, bytes].
 
 async function inflate(base64) {
-  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+  const text = atob(base64), bytes = new Uint8Array(text.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = text.charCodeAt(i);
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
   return new Response(stream).arrayBuffer();
 }
@@ -12,7 +13,9 @@ async function inflate(base64) {
 export async function readPayload(element) {
   const text = element.textContent.trim();
   if (text.startsWith('@')) throw new Error('This is the empty template: deltalux export puts a solution into it.');
+  performance.mark('found');
   const buffer = await inflate(text);
+  performance.mark('inflated');
   element.textContent = '';
   const length = new DataView(buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
