@@ -15,7 +15,6 @@ void addRenderCommand(CLI::App&);
 void addExportCommand(CLI::App&);
 void addReferenceCommand(CLI::App&);
 void addDesignCommand(CLI::App&);
-void addExportCommand(CLI::App&);
 #ifdef DELTALUX_VIEWER
 void addViewCommand(CLI::App&);
 #endif
@@ -31,7 +30,6 @@ inline void addCommands(CLI::App& app) {
   addExportCommand(app);
   addReferenceCommand(app);
   addDesignCommand(app);
-  addExportCommand(app);
 #ifdef DELTALUX_VIEWER
   addViewCommand(app);
 #endif
