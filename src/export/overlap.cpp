@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kLongest = 2;  // of a corner's way, over the width [shown]
 
-using Place = std::tuple<float, float, float>;
-Place placeOf(const MeshVertex& v) { return {v.position.x, v.position.y, v.position.z}; }
+using Point = std::tuple<float, float, float>;
+Point pointOf(const MeshVertex& v) { return {v.position.x, v.position.y, v.position.z}; }
 
 /// Outward directions of the outline's edges at a point of it.
 struct Outward {
@@ -32,21 +32,21 @@ struct Outward {
 
 void widen(PageMesh& mesh, const PageMesh::Side& side, const std::vector<std::array<std::uint32_t, 3>>& triangles,
            double width) {
-  std::map<std::pair<Place, Place>, std::pair<int, Vec3>> edges;  // how often, and outwards
+  std::map<std::pair<Point, Point>, std::pair<int, Vec3>> edges;  // how often, and outwards
   for (const auto& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 a(mesh.vertices[t[k]].position), b(mesh.vertices[t[(k + 1) % 3]].position),
           c(mesh.vertices[t[(k + 2) % 3]].position);
       const Vec3 outward = glm::cross(b - a, glm::cross(b - a, c - a));
       const double length = glm::length(outward);
-      auto& edge = edges[std::minmax({placeOf(mesh.vertices[t[k]]), placeOf(mesh.vertices[t[(k + 1) % 3]])})];
+      auto& edge = edges[std::minmax({pointOf(mesh.vertices[t[k]]), pointOf(mesh.vertices[t[(k + 1) % 3]])})];
       ++edge.first, edge.second = length > 0 ? outward / length : Vec3(0);
     }
-  std::map<Place, Outward> points;
+  std::map<Point, Outward> points;
   for (const auto& [ends, edge] : edges)
     if (edge.first == 1) points[ends.first].add(edge.second), points[ends.second].add(edge.second);
   for (std::uint32_t v = side.first; v < side.first + side.count; ++v) {
-    const auto at = points.find(placeOf(mesh.vertices[v]));
+    const auto at = points.find(pointOf(mesh.vertices[v]));
     if (at != points.end()) mesh.vertices[v].position += Vec3f(width * at->second.offset());
   }
 }

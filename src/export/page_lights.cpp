@@ -6,11 +6,11 @@ namespace deltalux::exporting {
 
 namespace {
 
-using Kind = PageGroup::Kind;
+using LightKind = PageGroup::Kind;
 
-Kind kindOf(const Light& light) {
-  if (std::holds_alternative<SunLight>(light.emitter)) return Kind::Sun;
-  return std::holds_alternative<DomeLight>(light.emitter) ? Kind::Sky : Kind::Lamp;
+LightKind kindOf(const Light& light) {
+  if (std::holds_alternative<SunLight>(light.emitter)) return LightKind::Sun;
+  return std::holds_alternative<DomeLight>(light.emitter) ? LightKind::Sky : LightKind::Lamp;
 }
 
 /// About what a light sends, at scale 1: flux of lamps [W], of suns and skies irradiance [W/m2].
@@ -45,7 +45,7 @@ bool isSwitchedOff(const Scene& scene, LightId light) {
 std::vector<PageGroup> pageGroups(const Scene& scene, const std::vector<LightGroup>& groups, bool present) {
   std::vector<PageGroup> out;
   for (const LightGroup& group : groups) {
-    PageGroup page{group.name, Kind::Lamp, Rgb(1.0f), Rgb(0.0f), {}};
+    PageGroup page{group.name, LightKind::Lamp, Rgb(1.0f), Rgb(0.0f), {}};
     for (const LightId id : group.lights) {
       const Light& light = scene[id];
       page.colour += (present ? light.scale : Rgb(1.0f)) * std::visit(Sent{scene}, light.emitter);
@@ -53,9 +53,9 @@ std::vector<PageGroup> pageGroups(const Scene& scene, const std::vector<LightGro
         page.lights.push_back({light.name, present ? light.scale : Rgb(1.0f), isSwitchedOff(scene, id)});
     }
     if (!group.lights.empty()) {
-      const Kind first = kindOf(scene[group.lights.front()]);
+      const LightKind first = kindOf(scene[group.lights.front()]);
       const bool same = std::ranges::all_of(group.lights, [&](LightId l) { return kindOf(scene[l]) == first; });
-      page.kind = same ? first : Kind::Lamp;
+      page.kind = same ? first : LightKind::Lamp;
       if (!present) page.weight = scene[group.lights.front()].scale;
     }
     page.colour = maxChannel(page.colour) > 0 ? page.colour / maxChannel(page.colour) : Rgb(1.0f);

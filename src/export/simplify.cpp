@@ -19,7 +19,7 @@ constexpr double kBend = 0.003;       // of a side's size: how far curved surfac
 constexpr double kSameNormal = 0.99;  // cosine between normals of vertices that may be one [shown]
 constexpr double kTurn = 0.7;         // cosine between a triangle and its neighbourhood, at least [shown]
 constexpr double kSliver = 1e-3;      // twice a triangle's area over that size squared, at least [rounding]
-constexpr float kFaint = 0.01f;       // of all light at a point: a group's below it is not told apart from it [shown]
+constexpr float kLeastShare = 0.01f;  // of all light at a point: a group's below it is not told apart from it [shown]
 
 struct Triangle {
   std::array<std::uint32_t, 3> corners{kNone, kNone, kNone};
@@ -152,7 +152,7 @@ class SideMesh {
     for (const auto& layer : layers_) total += layer[v].r + layer[v].g + layer[v].b;
     for (const auto& layer : layers_) {
       const Rgb off = w.x * layer[c[0]] + w.y * layer[c[1]] + w.z * layer[c[2]] - layer[v];
-      const float allowed = tolerance_ * std::max(layer[v].r + layer[v].g + layer[v].b, kFaint * total);
+      const float allowed = tolerance_ * std::max(layer[v].r + layer[v].g + layer[v].b, kLeastShare * total);
       const float is = std::abs(off.r) + std::abs(off.g) + std::abs(off.b);
       if (is > 0) most = std::max(most, allowed > 0 ? is / allowed : std::numeric_limits<float>::infinity());
     }
