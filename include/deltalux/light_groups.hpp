@@ -26,8 +26,8 @@ std::vector<LightGroup> lightGroups(const SolutionView&);
 /// The solution as a group's lights alone make it, at scale 1: white, undimmed, all others off. (Lights of one group
 /// that were not dimmed alike when it was solved keep the scales that they had then.) Where the solution was
 /// not solved by light, the only group is all of it as it is. To be read like any other solution (SolutionReader,
-/// probe, render); its mesh, and the vertices of its SolutionMesh, are those of the whole. Cost: a copy of the patches.
-/// Precondition: group < lightGroups().size().
+/// probe, render); its mesh, and the vertices of its SolutionMesh, are those of the whole. Cost: a copy of the
+/// solution. Precondition: group < lightGroups().size().
 SolutionView lightOf(const SolutionView&, std::size_t group);
 
 }  // namespace deltalux

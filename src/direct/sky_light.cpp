@@ -71,10 +71,10 @@ Skies::Skies(const Scene& scene) {
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (std::holds_alternative<DomeLight>(scene.lights[i].emitter) && !isBlack(nominal[i])) which.push_back(i);
   if (which.empty()) return;
-  const bool alike = std::ranges::all_of(which, [&](std::size_t i) { return dimmed[i] == dimmed[which.front()]; });
-  if (alike) dimming_ = dimmed[which.front()];
+  alike_ = std::ranges::all_of(which, [&](std::size_t i) { return dimmed[i] == dimmed[which.front()]; });
+  if (alike_) dimming_ = dimmed[which.front()];
   for (const std::size_t i : which)
-    domes_.push_back({std::get<DomeLight>(scene.lights[i].emitter), alike ? nominal[i] : scene.lights[i].scale});
+    domes_.push_back({std::get<DomeLight>(scene.lights[i].emitter), alike_ ? nominal[i] : scene.lights[i].scale});
   for (int cell = 0; cell < SkyCells::kCount; ++cell)
     for (const double corner : {0.25, 0.75}) add(key_, radiance(SkyCells::direction(cell, corner, corner)));
   for (int cell = 0; cell < SkyCells::kCount; ++cell)

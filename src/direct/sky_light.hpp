@@ -28,6 +28,7 @@ class Skies {
   bool empty() const { return domes_.empty(); }
   /// What their light is to be multiplied by.
   const Rgb& dimming() const { return dimming_; }
+  bool dimmedAlike() const { return alike_; }
   Rgb radiance(const Vec3f& direction) const;
   /// Greatest gray radiance of a few directions of a cell.
   float strength(int cell) const { return strength_[static_cast<std::size_t>(cell)]; }
@@ -43,6 +44,7 @@ class Skies {
   std::array<float, SkyCells::kCount> strength_{};
   std::uint64_t key_ = 0;
   Rgb dimming_{1.0f};
+  bool alike_ = true;
 };
 
 /// Visibility estimates by guide: shares of lines into each cell that escape, in octaves.

@@ -25,19 +25,14 @@ std::vector<Rgb> columnScales(const Scene& scene, const LightGroup& group) {
 }
 
 /// What a column's lights send of what samples took them for, by its scales of all lights.
-Dimming dimmingOf(const Scene& scene, const std::vector<Rgb>& scales, const std::vector<Rgb>& nominal) {
+Dimming dimmingOf(const LightParts& parts, const Scene& scene, const std::vector<Rgb>& scales) {
   Dimming dimming{std::vector<Rgb>(scales.size(), Rgb(0.0f)), Rgb(0.0f)};
   for (std::size_t i = 0; i < scales.size(); ++i) {
-    if (isBlack(nominal[i])) continue;
-    dimming.lights[i] = scales[i] / nominal[i];
-    if (!std::holds_alternative<DomeLight>(scene.lights[i].emitter)) continue;
+    if (isBlack(parts.nominal[i]) || isBlack(scales[i])) continue;
+    dimming.lights[i] = scales[i] / parts.nominal[i];
     // Skies that are not dimmed alike were taken for what they are, and so they are in their column.
-    const bool alike = std::ranges::all_of(scene.lights, [&](const Light& other) {
-      const auto k = static_cast<std::size_t>(&other - scene.lights.data());
-      return !std::holds_alternative<DomeLight>(other.emitter) || isBlack(nominal[k]) ||
-             other.scale / nominal[k] == scene.lights[i].scale / nominal[i];
-    });
-    if (!isBlack(scales[i])) dimming.skies = alike ? dimming.lights[i] : Rgb(1.0f);
+    if (std::holds_alternative<DomeLight>(scene.lights[i].emitter))
+      dimming.skies = parts.skies.dimmedAlike() ? dimming.lights[i] : Rgb(1.0f);
   }
   return dimming;
 }
@@ -51,7 +46,7 @@ LightColumn columnOf(Solution& s, const LightParts& parts, const LightGroup& gro
   const std::size_t n = parts.leaves.size();
   parallelFor(n, kColumnLeaves,
               [&](std::size_t i) { s.elements.radiometry[parts.leaves[i].index()].indirect = Rgb(0.0f); });
-  relight(s, parts.leaves, parts.exchange, parts.lamps, parts.sky, dimmingOf(s.scene, scales, parts.nominal),
+  relight(s, parts.leaves, parts.exchange, parts.lamps, parts.sky, dimmingOf(parts, s.scene, scales),
           lines::tuning::kConverged);
   hierarchy::pull(s.elements);
   column.direct.resize(n), column.indirect.resize(n), column.particle.resize(n), column.deviation = s.deviation;

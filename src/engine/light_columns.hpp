@@ -15,6 +15,7 @@ struct LightParts {
   lines::Exchange& exchange;
   const LampsOfLeaves& lamps;
   const KnownSky& sky;
+  const direct::Skies& skies;
   const std::vector<Rgb>& nominal;  // by light
   const particles::ParticleTransfer& transfer;
 };

@@ -70,7 +70,7 @@ bool traceParticles(Solution& s, const TimeBudget& budget) {
 void keepColumns(LineSolve& x, Progress* progress) {
   const hierarchy::LeafTable leaves(x.s.elements);
   if (!x.transfer) x.transfer.emplace(x.s.particles, x.s.elements, x.s.scene);
-  keepLightsApart(x.s, {leaves, *x.exchange, lampsOf(x.samples, x.dim, leaves), x.sky, x.nominal, *x.transfer},
+  keepLightsApart(x.s, {leaves, *x.exchange, lampsOf(x.samples, x.dim, leaves), x.sky, x.skies, x.nominal, *x.transfer},
                   progress);
 }
 

@@ -19,7 +19,9 @@ struct SceneUpdate {
   void add(const SceneUpdate&);
   /// Those that moved.
   std::vector<PrimitiveId> primitives() const;
-  bool empty() const { return moved.empty() && movedLights.empty() && dimmed.empty() && materials.empty(); }
+  /// Nothing but lights that send another power, if those.
+  bool dimsAlone() const { return moved.empty() && movedLights.empty() && materials.empty(); }
+  bool empty() const { return dimsAlone() && dimmed.empty(); }
 };
 
 /// The same where of all the places that something has been at only the first and the last count.

@@ -92,16 +92,16 @@ struct Engine::State {
   StepReport update(Progress* progress);
   /// Edits wait for the next update from now on.
   void takeIn(StepReport& step);
-  /// Of edits that have but dimmed lights, where the light of each group is kept apart: what each is multiplied by.
-  std::optional<std::vector<Rgb>> weightsAlone(const engine::SceneUpdate& edits) const;
-  /// The sum of these, then. [solution/light_columns.hpp]
-  void addUpColumns(const engine::SceneUpdate& edits, std::span<const Rgb> weights);
   /// What the solve before knows that edits leave as it was, for the next.
   void recall(const engine::SceneUpdate& edits);
+  /// Of edits that have but dimmed lights, where the light of each group is kept apart: what each is multiplied by.
+  std::optional<std::vector<Rgb>> weightsAlone(const engine::SceneUpdate& edits) const;
   /// Of edits that have but dimmed lights, by less than would change what they count for; nullopt of others.
   std::optional<engine::Dimming> dimmingAlone(const engine::SceneUpdate& edits) const;
-  /// The light over the lines there are, then: no ray is traced.
-  void relightOverLines(const engine::SceneUpdate& edits, const engine::Dimming&);
+  /// Takes such edits in: `light` writes the light of the elements, and no ray is traced.
+  void dim(const engine::SceneUpdate& edits, const std::function<void()>& light);
+  /// The light over the lines there are.
+  void relightOverLines(const engine::Dimming&);
   /// Retraces particles that edits have touched. [GD01 4]
   particles::ParticleUpdate followWithParticles(const SceneChange&, StepReport& step);
   /// Paths that were traced anew leave gaps.

@@ -46,9 +46,9 @@ StepReport Engine::State::update(Progress* progress) {
   if (byLines() || !engine::haveElements(s.elements, s.scene, taken) || outshines(taken)) {
     lineMotion.reset(), counts = {};
     if (const auto weights = weightsAlone(taken)) {
-      addUpColumns(taken, *weights);
+      dim(taken, [&] { addUp(*solution, *weights); });
     } else if (const auto dimming = dimmingAlone(taken)) {
-      relightOverLines(taken, *dimming);
+      dim(taken, [&] { relightOverLines(*dimming); });
     } else {
       recall(taken);
       if (!known) traced = 0;  // by a tracer of its own
@@ -73,8 +73,7 @@ void Engine::State::takeIn(StepReport& step) {
 
 std::optional<engine::Dimming> Engine::State::dimmingAlone(const engine::SceneUpdate& edits) const {
   const Solution& s = *solution;
-  if (!byLines() || !finished || !s.memory || !edits.moved.empty() || !edits.movedLights.empty() ||
-      !edits.materials.empty() || s.memory->nominal != scene::nominalScales(s.scene))
+  if (!byLines() || !finished || !s.memory || !edits.dimsAlone() || s.memory->nominal != scene::nominalScales(s.scene))
     return {};
   const direct::Skies skies(s.scene);
   if (skies.key() != s.memory->sky.skies) return {};
@@ -83,19 +82,18 @@ std::optional<engine::Dimming> Engine::State::dimmingAlone(const engine::SceneUp
 
 std::optional<std::vector<Rgb>> Engine::State::weightsAlone(const engine::SceneUpdate& edits) const {
   const Solution& s = *solution;
-  if (!finished || s.columns.empty() || !edits.moved.empty() || !edits.movedLights.empty() || !edits.materials.empty())
-    return {};
+  if (!finished || s.columns.empty() || !edits.dimsAlone()) return {};
   return weightsOf(s.columns, s.scene);
 }
 
-void Engine::State::addUpColumns(const engine::SceneUpdate& edits, std::span<const Rgb> weights) {
+void Engine::State::dim(const engine::SceneUpdate& edits, const std::function<void()>& light) {
   Solution& s = *solution;
   const engine::Clock time;
   for (const hierarchy::ElementId e : hierarchy::elementsOf(s.elements, edits.dimmed))
     hierarchy::setEmission(s.elements, s.scene, e);
   newPaths.reset();
   if (tracing) newPaths = followWithParticles(edits.whole, counts);
-  addUp(s, weights);
+  light();
   s.report.error = engine::estimateError(s);
   s.report.times = {};
   s.report.times.gather = time.seconds();
@@ -103,13 +101,8 @@ void Engine::State::addUpColumns(const engine::SceneUpdate& edits, std::span<con
   countLight();
 }
 
-void Engine::State::relightOverLines(const engine::SceneUpdate& edits, const engine::Dimming& dimming) {
+void Engine::State::relightOverLines(const engine::Dimming& dimming) {
   Solution& s = *solution;
-  const engine::Clock time;
-  for (const hierarchy::ElementId e : hierarchy::elementsOf(s.elements, edits.dimmed))
-    hierarchy::setEmission(s.elements, s.scene, e);
-  newPaths.reset();
-  if (tracing) newPaths = followWithParticles(edits.whole, counts);
   if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
   transfer->apply(s.elements, scene::scalesOf(s.scene));
   s.report.counts.iterations = 0;
@@ -118,11 +111,6 @@ void Engine::State::relightOverLines(const engine::SceneUpdate& edits, const eng
   engine::relight(s, leaves, *memory.exchange, engine::lampsOf(memory.samples, memory.dim, leaves), memory.sky, dimming,
                   lines::tuning::kConvergedAgain);
   hierarchy::pull(s.elements);
-  s.report.error = engine::estimateError(s);
-  s.report.times = {};
-  s.report.times.gather = time.seconds();
-  followTextures(counts);
-  countLight();
 }
 
 void Engine::State::recall(const engine::SceneUpdate& edits) {

@@ -37,27 +37,30 @@ bool isNamedBy(std::string_view name, std::string_view pattern) {
   return false;
 }
 
-/// The group that a light belongs to.
-std::string groupOf(const Light& light, const std::vector<LightPattern>& patterns, const std::string& skies) {
-  for (const LightPattern& p : patterns)
-    if (isNamedBy(light.name, p.pattern)) return p.group;
-  return isSky(light) ? skies : light.name;
+/// The group that a light belongs to: by itself, it is called as the light.
+const std::string& groupOf(const Light& light, const std::vector<LightPattern>& patterns) {
+  const auto of =
+      std::ranges::find_if(patterns, [&](const LightPattern& p) { return isNamedBy(light.name, p.pattern); });
+  return of == patterns.end() ? light.name : of->group;
+}
+
+std::vector<LightId> allLights(const Scene& scene) {
+  std::vector<LightId> all;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) all.emplace_back(i);
+  return all;
 }
 
 }  // namespace
 
 std::vector<LightGroup> groupsOf(const Scene& scene, const std::vector<LightPattern>& patterns) {
   // Skies are one group, whichever of them a pattern names.
-  std::string skies;
-  for (const Light& light : scene.lights)
-    if (isSky(light) && skies.empty()) skies = groupOf(light, patterns, light.name);
+  const auto sky = std::ranges::find_if(scene.lights, isSky);
   std::vector<LightGroup> groups;
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    const Light& light = scene.lights[i];
-    const std::string name = isSky(light) ? skies : groupOf(light, patterns, skies);
+  for (const LightId id : allLights(scene)) {
+    const std::string& name = groupOf(isSky(scene[id]) ? *sky : scene[id], patterns);
     auto at = std::ranges::find(groups, name, &LightGroup::name);
     if (at == groups.end()) at = groups.insert(groups.end(), {name, {}});
-    at->lights.emplace_back(i);
+    at->lights.push_back(id);
   }
   return groups;
 }
@@ -81,9 +84,8 @@ std::optional<std::vector<Rgb>> weightsOf(const LightColumns& columns, const Sce
 }
 
 std::vector<LightId> lightsMatching(const Scene& scene, std::string_view pattern) {
-  std::vector<LightId> found;
-  for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (isNamedBy(scene.lights[i].name, pattern)) found.emplace_back(i);
+  std::vector<LightId> found = allLights(scene);
+  std::erase_if(found, [&](LightId id) { return !isNamedBy(scene[id].name, pattern); });
   return found;
 }
 
@@ -144,9 +146,7 @@ void validate(const LightColumns& columns, const Scene& scene, std::size_t leave
 std::vector<LightGroup> lightGroups(const SolutionView& view) {
   const Solution& s = view.get();
   if (!s.columns.empty()) return s.columns.groups;
-  LightGroup all{"all", {}};
-  for (std::size_t i = 0; i < s.scene.lights.size(); ++i) all.lights.emplace_back(i);
-  return {all};
+  return {LightGroup{"all", allLights(s.scene)}};
 }
 
 SolutionView lightOf(const SolutionView& view, std::size_t group) {
@@ -155,14 +155,13 @@ SolutionView lightOf(const SolutionView& view, std::size_t group) {
   std::vector<Rgb> weights(alone->columns.of.size(), Rgb(0.0f));
   weights.at(group) = Rgb(1.0f);
   for (Light& light : alone->scene.lights) light.scale = Rgb(0.0f);
-  for (std::size_t i = 0; i < alone->columns.groups[group].lights.size(); ++i)
-    alone->scene.lights[alone->columns.groups[group].lights[i].index()].scale = alone->columns.of[group].scales[i];
+  const std::vector<LightId>& own = alone->columns.groups[group].lights;
+  for (std::size_t i = 0; i < own.size(); ++i)
+    alone->scene.lights[own[i].index()].scale = alone->columns.of[group].scales[i];
   addUp(*alone, weights);
   alone->caustics = alone->columns.of[group].caustics;
   alone->columns = {}, alone->memory.reset();
-  std::vector<LightId> lights;
-  for (std::size_t i = 0; i < alone->scene.lights.size(); ++i) lights.emplace_back(i);
-  for (const hierarchy::ElementId e : hierarchy::elementsOf(alone->elements, lights))
+  for (const hierarchy::ElementId e : hierarchy::elementsOf(alone->elements, allLights(alone->scene)))
     hierarchy::setEmission(alone->elements, alone->scene, e);
   return SolutionView(std::move(alone));
 }
