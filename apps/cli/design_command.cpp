@@ -20,10 +20,9 @@ namespace deltalux::cli {
 
 namespace {
 
-constexpr double kMet = 0.05;        // of a target: nearer than that it is met
-constexpr int kScan = 4, kNear = 8;  // positions that are tried all along a line, and about the best of them
-constexpr double kShareOfError = 0.25;
-constexpr int kMostSamples = 1 << 15;
+constexpr double kMet = 0.05;          // of a target: nearer than that it is met
+constexpr int kScan = 4, kNear = 8;    // positions that are tried all along a line, and about the best of them
+constexpr int kMostSamples = 1 << 15;  // lines or shadow rays of a point
 
 struct DesignOptions {
   SolutionSource source;
@@ -50,23 +49,23 @@ Along alongOf(const std::string& text) {
 
 /// The column `target` [lux].
 std::vector<double> targetsOf(const PointTable& table, const std::string& file) {
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    if (table.columns[i] != "target") continue;
-    std::vector<double> targets;
-    for (const std::vector<std::string>& row : table.rows) {
-      std::size_t used = 0;
-      double target = -1;
-      try {
-        target = std::stod(row[i], &used);
-      } catch (const std::exception&) {
-      }
-      if (used != row[i].size() || !std::isfinite(target) || target < 0)
-        throw InputError(file, 0, "'" + row[i] + "' is no illuminance", "the column 'target' is in lux, not negative");
-      targets.push_back(target);
+  const std::optional<std::size_t> column = table.column("target");
+  if (!column)
+    throw InputError(file, 0, "has no column 'target'", "add the illuminance [lux] that each point is to have");
+  std::vector<double> targets;
+  for (const std::vector<std::string>& row : table.rows) {
+    const std::string& field = row[*column];
+    std::size_t used = 0;
+    double target = -1;
+    try {
+      target = std::stod(field, &used);
+    } catch (const std::exception&) {
     }
-    return targets;
+    if (used != field.size() || !std::isfinite(target) || target < 0)
+      throw InputError(file, 0, "'" + field + "' is no illuminance", "the column 'target' is in lux, not negative");
+    targets.push_back(target);
   }
-  throw InputError(file, 0, "has no column 'target'", "add the illuminance [lux] that each point is to have");
+  return targets;
 }
 
 /// Nobody dims the sun.
@@ -77,55 +76,65 @@ bool isDaylight(const Scene& scene, const LightGroup& group) {
   });
 }
 
-/// What dims the lamps so. Parts come after what they are parts of, which a name also means.
-std::vector<ColourLight> editsThatDim(const SolutionView& solution, const std::vector<LightGroup>& groups,
-                                      const std::vector<double>& weights) {
-  std::vector<ColourLight> edits;
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    if (isDaylight(solution.scene(), groups[g])) continue;
-    const SolutionView alone = lightOf(solution, g);
-    for (const LightId light : groups[g].lights)
-      edits.push_back({solution.scene()[light].name, static_cast<float>(weights[g]) * alone.scene()[light].scale});
-  }
-  std::ranges::stable_sort(edits, {}, [](const ColourLight& e) { return e.light.size(); });
-  return edits;
-}
+/// Lamps that are dimmed together.
+struct Dimmer {
+  std::string name;
+  std::vector<ColourLight> undimmed;  // its lamps at their own scales
+};
 
 /// One arrangement of the lamps, and the best that dimming makes of it.
 struct Tried {
-  std::vector<LightGroup> groups;
-  Dimmed dimmed;
+  std::vector<Dimmer> dimmers;
+  Dimmed dimmed;      // of those; what is reached has the daylight in it
   double misses = 0;  // sum of squared differences [lux^2]
 };
+
+/// What dims the lamps so. Parts come after what they are parts of, which a name also means.
+std::vector<ColourLight> editsThatDim(const Tried& tried) {
+  std::vector<ColourLight> edits;
+  for (std::size_t d = 0; d < tried.dimmers.size(); ++d)
+    for (ColourLight edit : tried.dimmers[d].undimmed) {
+      edit.rgb *= static_cast<float>(tried.dimmed.weights[d]);
+      edits.push_back(std::move(edit));
+    }
+  std::ranges::stable_sort(edits, {}, [](const ColourLight& e) { return e.light.size(); });
+  return edits;
+}
 
 class Designer {
  public:
   Designer(Engine& engine, const PointTable& table, std::vector<double> targets, std::uint64_t seed, Progress& progress)
       : engine_(engine), table_(table), targets_(std::move(targets)), progress_(progress) {
-    settings_.error = kShareOfError * engine.solution().settings().error, settings_.maxSamples = kMostSamples;
+    settings_.error = meterError(engine.solution()), settings_.maxSamples = kMostSamples;
     settings_.seed = seed;
   }
 
   Tried dim() const {
     const SolutionView solution = engine_.solution();
-    Tried tried{lightGroups(solution), {}, 0};
-    std::vector<std::vector<double>> brings;
-    for (std::size_t g = 0; g < tried.groups.size(); ++g) {
-      brings.emplace_back();
-      for (const ProbeResult& r :
-           probe(lightOf(solution, g), pointsIn(solution.scene(), table_), settings_, &progress_))
-        brings.back().push_back(photometric(r.irradiance, solution.scene().luminousEfficacy));
-    }
-    std::vector<double> wanted = targets_, there(targets_.size(), 0.0);
-    for (std::size_t g = 0; g < tried.groups.size(); ++g) {
-      if (!isDaylight(solution.scene(), tried.groups[g])) continue;
-      const double weight = gray(solution.scene()[tried.groups[g].lights.front()].scale);
-      for (std::size_t p = 0; p < targets_.size(); ++p)
-        there[p] += weight * brings[g][p], wanted[p] -= weight * brings[g][p], brings[g][p] = 0;
+    const Scene& scene = solution.scene();
+    const std::vector<LightGroup> groups = lightGroups(solution);
+    const std::vector<ProbePoint> points = pointsIn(scene, table_);
+    Tried tried;
+    std::vector<std::vector<double>> brings;  // by dimmer
+    std::vector<double> daylight(points.size(), 0.0), wanted = targets_;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const SolutionView alone = lightOf(solution, g);
+      std::vector<double> lux;
+      for (const ProbeResult& r : probe(alone, points, settings_, &progress_))
+        lux.push_back(photometric(r.irradiance, scene.luminousEfficacy));
+      if (isDaylight(scene, groups[g])) {
+        const double weight = gray(scene[groups[g].lights.front()].scale);
+        for (std::size_t p = 0; p < points.size(); ++p) daylight[p] += weight * lux[p], wanted[p] -= weight * lux[p];
+        continue;
+      }
+      brings.push_back(std::move(lux));
+      Dimmer& dimmer = tried.dimmers.emplace_back(Dimmer{groups[g].name, {}});
+      for (const LightId light : groups[g].lights)
+        dimmer.undimmed.push_back({scene[light].name, alone.scene()[light].scale});
     }
     tried.dimmed = bestDimming(brings, wanted);
-    for (std::size_t p = 0; p < targets_.size(); ++p) {
-      const double off = (tried.dimmed.reached[p] += there[p]) - targets_[p];
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const double off = (tried.dimmed.reached[p] += daylight[p]) - targets_[p];
       tried.misses += off * off;
     }
     return tried;
@@ -169,16 +178,13 @@ class Designer {
 };
 
 std::string nameOf(const PointTable& table, std::size_t row) {
-  for (std::size_t i = 0; i < table.columns.size(); ++i)
-    if (table.columns[i] == "name") return table.rows[row][i];
-  return fmt::format("point {}", row + 1);
+  const std::optional<std::size_t> column = table.column("name");
+  return column ? table.rows[row][*column] : fmt::format("point {}", row + 1);
 }
 
-void describe(const Run& run, const Scene& scene, const Tried& tried, const PointTable& table,
-              const std::vector<double>& targets) {
-  for (std::size_t g = 0; g < tried.groups.size(); ++g)
-    if (!isDaylight(scene, tried.groups[g]))
-      run.say(fmt::format("{}: {:.3f}", tried.groups[g].name, tried.dimmed.weights[g]));
+void describe(const Run& run, const Tried& tried, const PointTable& table, const std::vector<double>& targets) {
+  for (std::size_t d = 0; d < tried.dimmers.size(); ++d)
+    run.say(fmt::format("{}: {:.3f}", tried.dimmers[d].name, tried.dimmed.weights[d]));
   std::size_t missed = 0;
   for (std::size_t p = 0; p < targets.size(); ++p) {
     const double reached = tried.dimmed.reached[p];
@@ -198,13 +204,13 @@ void runDesign(DesignOptions& options) {
   options.source.wantByLight();
   std::vector<EditStep> steps;
   Tried best;
-  Scene lit;
   {
     ProgressPrinter progress(options.run.progressStyle());
     Engine engine(options.source.load(run, options.run, progress, [&](const Scene& scene) {
-      lit = scene;
+      if (!along) return;
+      Scene lit = scene;
       addAreaLights(lit);
-      if (along) validateEdit(lit, MoveLight{along->light, along->most});
+      validateEdit(lit, MoveLight{along->light, along->most});
     }));
     Designer designer(engine, table, targets, options.run.seed, progress);
     if (along) {
@@ -216,13 +222,10 @@ void runDesign(DesignOptions& options) {
     } else {
       best = designer.dim();
     }
-    const SolutionView solution = engine.solution();
-    lit = solution.scene();
-    for (const ColourLight& edit : editsThatDim(solution, best.groups, best.dimmed.weights))
-      steps.emplace_back(Edit(edit));
+    for (const ColourLight& edit : editsThatDim(best)) steps.emplace_back(Edit(edit));
   }
   saveEdits(options.output, steps);
-  describe(run, lit, best, table, targets);
+  describe(run, best, table, targets);
   run.finish();
 }
 

@@ -17,8 +17,6 @@ namespace deltalux::cli {
 
 namespace {
 
-constexpr double kShareOfError = 0.25;  // standard error of a grid's point, over the error of the solution
-
 struct ExportOptions {
   SolutionSource source;
   RunOptions run;
@@ -54,11 +52,10 @@ void checkOptions(const ExportOptions& options, const CLI::App& command) {
 /// The table's points by what its column `grid` says, or all as one grid that is named like the file.
 std::vector<PageGrid> gridsOf(const Scene& scene, const PointTable& table, const std::string& file) {
   const std::vector<ProbePoint> points = pointsIn(scene, table);
-  const auto column = std::ranges::find(table.columns, "grid");
+  const std::optional<std::size_t> column = table.column("grid");
   std::vector<PageGrid> grids;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::string name = column == table.columns.end() ? std::filesystem::path(file).stem().string()
-                                                           : table.rows[i][column - table.columns.begin()];
+    const std::string name = column ? table.rows[i][*column] : std::filesystem::path(file).stem().string();
     auto at = std::ranges::find(grids, name, &PageGrid::name);
     if (at == grids.end()) at = grids.insert(grids.end(), {name, {}});
     at->points.push_back(points[i]);
@@ -78,7 +75,7 @@ void exportPage(const ExportOptions& options, Run& run) {
       if (settings.views.back().name.empty()) settings.views.back().name = std::filesystem::path(name).stem().string();
     }
   });
-  settings.meterError = kShareOfError * solution.settings().error;
+  settings.meterError = meterError(solution);
   if (table) settings.grids = gridsOf(solution.scene(), *table, options.points);
   settings.title = options.title.empty() ? std::filesystem::path(options.output).stem().string() : options.title;
   deltalux::exportPage(solution, options.output, settings, &progress);

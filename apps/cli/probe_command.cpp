@@ -12,8 +12,7 @@
 namespace deltalux::cli {
 
 namespace {
-constexpr double kShareOfError = 0.25;  // standard error of a reading, over the error that the solution was asked for
-constexpr int kMostSamples = 1 << 17;   // lines or shadow rays of a point
+constexpr int kMostSamples = 1 << 17;  // lines or shadow rays of a point
 
 struct ProbeOptions {
   SolutionSource source;
@@ -45,7 +44,7 @@ void runProbe(const ProbeOptions& options) {
   {
     ProgressPrinter progress(options.run.progressStyle());
     const SolutionView solution = options.source.load(run, options.run, progress);
-    settings.error = kShareOfError * solution.settings().error, settings.maxSamples = kMostSamples;
+    settings.error = meterError(solution), settings.maxSamples = kMostSamples;
     if (options.source.byLight()) {
       probeByLight(options, solution, table, settings, progress);
     } else {

@@ -140,6 +140,8 @@ Recording recordingOf(const SceneOptions& scene, const SolveOptions& solve, cons
   return recording;
 }
 
+double meterError(const SolutionView& solution) { return 0.25 * solution.settings().error; }
+
 void noteSolve(const SolveReport& solved, RunReport& report) {
   const double import = report.times.import;
   report.times = solved.times;

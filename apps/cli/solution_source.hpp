@@ -51,6 +51,9 @@ std::vector<const char*> sceneAndSolveOptions();
 /// What they say, as a recording without any step.
 Recording recordingOf(const SceneOptions&, const SolveOptions&, const RunOptions&);
 
+/// Relative standard error that readings of a solution are to have: a quarter of the error that it was solved to.
+double meterError(const SolutionView&);
+
 /// Adds what solving did to a run's report.
 void noteSolve(const SolveReport&, RunReport&);
 

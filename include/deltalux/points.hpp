@@ -2,6 +2,7 @@
 // Points files: where irradiance is asked for, and the same rows with the answers.
 #include <deltalux/probe.hpp>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,9 @@ struct PointTable {
   std::vector<std::string> columns;            // of the header row, trimmed
   std::vector<std::vector<std::string>> rows;  // fields verbatim (quotes included), as many as columns
   std::vector<ProbePoint> points;              // one per row, in the file's coordinates; normals are made unit
+
+  /// The number of the column of that name.
+  std::optional<std::size_t> column(std::string_view name) const;
 };
 
 /// Reads a points file. Lines that start with '#' and blank lines are skipped. Throws InputError with the line: a

@@ -131,6 +131,12 @@ std::string resultFields(const ProbeResult& result, double luminousEfficacy) {
 }
 }  // namespace
 
+std::optional<std::size_t> PointTable::column(std::string_view name) const {
+  const auto at = std::ranges::find(columns, name);
+  if (at == columns.end()) return std::nullopt;
+  return static_cast<std::size_t>(at - columns.begin());
+}
+
 PointTable parsePoints(std::string_view text, const std::string& fileName) {
   const io::PlainText plain(text, fileName);
   return Parser(plain.view(), fileName).parse();
