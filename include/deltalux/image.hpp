@@ -58,6 +58,8 @@ double automaticEv(const Image&);
 
 /// sRGB transfer function [IEC 61966-2-1], [0,1] -> [0,1].
 double encodeSrgb(double linear);
+/// Its inverse.
+double decodeSrgb(double encoded);
 
 struct FalseColorSettings {
   double top = 0;  // upper end of the scale [lux]; 0: the picture's 99.5th percentile, rounded up to 1, 2, 5, 10 ...

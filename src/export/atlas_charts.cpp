@@ -138,7 +138,7 @@ struct FlatTriangle {
 };
 
 /// Whether some line parts them but for `touch`.
-bool parted(const FlatTriangle& a, const FlatTriangle& b, double touch) {
+bool separated(const FlatTriangle& a, const FlatTriangle& b, double touch) {
   for (const FlatTriangle* t : {&a, &b})
     for (int i = 0; i < 3; ++i) {
       const Vec2 edge = t->corners[(i + 1) % 3] - t->corners[i];
@@ -170,7 +170,7 @@ bool coversItself(const AtlasChart& chart) {
   const BoxTree tree(boxes);
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     bool found = false;
-    tree.overlapping(boxes[i], [&](std::uint32_t j) { found = found || (j > i && !parted(all[i], all[j], touch)); });
+    tree.overlapping(boxes[i], [&](std::uint32_t j) { found = found || (j > i && !separated(all[i], all[j], touch)); });
     if (found) return true;
   }
   return false;

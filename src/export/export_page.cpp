@@ -1,10 +1,10 @@
 // A page of a solution: read once for each group of lights, packed, put into the template.
-#include <deltalux/error.hpp>
 #include <deltalux/export.hpp>
 #include <deltalux/light_groups.hpp>
 #include <deltalux/render.hpp>
 #include <deltalux/solution_reader.hpp>
 
+#include "export/advance.hpp"
 #include "export/overlap.hpp"
 #include "export/page_data.hpp"
 #include "export/page_html.hpp"
@@ -23,12 +23,6 @@ using namespace exporting;
 constexpr double kShareOfError = 0.5;  // of the solution's: what leaving vertices out may add [limit]
 constexpr double kOverlap = 3e-4;      // of sides over their outlines [m] [shown]
 constexpr int kExposureWidth = 96, kExposureHeight = 72;  // of the picture that the exposure is chosen from [shown]
-
-void tell(Progress* progress, double fraction) {
-  if (!progress) return;
-  if (progress->stopRequested()) throw Interrupted();
-  progress->report("export", fraction);
-}
 
 std::vector<View> viewsOf(const Scene& scene, const PageSettings& settings) {
   std::vector<View> views = settings.views;
@@ -58,7 +52,7 @@ std::vector<SolutionMesh> readGroups(const SolutionView& solution, const std::ve
     for (const ProbeResult& r : probe(solution, points, meters)) whole.emplace_back(r.irradiance);
   std::vector<SolutionMesh> meshes;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    tell(progress, static_cast<double>(g) / static_cast<double>(groups.size() + 1));
+    advance(progress, "export", static_cast<double>(g) / static_cast<double>(groups.size() + 1));
     SolutionReader reader(lightOf(solution, g));
     meshes.push_back(reader.mesh());
     if (!points.empty()) page.pointLight.push_back(groupAtPoints(reader, points, whole, meters));
@@ -87,9 +81,9 @@ void exportPage(const SolutionView& solution, const std::filesystem::path& path,
   simplify(page.mesh, page.layers, {kShareOfError * solution.settings().error}, sidesUnderTextures(page.mesh, meshes));
   widenSides(page.mesh, kOverlap / scene.metresPerUnit);
   page.skies = pageSkies(scene, groups, !page.byLight), page.suns = pageSuns(scene, groups, !page.byLight);
-  tell(progress, static_cast<double>(groups.size()) / static_cast<double>(groups.size() + 1));
+  advance(progress, "export", static_cast<double>(groups.size()) / static_cast<double>(groups.size() + 1));
   io::writeFile(path, pageHtml(pageTemplate(), pageBytes(page, scene)));
-  tell(progress, 1);
+  if (progress) progress->report("export", 1);
 }
 
 }  // namespace deltalux

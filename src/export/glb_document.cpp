@@ -1,10 +1,10 @@
 #include "export/glb_document.hpp"
 
-#include <deltalux/error.hpp>
 #include <deltalux/solution_reader.hpp>
 #include <memory>
 
 #include "base/check.hpp"
+#include "export/advance.hpp"
 #include "export/lightmap.hpp"
 #include "io/atomic_file.hpp"
 
@@ -22,12 +22,6 @@ void requireRanges(const GlbSettings& s) {
 }
 
 }  // namespace
-
-void advance(Progress* progress, const char* phase, double fraction) {
-  if (!progress) return;
-  progress->report(phase, fraction);
-  if (progress->stopRequested()) throw Interrupted();
-}
 
 ChartedMesh chartedMesh(const SolutionView& solution, const GlbSettings& settings, Progress* progress) {
   requireRanges(settings);

@@ -18,9 +18,6 @@ struct ChartedMesh {
 /// Throws Interrupted. Precondition: the settings are in their ranges.
 ChartedMesh chartedMesh(const SolutionView&, const GlbSettings&, Progress*);
 
-/// Reports, and throws Interrupted when asked to stop.
-void advance(Progress*, const char* phase, double fraction);
-
 /// glTF's `asset`, whose extras say where the origin lies and what the numbers mean.
 GlbJson assetOf(const Scene&);
 

@@ -7,11 +7,13 @@
 #include <map>
 #include <tuple>
 
+#include "export/advance.hpp"
 #include "export/glb_document.hpp"
 #include "export/glb_images.hpp"
 #include "export/glb_material.hpp"
 #include "export/lightmap.hpp"
 #include "io/image/formats.hpp"
+#include "scene/texture_tint.hpp"
 
 namespace deltalux {
 
@@ -67,10 +69,8 @@ class LitMaterials {
 
   std::size_t add(const SurfaceMesh& side, std::optional<std::uint32_t> page) {
     GlbJson json = litMaterial(glb_, scene_, side);
-    const auto* opaque = std::get_if<Opaque>(&scene_.materialOf(side.primitive).surface);
-    const auto* mesh = std::get_if<Mesh>(&scene_[side.primitive].shape);
-    if (opaque && opaque->diffuseTexture.valid() && mesh && !mesh->texcoords.empty())
-      json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", textureOf(opaque->diffuseTexture)}};
+    if (const TextureId texture = scene::diffuseTexture(scene_, side.primitive); texture.valid())
+      json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", textureOf(texture)}};
     if (page) {
       json["extensions"]["MOZ_lightmap"] = {
           {"index", lightmaps_.textures[*page]}, {"texCoord", 1}, {"intensity", lightmaps_.whites[*page]}};
@@ -155,29 +155,29 @@ void addGroupFiles(std::vector<FileBytes>& files, const SolutionView& solution, 
   }
 }
 
+GlbReport exportLit(const SolutionView& solution, const std::filesystem::path& path, const GlbSettings& settings,
+                    bool byLight, Progress* progress) {
+  const ChartedMesh charted = chartedMesh(solution, settings, progress);
+  advance(progress, "light", 0);
+  GeometryCounts counts;
+  std::vector<FileBytes> files = litFiles(charted, path, settings, counts);
+  if (byLight) addGroupFiles(files, solution, charted, path, progress);
+  writeAll(files);
+  return reportOf(charted, counts, files);
+}
+
 }  // namespace
 
 }  // namespace exporting
 
 GlbReport exportGlb(const SolutionView& solution, const std::filesystem::path& path, const GlbSettings& settings,
                     Progress* progress) {
-  const exporting::ChartedMesh charted = exporting::chartedMesh(solution, settings, progress);
-  exporting::advance(progress, "light", 0);
-  exporting::GeometryCounts counts;
-  const std::vector<exporting::FileBytes> files = exporting::litFiles(charted, path, settings, counts);
-  exporting::writeAll(files);
-  return exporting::reportOf(charted, counts, files);
+  return exporting::exportLit(solution, path, settings, false, progress);
 }
 
 GlbReport exportGlbByLight(const SolutionView& solution, const std::filesystem::path& path, const GlbSettings& settings,
                            Progress* progress) {
-  const exporting::ChartedMesh charted = exporting::chartedMesh(solution, settings, progress);
-  exporting::advance(progress, "light", 0);
-  exporting::GeometryCounts counts;
-  std::vector<exporting::FileBytes> files = exporting::litFiles(charted, path, settings, counts);
-  exporting::addGroupFiles(files, solution, charted, path, progress);
-  exporting::writeAll(files);
-  return exporting::reportOf(charted, counts, files);
+  return exporting::exportLit(solution, path, settings, true, progress);
 }
 
 }  // namespace deltalux

@@ -5,11 +5,13 @@
 #include <memory>
 #include <tuple>
 
+#include "export/advance.hpp"
 #include "export/glb_document.hpp"
 #include "export/glb_images.hpp"
 #include "export/glb_material.hpp"
 #include "export/lightmap.hpp"
 #include "export/lightmap_side_light.hpp"
+#include "scene/texture_tint.hpp"
 
 namespace deltalux {
 
@@ -45,12 +47,11 @@ class LightBehind {
 
 /// rho of a side with its texture, if it has one.
 Rgb albedoAt(const Scene& scene, const BakedTexel& t) {
-  const auto* opaque = std::get_if<Opaque>(&scene.materialOf(t.side.primitive).surface);
-  const auto* mesh = std::get_if<Mesh>(&scene[t.side.primitive].shape);
-  if (!opaque || !opaque->diffuseTexture.valid() || !mesh || mesh->texcoords.empty()) return t.side.albedo;
+  const TextureId texture = scene::diffuseTexture(scene, t.side.primitive);
+  if (!texture.valid()) return t.side.albedo;
   const glm::vec2 uv = within(t.side.vertices[t.corners[0]].uv, t.side.vertices[t.corners[1]].uv,
                               t.side.vertices[t.corners[2]].uv, t.texel.nearest);
-  return t.side.albedo * scene.textures[opaque->diffuseTexture.index()].sample(Vec2(uv));
+  return t.side.albedo * scene.textures[texture.index()].sample(Vec2(uv));
 }
 
 std::vector<Image> radiancePages(const ChartedMesh& charted) {
@@ -65,10 +66,6 @@ double exposureFor(const std::vector<Image>& pages) {
   Image all;
   for (const Image& p : pages) all.pixels.insert(all.pixels.end(), p.pixels.begin(), p.pixels.end());
   return automaticEv(all);
-}
-
-double decodeSrgb(double encoded) {  // [IEC 61966-2-1]
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
 /// A colour as the tone mapping has it, linear.

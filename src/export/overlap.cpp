@@ -30,8 +30,7 @@ struct Outward {
   }
 };
 
-void widen(PageMesh& mesh, const PageMesh::Side& side, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-           double width) {
+void widen(PageMesh& mesh, const PageMesh::Side& side, const SideTriangles& triangles, double width) {
   std::map<std::pair<Point, Point>, std::pair<int, Vec3>> edges;  // how often, and outwards
   for (const auto& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -54,15 +53,7 @@ void widen(PageMesh& mesh, const PageMesh::Side& side, const std::vector<std::ar
 }  // namespace
 
 void widenSides(PageMesh& mesh, double width) {
-  std::vector<std::uint32_t> sideOf(mesh.vertices.size());
-  for (std::uint32_t s = 0; s < mesh.sides.size(); ++s)
-    std::fill_n(sideOf.begin() + mesh.sides[s].first, mesh.sides[s].count, s);
-  std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles(mesh.sides.size());
-  for (const PageDraw& d : mesh.draws)
-    if (d.kind != PageDraw::Kind::Behind)
-      for (std::uint32_t i = d.first; i < d.first + d.count; i += 3)
-        triangles[sideOf[mesh.triangles[i]]].push_back(
-            {mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]});
+  const std::vector<SideTriangles> triangles = trianglesOfSides(mesh);
   parallelFor(mesh.sides.size(), 1, [&](std::size_t s) { widen(mesh, mesh.sides[s], triangles[s], width); });
 }
 

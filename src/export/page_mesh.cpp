@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "scene/texture_tint.hpp"
+
 namespace deltalux::exporting {
 
 namespace {
@@ -94,12 +96,6 @@ std::optional<PageMirror> mirrorOf(const Scene& scene, PrimitiveId p, bool front
   return PageMirror{glm::dvec4(n, glm::dot(n, polygon->origin)), polygon->vertices};
 }
 
-TextureId textureOf(const Scene& scene, PrimitiveId p) {
-  const auto* opaque = std::get_if<Opaque>(&scene.materialOf(p).surface);
-  const auto* mesh = std::get_if<Mesh>(&scene[p].shape);
-  return opaque && mesh && !mesh->texcoords.empty() ? opaque->diffuseTexture : TextureId();
-}
-
 /// By primitive: the group that its emission belongs to.
 std::vector<std::optional<std::size_t>> emitters(const Scene& scene, const std::vector<LightGroup>& groups) {
   std::vector<std::optional<std::size_t>> of(scene.primitives.size());
@@ -144,7 +140,7 @@ class Builder {
     const std::size_t number = page_.sides.size();
     page_.sides.push_back(placed);
     const std::optional<PagePane> pane = paneOf(scene_.materialOf(side.primitive));
-    const TextureId texture = textureOf(scene_, side.primitive);
+    const TextureId texture = scene::diffuseTexture(scene_, side.primitive);
     const auto mirror = mirrorOf(scene_, side.primitive, side.front);
     if (mirror && !pane)
       mirrors_.push_back({PageDraw{Kind::Mirror, {}, {}, mirror, 0, 0}, number});
@@ -231,6 +227,24 @@ std::vector<Rgb> pageLayer(const PageMesh& page, std::size_t group, const Soluti
       light.push_back(v.direct + v.indirect + v.particle);
     }
   return light;
+}
+
+std::vector<std::uint32_t> sideOfVertices(const PageMesh& mesh) {
+  std::vector<std::uint32_t> of(mesh.vertices.size());
+  for (std::uint32_t s = 0; s < mesh.sides.size(); ++s)
+    std::fill_n(of.begin() + mesh.sides[s].first, mesh.sides[s].count, s);
+  return of;
+}
+
+std::vector<SideTriangles> trianglesOfSides(const PageMesh& mesh) {
+  const std::vector<std::uint32_t> sideOf = sideOfVertices(mesh);
+  std::vector<SideTriangles> triangles(mesh.sides.size());
+  for (const PageDraw& d : mesh.draws)
+    if (d.kind != PageDraw::Kind::Behind)
+      for (std::uint32_t i = d.first; i < d.first + d.count; i += 3)
+        triangles[sideOf[mesh.triangles[i]]].push_back(
+            {mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]});
+  return triangles;
 }
 
 }  // namespace deltalux::exporting

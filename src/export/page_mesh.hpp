@@ -71,6 +71,12 @@ struct PageMesh {
 /// for every group. Throws InputError where they are not of one shape.
 PageMesh pageMesh(const std::vector<LightGroup>&, const std::vector<SolutionMesh>& meshes);
 
+/// By side, its triangles, in the mesh's numbers of vertices. (A side that is drawn from behind, too, has them once.)
+using SideTriangles = std::vector<std::array<std::uint32_t, 3>>;
+std::vector<SideTriangles> trianglesOfSides(const PageMesh&);
+/// By vertex: its side.
+std::vector<std::uint32_t> sideOfVertices(const PageMesh&);
+
 /// Irradiance by vertex of the page's mesh as it was built, of a group and its mesh [W/m2].
 std::vector<Rgb> pageLayer(const PageMesh&, std::size_t group, const SolutionMesh&);
 

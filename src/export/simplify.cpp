@@ -231,29 +231,13 @@ class SideMesh {
   std::vector<Triangle> triangles_;
 };
 
-/// Which side a triangle is of: the one that has its first corner.
-std::vector<std::uint32_t> sideOfVertex(const PageMesh& mesh) {
-  std::vector<std::uint32_t> of(mesh.vertices.size());
-  for (std::uint32_t s = 0; s < mesh.sides.size(); ++s)
-    std::fill_n(of.begin() + mesh.sides[s].first, mesh.sides[s].count, s);
-  return of;
-}
-
-using SideTriangles = std::vector<std::array<std::uint32_t, 3>>;
-
 /// The triangles that sides keep, numbered within them. A side is in several draws with the same triangles.
 std::vector<SideTriangles> keptTriangles(const PageMesh& mesh, const std::vector<std::vector<Rgb>>& layers,
                                          double tolerance, const std::vector<char>& whole) {
-  const std::vector<std::uint32_t> sideOf = sideOfVertex(mesh);
-  std::vector<SideTriangles> of(mesh.sides.size());
-  for (const PageDraw& d : mesh.draws) {
-    if (d.kind == PageDraw::Kind::Behind) continue;
-    for (std::uint32_t i = d.first; i < d.first + d.count; i += 3) {
-      const std::uint32_t s = sideOf[mesh.triangles[i]], first = mesh.sides[s].first;
-      of[s].push_back({mesh.triangles[i] - first, mesh.triangles[i + 1] - first, mesh.triangles[i + 2] - first});
-    }
-  }
+  std::vector<SideTriangles> of = trianglesOfSides(mesh);
   parallelFor(mesh.sides.size(), 1, [&](std::size_t s) {
+    for (auto& t : of[s])
+      for (std::uint32_t& v : t) v -= mesh.sides[s].first;
     if (!whole.empty() && whole[s]) return;
     const PageMesh::Side& side = mesh.sides[s];
     std::vector<std::span<const Rgb>> light;
@@ -270,7 +254,7 @@ std::vector<SideTriangles> keptTriangles(const PageMesh& mesh, const std::vector
 
 void simplify(PageMesh& mesh, std::vector<std::vector<Rgb>>& layers, const LightTolerance& tolerance,
               const std::vector<char>& whole) {
-  const std::vector<std::uint32_t> sideOf = sideOfVertex(mesh);
+  const std::vector<std::uint32_t> sideOf = sideOfVertices(mesh);
   const std::vector<SideTriangles> kept = keptTriangles(mesh, layers, tolerance.relative, whole);
   // Triangles of the draws, side after side, in the old numbers.
   std::vector<std::uint32_t> triangles;

@@ -3,23 +3,18 @@
 #include <stb/stb_image.h>
 
 #include <array>
-#include <cmath>
+#include <deltalux/image.hpp>
 #include <memory>
 
 namespace deltalux::io {
 
 namespace {
 
-// [IEC 61966-2-1]
-float linearOfSrgb(int byte) {
-  const double s = byte / 255.0;
-  return static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-}
-
 std::array<float, 256> tableOf(TexelEncoding encoding) {
   std::array<float, 256> table{};
   for (int i = 0; i < 256; ++i)
-    table[i] = encoding == TexelEncoding::Srgb ? linearOfSrgb(i) : static_cast<float>(i) / 255.0f;
+    table[i] =
+        encoding == TexelEncoding::Srgb ? static_cast<float>(decodeSrgb(i / 255.0)) : static_cast<float>(i) / 255.0f;
   return table;
 }
 

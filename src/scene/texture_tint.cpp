@@ -12,15 +12,20 @@ Vec2 alongEdges(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
 }
 }  // namespace
 
-Rgb textureTint(const Scene& scene, PrimitiveId primitive, std::uint32_t triangle, const Vec3& position) {
+TextureId diffuseTexture(const Scene& scene, PrimitiveId primitive) {
   const auto* opaque = std::get_if<Opaque>(&scene.materialOf(primitive).surface);
-  if (!opaque || !opaque->diffuseTexture.valid()) return Rgb(1.0f);
   const auto* mesh = std::get_if<Mesh>(&scene[primitive].shape);
-  if (!mesh || mesh->texcoords.empty()) return Rgb(1.0f);
-  const auto& t = mesh->triangles[triangle];
-  const Vec2 uv = alongEdges(mesh->positions[t[0]], mesh->positions[t[1]], mesh->positions[t[2]], position);
-  const Vec2 a = mesh->texcoords[t[0]], b = mesh->texcoords[t[1]], c = mesh->texcoords[t[2]];
-  return scene.textures[opaque->diffuseTexture.index()].sample(a + uv.x * (b - a) + uv.y * (c - a));
+  return opaque && mesh && !mesh->texcoords.empty() ? opaque->diffuseTexture : TextureId();
+}
+
+Rgb textureTint(const Scene& scene, PrimitiveId primitive, std::uint32_t triangle, const Vec3& position) {
+  const TextureId texture = diffuseTexture(scene, primitive);
+  if (!texture.valid()) return Rgb(1.0f);
+  const auto& mesh = std::get<Mesh>(scene[primitive].shape);
+  const auto& t = mesh.triangles[triangle];
+  const Vec2 uv = alongEdges(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]], position);
+  const Vec2 a = mesh.texcoords[t[0]], b = mesh.texcoords[t[1]], c = mesh.texcoords[t[2]];
+  return scene.textures[texture.index()].sample(a + uv.x * (b - a) + uv.y * (c - a));
 }
 
 }  // namespace deltalux::scene

@@ -54,6 +54,10 @@ double encodeSrgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
+double decodeSrgb(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
 double automaticEv(const Image& image) {
   std::vector<double> lit;  // log2 of luminance
   for (const Rgb& pixel : image.pixels) {

@@ -1,5 +1,7 @@
 #include "render/reference/reference_scene.hpp"
 
+#include "scene/texture_tint.hpp"
+
 namespace deltalux::rendering {
 
 namespace {
@@ -11,10 +13,8 @@ Scene prepare(const Scene& scene, bool diffuseOnly) {
 }
 
 const Texture* textureOf(const Scene& scene, PrimitiveId p) {
-  const auto* opaque = std::get_if<Opaque>(&scene.materialOf(p).surface);
-  const auto* mesh = std::get_if<Mesh>(&scene[p].shape);
-  if (!opaque || !opaque->diffuseTexture.valid() || !mesh || mesh->texcoords.empty()) return nullptr;
-  return &scene.textures[opaque->diffuseTexture.index()];
+  const TextureId texture = scene::diffuseTexture(scene, p);
+  return texture.valid() ? &scene.textures[texture.index()] : nullptr;
 }
 
 /// Barycentric coordinates of the point of triangle a b c nearest to p in its plane.
