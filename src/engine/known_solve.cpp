@@ -60,8 +60,7 @@ std::uint32_t KnownSolve::findPart(const hierarchy::Elements& elements, hierarch
 }
 
 void KnownSolve::holdTo(const hierarchy::Elements& elements) {
-  const Box &now = elements.sceneBox, &before = elements_.sceneBox;
-  holds_ = now.lower == before.lower && now.upper == before.upper;
+  holds_ = elements.extent() == elements_.extent();
   parts(elements, elements.inputs);
 }
 
