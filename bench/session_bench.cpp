@@ -1,12 +1,13 @@
 // session_bench EDITS [EVERY]
 //
 // A long session: so many random edits of a furnished room (tests/support/furnished_room.hpp), an update after each, as
-// CSV rows every hundred edits (or EVERY): resident memory, time of the hundred, and whether mesh, lines and particles
-// are those of a fresh solve of the scene as it is then.
+// CSV rows every hundred edits (or EVERY): resident memory, time of the hundred, whether mesh, lines and particles are
+// those of a fresh solve of the scene as it is then, and by how much irradiance differs from that.
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <deltalux/check.hpp>
 #include <deltalux/engine.hpp>
 #include <deltalux/memory.hpp>
 #include <fstream>
@@ -35,7 +36,10 @@ int run(const std::vector<std::string>& words) {
   const int edits = words.empty() ? 0 : std::atoi(words[0].c_str()),
             every = words.size() > 1 ? std::atoi(words[1].c_str()) : kUsually;
   if (edits < 1 || every < 1 || words.size() > 2) throw std::runtime_error("usage: session_bench EDITS [EVERY]");
-  fmt::print("edits,seconds,rays,leaves,lines_mb,particles_mb,fresh_seconds,mesh,lines,particles,last,resident_mb\n");
+  fmt::print(
+      "edits,seconds,rays,leaves,lines_mb,particles_mb,fresh_seconds,mesh,lines,particles,median_percent,p95_percent,"
+      "last,"
+      "resident_mb\n");
   Engine engine(test::furnishedRoom(), test::coarse());
   engine.solve();
   test::RandomEdits session(engine, test::editableOfFurnishedRoom(), kSeed);
@@ -49,21 +53,17 @@ int run(const std::vector<std::string>& words) {
     if (i % every != 0 && i != edits) continue;
     const SolveReport report = engine.solution().report();
     const Stopwatch solving;
-    const SolutionHashes now = hashesOf(engine.solution().get()), then = [&] {
-      Engine fresh(engine.solution().scene(), engine.solution().settings());
-      fresh.solve();
-      return hashesOf(fresh.solution().get());
-    }();
+    Engine fresh(engine.solution().scene(), engine.solution().settings());
+    fresh.solve();
     const double solved = solving.wall();
-    const bool mesh = now.mesh == then.mesh, lines = now.lines == then.lines,
-               particles = now.particles == then.particles;
-    differing += !(mesh && lines && particles);
+    const CheckReport check = compareSolutions(engine.solution(), fresh.solution());
+    differing += !(check.meshIdentical && check.linesIdentical && check.particlesIdentical);
     const std::string last = session.last();
     session.undoAll();
-    fmt::print("{},{:.4g},{},{},{:.1f},{:.1f},{:.4g},{},{},{},{},{:.1f}\n", i, seconds, rays,
+    fmt::print("{},{:.4g},{},{},{:.1f},{:.1f},{:.4g},{},{},{},{:.3g},{:.3g},{},{:.1f}\n", i, seconds, rays,
                report.counts.leafElements, 1e-6 * static_cast<double>(report.memory.lines),
-               1e-6 * static_cast<double>(report.memory.particles), solved, mesh, lines, particles, last,
-               residentMegabytes());
+               1e-6 * static_cast<double>(report.memory.particles), solved, check.meshIdentical, check.linesIdentical,
+               check.particlesIdentical, 100 * check.medianRelDiff, 100 * check.p95RelDiff, last, residentMegabytes());
     std::fflush(stdout);
     rays = 0, seconds = 0;
   }

@@ -8,11 +8,12 @@
 //   step, or every one with `each`, is held against a fresh solve of the
 //           edited scene, whose time is then the one that updates are related to; with `unchecked` none is.
 //   far     the scene with a small box ten of its diagonals away, which moves by its own size.
-//   table1  the columns of Table 1 of [GD01] and what its Figures 7 and 9 tell of each position, with the published
-//           values beside ours where the scene is of the same kind (kTableColumns).
+//   table1  the columns of Table 1 of [GD01] and what its Figures 7 and 9 tell of each position: as published where the
+//           scene is of the same kind, by the paper's method here, and by ours (kTableColumns).
 // Options: diffuse-only, error=E, metres=M (of a scene unit), each, unchecked.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <deltalux/check.hpp>
@@ -33,7 +34,7 @@ constexpr const char* kColumns =
     "leaves_changed,leaves_total,particles_retraced,particles_total,textures_rebuilt,mesh_s,light_s,particles_s,"
     "textures_s,peak_mib,median_percent,p95_percent,max_percent,particles_identical,select_s";
 
-constexpr const char* kTableColumns = "scene,measure,paper,ours,unit";
+constexpr const char* kTableColumns = "scene,measure,published,paper_method,ours,unit";
 
 enum class Checked { Last, Each, None };
 
@@ -190,42 +191,33 @@ const std::vector<Published> kPublished = {
     {"street", 47000, 4740, 800000, 2300, 96, 5700, 41000, 0.8, 17, kNotSaid, kNotSaid, 49},
 };
 
-class Table {
- public:
-  explicit Table(const std::string& scene) : scene_(scene) {
-    for (const Published& p : kPublished)
-      if (p.name == scene) published_ = p;
-  }
-  void row(const std::string& measure, double Published::*paper, double ours, const char* unit) const {
-    const bool said = paper && published_ && (*published_).*paper != kNotSaid;
-    fmt::print("{},{},{},{:.6g},{}\n", scene_, measure, said ? fmt::format("{:.6g}", (*published_).*paper) : "", ours,
-               unit);
-    std::fflush(stdout);
-  }
-
- private:
-  std::string scene_;
-  std::optional<Published> published_;
+/// A measure of [GD01 7], or of our own, of one run.
+struct Measured {
+  std::string name;
+  double Published::*published;  // nullptr: not said
+  double value;
+  const char* unit;
 };
 
-void table1(const std::string& name, const std::string& file, const std::string& editsFile, const Options& o) {
-  const std::vector<Edit> edits = editsOf(editsFile, o.import);
-  Solved solved = solve(loadScene({file}, o.import).scene, o.settings);
-  const Table table(name);
+std::vector<Measured> measure(const Scene& scene, const std::vector<Edit>& edits, const SolveSettings& settings) {
+  std::vector<Measured> all;
+  const auto add = [&](const std::string& measure, double Published::*published, double value, const char* unit) {
+    all.push_back({measure, published, value, unit});
+  };
   std::uint64_t polygons = 0;
-  for (const Primitive& p : solved.engine.solution().scene().primitives) polygons += tessellatedPolygonCount(p.shape);
+  for (const Primitive& p : scene.primitives) polygons += tessellatedPolygonCount(p.shape);
+  Solved solved = solve(scene, settings);
   const WorkCounts counts = solved.engine.solution().report().counts;
-  table.row("polygons if tessellated", &Published::polygons, static_cast<double>(polygons), "");
-  table.row("first solution", &Published::solve, solved.took.wall, "s");
-  table.row("first solution: processor time", nullptr, solved.took.processor, "s");
-  table.row("particles", &Published::particles, static_cast<double>(counts.particles), "");
-  table.row("caustic textures", &Published::textures, static_cast<double>(counts.causticTextures), "");
-  table.row("mean side of caustic textures", &Published::textureSide, counts.causticTextureMeanSize, "texels");
+  add("polygons if tessellated", &Published::polygons, static_cast<double>(polygons), "");
+  add("first solution", &Published::solve, solved.took.wall, "s");
+  add("first solution: processor time", nullptr, solved.took.processor, "s");
+  add("particles", &Published::particles, static_cast<double>(counts.particles), "");
+  add("caustic textures", &Published::textures, static_cast<double>(counts.causticTextures), "");
+  add("mean side of caustic textures", &Published::textureSide, counts.causticTextureMeanSize, "texels");
   std::string selected;
-  const double selecting = selectFor(edits.front(), solved.engine, selected);
-  if (!selected.empty()) table.row("selecting the object", nullptr, selecting, "s");
+  add("selecting the object", nullptr, selectFor(edits.front(), solved.engine, selected), "s");
   const double octree = static_cast<double>(solved.engine.solution().report().memory.octree);
-  table.row("memory of the octree (a bit a path)", &Published::octreeKb, 1e-3 * octree, "KB");
+  add("memory of the octree (over lines: a bit a path)", &Published::octreeKb, 1e-3 * octree, "KB");
   double sum = 0, processor = 0, least = 1e30, most = 0, leastShare = 1e30, mostShare = 0;
   for (std::size_t i = 0; i < edits.size(); ++i) {
     const Stopwatch watch;
@@ -233,23 +225,39 @@ void table1(const std::string& name, const std::string& file, const std::string&
     const StepReport step = solved.engine.update();
     const double seconds = watch.wall(), retraced = static_cast<double>(step.particlesRetraced);
     const double share = 100 * retraced / std::max(1.0, static_cast<double>(step.particlesTotal));
-    table.row(fmt::format("position {}: update", i + 1), nullptr, seconds, "s");
-    table.row(fmt::format("position {}: particles retraced", i + 1), nullptr, retraced, "");
-    table.row(fmt::format("position {}: particles retraced of all", i + 1), nullptr, share, "%");
+    add(fmt::format("position {}: update", i + 1), nullptr, seconds, "s");
+    add(fmt::format("position {}: particles retraced", i + 1), nullptr, retraced, "");
+    add(fmt::format("position {}: particles retraced of all", i + 1), nullptr, share, "%");
     processor += watch.processor();
     sum += seconds, least = std::min(least, retraced), most = std::max(most, retraced);
     leastShare = std::min(leastShare, share), mostShare = std::max(mostShare, share);
   }
   const double mean = sum / static_cast<double>(edits.size());
   const double meanProcessor = processor / static_cast<double>(edits.size());
-  table.row("mean update", &Published::update, mean, "s");
-  table.row("mean update: processor time", nullptr, meanProcessor, "s");
-  table.row("particles retraced at least", &Published::leastRetraced, least, "");
-  table.row("particles retraced at most", &Published::mostRetraced, most, "");
-  table.row("particles retraced of all at least", &Published::leastPercent, leastShare, "%");
-  table.row("particles retraced of all at most", &Published::mostPercent, mostShare, "%");
-  table.row("first solution over mean update", &Published::gain, solved.took.wall / mean, "");
-  table.row("first solution over mean update: processor time", nullptr, solved.took.processor / meanProcessor, "");
+  add("mean update", &Published::update, mean, "s");
+  add("mean update: processor time", nullptr, meanProcessor, "s");
+  add("particles retraced at least", &Published::leastRetraced, least, "");
+  add("particles retraced at most", &Published::mostRetraced, most, "");
+  add("particles retraced of all at least", &Published::leastPercent, leastShare, "%");
+  add("particles retraced of all at most", &Published::mostPercent, mostShare, "%");
+  add("first solution over mean update", &Published::gain, solved.took.wall / mean, "");
+  add("first solution over mean update: processor time", nullptr, solved.took.processor / meanProcessor, "");
+  return all;
+}
+
+void table1(const std::string& name, const std::string& file, const std::string& editsFile, const Options& o) {
+  const std::vector<Edit> edits = editsOf(editsFile, o.import);
+  const Scene scene = loadScene({file}, o.import).scene;
+  SolveSettings settings = o.settings;
+  settings.method = SolveMethod::Paper;
+  const std::vector<Measured> theirs = measure(scene, edits, settings), ours = measure(scene, edits, o.settings);
+  const auto published = std::ranges::find(kPublished, name, &Published::name);
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    const Measured& m = ours[i];
+    const bool said = m.published && published != kPublished.end() && (*published).*m.published != kNotSaid;
+    fmt::print("{},{},{},{:.6g},{:.6g},{}\n", name, m.name,
+               said ? fmt::format("{:.6g}", (*published).*m.published) : "", theirs[i].value, m.value, m.unit);
+  }
 }
 
 bool run(const std::vector<std::string>& words) {
