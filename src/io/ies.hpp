@@ -1,5 +1,6 @@
 #pragma once
-// Measured light distributions, IES LM-63 of 1986, 1991, 1995, 2002 and 2019, photometric types A, B and C.
+// Measured light distributions, IES LM-63 of 1986, 1991, 1995, 2002 and 2019, photometric types A, B and C; EULUMDAT in
+// files that are named so is read by ldt.hpp.
 //
 // Type C is completed by its lateral symmetry; A and B are resampled to type C (io/ies/complete.hpp). What the standard
 // says is applied: candela multiplier, ballast factor, ballast-lamp factor (before 1995; the field has had other
@@ -18,7 +19,7 @@ struct PhotometryFile {
   std::vector<std::string> warnings;  // what was mended or looks doubtful, one line each
 };
 
-/// Reads the text of an IES file called `name` in messages; a tilt file named in it is looked for in `folder`. Throws
+/// Reads the text of a file called `name` in messages; a tilt file named in it is looked for in `folder`. Throws
 /// InputError with the line.
 PhotometryFile readPhotometry(std::string_view text, const std::string& name, const std::filesystem::path& folder);
 

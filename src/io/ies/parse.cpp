@@ -136,6 +136,8 @@ void readElectrical(NumberReader& reader, const std::string& name, IesRecord& re
   }
 }
 
+}  // namespace
+
 // Below zero is the noise of a measurement, or a mistake; it is no light.
 void mendCandela(const std::string& name, IesRecord& record) {
   const auto negative = std::count_if(record.candela.begin(), record.candela.end(), [](double i) { return i < 0; });
@@ -150,15 +152,13 @@ void mendCandela(const std::string& name, IesRecord& record) {
     record.warnings.push_back(name + ": no candela value is above 0; the luminaire gives no light");
 }
 
-}  // namespace
-
 IesRecord parseIes(std::string_view file, const std::string& name, const std::filesystem::path& folder) {
   const PlainText plain(file, name);
   const std::string_view text = plain.view();
   const std::optional<Layout> layout = findTilt(text);
   if (!layout) {
     throw InputError(name, 0, "is not an IES LM-63 file: it has no line TILT=",
-                     "give a photometric file (.ies); EULUMDAT (.ldt) is not read");
+                     "give a photometric file: LM-63, or EULUMDAT in a file named .ldt");
   }
   IesRecord record;
   record.revision = revisionOf(text.substr(0, text.find('\n')));
