@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "support/run_cli.hpp"
@@ -143,6 +144,28 @@ TEST(Info, ReadsTheAuthoredCabin) {
     arguments.push_back(shared / "scenes/cabin-original" / file);
   const CliResult result = runCli(arguments);
   EXPECT_EQ(result.exitCode, 0) << result.err;
+}
+
+TEST(Info, DescribesALuminaireAndDrawsIt) {
+  const test::TempFolder folder;
+  // Lambertian: pi I lumens, half of I at 60 degrees to either side; 12 cm along C0.
+  std::string ies = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 181 1 1 2 .1 .12 0\n1 1 10\n", candela;
+  for (int v = 0; v <= 180; ++v) {
+    ies += std::to_string(v) + (v % 10 == 9 ? "\n" : " ");
+    candela += std::to_string(v < 90 ? 1000 * std::cos(v * 3.14159265358979 / 180) : 0.0) + (v % 10 == 9 ? "\n" : " ");
+  }
+  folder.write("disc & co.ies", ies + "\n0\n" + candela + "\n");
+  const std::string svg = folder / "polar.svg";
+  const CliResult result = runCli({"info", folder / "disc & co.ies", "-o", svg});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  for (const char* part :
+       {"3141 lm, 100 % of it downwards", "at most 1000 cd", "gamma 0", "within 120 degrees", "0.12 m along C0"})
+    EXPECT_TRUE(contains(result.out, part)) << part << "\n" << result.out;
+  const std::string drawn = test::readText(svg);
+  EXPECT_TRUE(contains(drawn, "disc &amp; co.ies"));
+  EXPECT_TRUE(contains(drawn, "</svg>"));
+  test::expectUsageError({"info", bundledScene("ring/ring.rad"), "-o", svg});
+  EXPECT_EQ(runCli({"info", folder / "disc & co.ies", "-o", folder / "none/polar.svg"}).exitCode, 4);
 }
 
 }  // namespace
