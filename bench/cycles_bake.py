@@ -62,21 +62,30 @@ def prepare(sides):
     return images, objects
 
 
-def drop_backs_of_lamps():
-    """Sides are for themselves in the file, seen from one side alone; for Cycles the dark back of a lamp lies in its light."""
-    def emits(o, polygon):
+def drop_dark_backs():
+    """Sides are for themselves in the file, seen from one side alone; for Cycles a black back lies in its front's light."""
+    def is_dark(o, polygon):
         for node in o.data.materials[polygon.material_index].node_tree.nodes:
-            if node.type == "EMISSION" or (node.type == "BSDF_PRINCIPLED" and max(node.inputs["Emission"].default_value[:3]) > 0):
-                return True
+            if node.type == "BSDF_PRINCIPLED":
+                return max(node.inputs["Emission"].default_value[:3]) == 0 and max(node.inputs["Base Color"].default_value[:3]) == 0
         return False
 
-    lamps = {tuple(round(c, 5) for c in o.matrix_world @ p.center) for o in meshes() for p in o.data.polygons if emits(o, p)}
+    lit = [o for o in meshes() if any(not is_dark(o, p) for p in o.data.polygons)]
+    trees = []
+    for o in lit:
+        polygons = [list(p.vertices) for p in o.data.polygons if not is_dark(o, p)]
+        trees.append(BVHTree.FromPolygons([o.matrix_world @ v.co for v in o.data.vertices], polygons))
+
+    def has_front(o, polygon):
+        at, normal = o.matrix_world @ polygon.center, o.matrix_world.to_3x3() @ polygon.normal
+        found = [tree.find_nearest(at, 1e-5) for tree in trees]
+        return any(f[0] is not None and f[1].dot(normal) < -0.99 * normal.length for f in found)
+
     for o in meshes():
         shape = bmesh.new()
         shape.from_mesh(o.data)
         shape.faces.ensure_lookup_table()
-        backs = [shape.faces[p.index] for p in o.data.polygons
-                 if not emits(o, p) and tuple(round(c, 5) for c in o.matrix_world @ p.center) in lamps]
+        backs = [shape.faces[p.index] for p in o.data.polygons if is_dark(o, p) and has_front(o, p)]
         bmesh.ops.delete(shape, geom=backs, context="FACES")
         shape.to_mesh(o.data)
         shape.free()
@@ -138,7 +147,7 @@ with tempfile.NamedTemporaryFile(suffix=".glb") as named:
     named.flush()
     bpy.ops.import_scene.gltf(filepath=named.name)
 bpy.context.view_layer.update()
-drop_backs_of_lamps()
+drop_dark_backs()
 scene = bpy.context.scene
 scene.world = bpy.data.worlds.new("dark")
 scene.world.color = (0, 0, 0)

@@ -15,6 +15,7 @@ void addRenderCommand(CLI::App&);
 void addExportCommand(CLI::App&);
 void addReferenceCommand(CLI::App&);
 void addDesignCommand(CLI::App&);
+void addGridCommand(CLI::App&);
 #ifdef DELTALUX_VIEWER
 void addViewCommand(CLI::App&);
 #endif
@@ -30,6 +31,7 @@ inline void addCommands(CLI::App& app) {
   addExportCommand(app);
   addReferenceCommand(app);
   addDesignCommand(app);
+  addGridCommand(app);
 #ifdef DELTALUX_VIEWER
   addViewCommand(app);
 #endif
