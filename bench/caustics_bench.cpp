@@ -17,7 +17,7 @@
 #include <stdexcept>
 
 #include "caustics/adaptive_textures.hpp"
-#include "caustics/paper_textures.hpp"
+#include "paper/caustic_textures.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::bench {
@@ -120,7 +120,7 @@ void growParticles(const std::string& name, const std::string& file, const std::
     const double begin = cpuSeconds();
     const auto ours = caustics::makeCausticTextures(landed.shape, landed.impacts, {error, 0});
     const double middle = cpuSeconds();
-    const auto papers = caustics::makePaperTextures(landed.shape, landed.impacts);
+    const auto papers = paper::makeTextures(landed.shape, landed.impacts);
     measure(n, "adaptive", middle - begin, ours, landed.shape);
     measure(n, "paper", cpuSeconds() - middle, papers, landed.shape);
   }

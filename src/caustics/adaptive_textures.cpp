@@ -144,24 +144,14 @@ class AdaptiveTextures {
     const std::vector<float> E = grayOf(coarse.E);
     const double difference = tuning::kMatters * rule_.error * (medianOfFlux(grid.areas(), E) + rule_.background);
     const std::vector<TexelBox> boxes = markedBoxes(grid, cellsOffMedian(grid, E, difference), tuning::kMargin);
-    std::vector<std::uint32_t> particles(whole.areas.size(), 0);
-    for (const ChartImpact& impact : whole.impacts) ++particles[grid.texelNear(impact.st)];
+    const std::vector<std::size_t> particles = particlesUnder(whole, grid, boxes);
     std::vector<ChartPart> regions;
-    for (const TexelBox& box : boxes) {
-      if (particlesIn(box, grid, particles) < static_cast<std::size_t>(tuning::kRegion)) continue;
-      regions.push_back(surface.takeOut(whole, grid, box, glm::ivec2(1)));
-      borders.emplace_back(grid, box, tuning::kMargin);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (particles[i] < static_cast<std::size_t>(tuning::kRegion)) continue;
+      regions.push_back(surface.takeOut(whole, grid, boxes[i], glm::ivec2(1)));
+      borders.emplace_back(grid, boxes[i], tuning::kMargin);
     }
     return regions;
-  }
-
-  static std::size_t particlesIn(const TexelBox& box, const CellGrid& grid,
-                                 const std::vector<std::uint32_t>& particles) {
-    std::size_t sum = 0;
-    for (int y = box.y0; y < box.y1; ++y)
-      for (int x = box.x0; x < box.x1; ++x)
-        sum += particles[static_cast<std::size_t>(y) * grid.width() + x % grid.width()];
-    return sum;
   }
 
   void put(const ChartSurface& surface, const ChartPart& part) {

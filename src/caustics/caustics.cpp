@@ -71,6 +71,8 @@ Caustics indexed(std::vector<SurfaceCaustics> surfaces, std::size_t primitives) 
 
 }  // namespace
 
+TextureRule adaptiveRule() { return {deservesTextures, makeCausticTextures}; }
+
 OtherLight otherLight(const Scene& scene, const hierarchy::Elements& elements, const SurfaceSides& sides) {
   OtherLight result;
   result.mean = meanOtherLight(scene, elements);
@@ -133,11 +135,11 @@ std::size_t Caustics::memoryBytes() const {
 }
 
 SurfaceSides sidesWithTextures(const Scene& scene, const hierarchy::Elements& elements,
-                               std::vector<particles::Impact> impacts, double error) {
+                               std::vector<particles::Impact> impacts, double error, const TextureRule& rule) {
   const auto sides = bySide(impacts);
   std::vector<char> chosen(sides.size(), 0);
   forEachSide(scene, elements, sides, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
-    chosen[i] = deservesTextures(shape, sides[i], settings);
+    chosen[i] = rule.deserves(shape, sides[i], settings);
   });
   SurfaceSides result(2 * scene.primitives.size(), false);
   for (std::size_t i = 0; i < sides.size(); ++i)
@@ -146,20 +148,21 @@ SurfaceSides sidesWithTextures(const Scene& scene, const hierarchy::Elements& el
 }
 
 Caustics makeCaustics(const Scene& scene, const hierarchy::Elements& elements, std::vector<particles::Impact> impacts,
-                      double error) {
+                      double error, const TextureRule& rule) {
   Caustics caustics = indexed({}, scene.primitives.size());
   const std::vector<char> all(2 * scene.primitives.size(), 1);
-  remakeCaustics(caustics, scene, elements, std::move(impacts), error, all);
+  remakeCaustics(caustics, scene, elements, std::move(impacts), error, all, rule);
   return caustics;
 }
 
 std::size_t remakeCaustics(Caustics& caustics, const Scene& scene, const hierarchy::Elements& elements,
-                           std::vector<particles::Impact> impacts, double error, const std::vector<char>& remade) {
+                           std::vector<particles::Impact> impacts, double error, const std::vector<char>& remade,
+                           const TextureRule& rule) {
   if (std::none_of(remade.begin(), remade.end(), [](char r) { return r; })) return 0;
   const auto sides = bySide(impacts);
   std::vector<std::optional<SurfaceCaustics>> made(sides.size());
   forEachSide(scene, elements, sides, error, [&](std::size_t i, const Shape& shape, const CausticSettings& settings) {
-    made[i] = makeCausticTextures(shape, sides[i], settings);
+    made[i] = rule.make(shape, sides[i], settings);
     if (!made[i]) return;
     made[i]->primitive = sides[i].front().primitive, made[i]->front = sides[i].front().front;
     DELTALUX_VALIDATED(validate(*made[i]));

@@ -3,6 +3,7 @@
 // has textures they show all of its particles' irradiance; elsewhere the mesh does. Never both.
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "caustics/caustic_texture.hpp"
@@ -30,12 +31,24 @@ struct Caustics {
 /// Sides of surfaces, by 2 * primitive + (front ? 0 : 1).
 using SurfaceSides = std::vector<bool>;
 
+struct CausticSettings;
+
+/// How the textures of one side are chosen, and made: of the impacts on it.
+struct TextureRule {
+  bool (*deserves)(const Shape&, std::span<const particles::Impact>, const CausticSettings&);
+  std::optional<SurfaceCaustics> (*make)(const Shape&, std::span<const particles::Impact>, const CausticSettings&);
+};
+/// By the target error alone (adaptive_textures.hpp).
+TextureRule adaptiveRule();
+
 /// Which sides need textures for what landed there, in any order. Light that is not the particles' is read from the
 /// elements: errors are measured against it.
-SurfaceSides sidesWithTextures(const Scene&, const hierarchy::Elements&, std::vector<particles::Impact>, double error);
+SurfaceSides sidesWithTextures(const Scene&, const hierarchy::Elements&, std::vector<particles::Impact>, double error,
+                               const TextureRule& = adaptiveRule());
 
 /// The textures of all sides that need them. The same for any number of threads. Cost: about 0.25 microseconds a texel.
-Caustics makeCaustics(const Scene&, const hierarchy::Elements&, std::vector<particles::Impact>, double error);
+Caustics makeCaustics(const Scene&, const hierarchy::Elements&, std::vector<particles::Impact>, double error,
+                      const TextureRule& = adaptiveRule());
 
 /// Gray irradiance of all light but the particles', by side: errors are measured against it, too. [W/m2]
 struct OtherLight {
@@ -49,7 +62,7 @@ std::vector<double> meanOtherLight(const Scene&, const hierarchy::Elements&);
 /// Judges all that landed on the sides `remade`, and makes the textures of those that need them; others are not
 /// touched. Returns how many textures it made.
 std::size_t remakeCaustics(Caustics&, const Scene&, const hierarchy::Elements&, std::vector<particles::Impact>,
-                           double error, const std::vector<char>& remade);
+                           double error, const std::vector<char>& remade, const TextureRule& = adaptiveRule());
 
 /// Multiplies the textures of a side so that they hold `flux`, when they are off by more than `tolerance` of it.
 bool rescale(SurfaceCaustics&, const RgbSum& flux, double tolerance);

@@ -4,6 +4,20 @@
 
 namespace deltalux::caustics {
 
+std::vector<std::size_t> particlesUnder(const ChartPart& part, const CellGrid& grid, std::span<const TexelBox> boxes) {
+  std::vector<std::uint32_t> inTexel(part.areas.size(), 0);
+  for (const ChartImpact& impact : part.impacts)
+    if (const std::uint32_t texel = grid.texelNear(impact.st); texel != CellGrid::kNone) ++inTexel[texel];
+  std::vector<std::size_t> under;
+  for (const TexelBox& box : boxes) {
+    std::size_t& sum = under.emplace_back(0);
+    for (int y = box.y0; y < box.y1; ++y)
+      for (int x = box.x0; x < box.x1; ++x)
+        sum += inTexel[static_cast<std::size_t>(y) * grid.width() + x % grid.width()];
+  }
+  return under;
+}
+
 ChartPart ChartSurface::whole(glm::ivec2 texels, std::vector<ChartImpact> impacts) const {
   ChartPart part;
   part.region = {Vec2(0), chart().size};

@@ -14,6 +14,9 @@ struct ChartPart {
   std::vector<ChartImpact> impacts;
 };
 
+/// How many of the part's particles lie under each box of its grid.
+std::vector<std::size_t> particlesUnder(const ChartPart&, const CellGrid&, std::span<const TexelBox>);
+
 /// One chart of a surface, which must outlive this.
 class ChartSurface {
  public:

@@ -7,12 +7,6 @@
 
 namespace deltalux::caustics {
 
-double contrast(const CellLight& light) {
-  if (light.gray.empty()) return 0;
-  const auto [low, high] = std::minmax_element(light.gray.begin(), light.gray.end());
-  return *high > 0 ? std::abs(*low - *high) / *high : 0.0;  // [GD01 (2)]
-}
-
 Departure& Departure::operator+=(const Departure& o) {
   excess += o.excess, precision += o.precision;
   squares += o.squares, flux += o.flux, area += o.area;

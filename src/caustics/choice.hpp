@@ -12,9 +12,6 @@
 
 namespace deltalux::caustics {
 
-/// V, the contrast of the histogram; 0 when it is black.
-double contrast(const CellLight&);
-
 /// What is expected in a cell of independent particles: gray flux, its variance (sum of squares) and fourth cumulant
 /// (sum of fourth powers).
 struct CellNoise {

@@ -72,14 +72,6 @@ bool holds(const TexelBox& box, int x, int y, int width) {
   return y >= box.y0 && y < box.y1 && ((x >= box.x0 && x < box.x1) || (x + width >= box.x0 && x + width < box.x1));
 }
 
-std::vector<char> litCells(const std::vector<Rgb>& E, double share) {
-  float most = 0;
-  for (const Rgb& e : E) most = std::max(most, gray(e));
-  std::vector<char> lit;
-  for (const Rgb& e : E) lit.push_back(gray(e) > 0 && gray(e) >= share * most);
-  return lit;
-}
-
 std::vector<char> cellsOffMedian(const CellGrid& grid, const std::vector<float>& E, double difference) {
   const double median = weightedMedian(E, grid.areas());
   std::vector<char> marked;

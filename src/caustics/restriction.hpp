@@ -21,8 +21,6 @@ struct TexelBox {
 /// Whether the box holds the texel, on a grid `width` wide that may be closed.
 bool holds(const TexelBox&, int x, int y, int width);
 
-/// Cells above `share` of the largest value.
-std::vector<char> litCells(const std::vector<Rgb>& E, double share);
 /// Cells that differ from the median over the area by more than `difference` [W/m2].
 std::vector<char> cellsOffMedian(const CellGrid&, const std::vector<float>& E, double difference);
 

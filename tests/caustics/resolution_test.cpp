@@ -10,23 +10,6 @@ using namespace caustics;
 
 namespace {
 
-TEST(Resolution, PapersFormulaKeepsTheVarianceBelowEpsilon) {
-  // (6): 4 K2 2^2d / n <= epsilon, and d + 1 would exceed it.
-  for (const double n : {10.0, 100.0, 5000.0, 1e6})
-    for (const double epsilon : {0.5, 1.0}) {
-      const int d = paperResolution(n, epsilon);
-      EXPECT_LE(4 * kBoxKernel * std::exp2(2 * d) / n, epsilon * (1 + 1e-9));
-      EXPECT_GT(4 * kBoxKernel * std::exp2(2 * (d + 1)) / n, epsilon);
-    }
-  EXPECT_EQ(paperResolution(4096, 1), 6);
-}
-
-TEST(Resolution, PapersTexelsFollowTheSurfacesShape) {
-  EXPECT_EQ(paperTexels(4096, 1, {1, 1}), glm::ivec2(64, 64));
-  EXPECT_EQ(paperTexels(4096, 1, {4, 1}), glm::ivec2(128, 32));
-  EXPECT_EQ(paperTexels(4096, 1, {1, 1e9}), glm::ivec2(1, 4096));
-}
-
 TEST(Resolution, SquareTexelsAreSquareAndWithinTheLimit) {
   EXPECT_EQ(squareTexels({2, 1}, 0.01, 1 << 18), glm::ivec2(20, 10));
   for (const glm::dvec2 size : {glm::dvec2(1, 1), glm::dvec2(100, 0.01), glm::dvec2(1e-3, 50)}) {

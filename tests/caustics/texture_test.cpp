@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "caustics/adaptive_textures.hpp"
-#include "caustics/paper_textures.hpp"
 #include "caustics/shapes.hpp"
 #include "caustics/synthetic.hpp"
+#include "paper/caustic_textures.hpp"
 
 namespace deltalux {
 using namespace caustics;
@@ -58,7 +58,7 @@ TEST_P(TextureOn, HoldsAndShowsItsParticlesFlux) {
 TEST_P(TextureOn, PapersWayHoldsTheFluxToo) {
   const Shape& shape = GetParam().shape;
   const auto impacts = patchOn(shape, samplePoint(shape, {0.3, 0.4}).position, 0.3 * std::sqrt(area(shape) / 4), 6000);
-  const auto s = makePaperTextures(shape, impacts);
+  const auto s = paper::makeTextures(shape, impacts);
   ASSERT_TRUE(s);
   EXPECT_NO_THROW(validate(*s));
   EXPECT_NEAR(s->flux().r, 1.0, 1e-5);
@@ -126,7 +126,7 @@ TEST(CausticTextures, ErrorFallsInOrderWithTheParticles) {
 TEST(CausticTextures, AreNearerToTheTruthThanThePapers) {
   const auto impacts = test::drawImpacts(4000, 1, test::discInVeil);
   const auto ours = makeCausticTextures(test::unitSquare(), impacts, {0.05, 0});
-  const auto papers = makePaperTextures(test::unitSquare(), impacts);
+  const auto papers = paper::makeTextures(test::unitSquare(), impacts);
   ASSERT_TRUE(ours && papers);
   EXPECT_LT(test::squareError(*ours, test::discInVeilDensity),
             0.6 * test::squareError(*papers, test::discInVeilDensity));
@@ -167,7 +167,7 @@ TEST(CausticTextures, AreTheSameInAllUnits) {
 TEST(CausticTextures, FewParticlesAreLeftToTheMesh) {
   EXPECT_FALSE(makeCausticTextures(test::unitSquare(), test::drawImpacts(3, 1, test::discInVeil), {0.05, 0}));
   EXPECT_FALSE(makeCausticTextures(test::unitSquare(), {}, {0.05, 0}));
-  EXPECT_FALSE(makePaperTextures(test::unitSquare(), test::drawImpacts(9, 1, test::discInVeil)));
+  EXPECT_FALSE(paper::makeTextures(test::unitSquare(), test::drawImpacts(9, 1, test::discInVeil)));
 }
 
 TEST(CausticTextures, ValidateFindsLostFlux) {

@@ -1,11 +1,14 @@
-#include "caustics/spiral.hpp"
+#include "paper/spiral.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace deltalux::caustics {
+namespace deltalux::paper {
 
 namespace {
+
+using caustics::CellGrid;
+using caustics::CellLight;
 
 /// The texel at (x, y), which may lie past a seam or a pole; -1 outside.
 int texelPast(const CellGrid& grid, int x, int y) {
@@ -63,7 +66,7 @@ Reach reachOf(const CellGrid& grid, const CellLight& light, int x, int y, int li
 
 }  // namespace
 
-std::vector<Rgb> reconstructSpiral(const CellGrid& grid, const CellLight& light, int radius) {
+std::vector<Rgb> reconstructSpiral(const caustics::CellGrid& grid, const caustics::CellLight& light, int radius) {
   const int limit = std::min({radius, grid.width() / 2, grid.height()});
   const double most = light.gray.empty() ? 0.0 : *std::max_element(light.gray.begin(), light.gray.end());
   std::vector<Reach> reaches(grid.size());
@@ -99,4 +102,4 @@ std::vector<Rgb> reconstructSpiral(const CellGrid& grid, const CellLight& light,
   return result;
 }
 
-}  // namespace deltalux::caustics
+}  // namespace deltalux::paper

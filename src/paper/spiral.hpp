@@ -6,12 +6,12 @@
 // As it stands that makes and loses flux, and darkens borders. Here the stopping rule gives every texel its radius, and
 // two texels exchange light over areas that both kernels cover, by the same share both ways: flux is kept, a uniform
 // light stays as it is, at borders too. The spiral runs on over the seam of a closed chart and over its poles.
-// Cost: O(texels R^2). Kept for comparison with bandwidth.hpp.
+// Cost: O(texels R^2).
 #include "caustics/cell_light.hpp"
 
-namespace deltalux::caustics {
+namespace deltalux::paper {
 
 /// E of every cell [W/m2]. `radius`: R in texels.
-std::vector<Rgb> reconstructSpiral(const CellGrid&, const CellLight&, int radius);
+std::vector<Rgb> reconstructSpiral(const caustics::CellGrid&, const caustics::CellLight&, int radius);
 
-}  // namespace deltalux::caustics
+}  // namespace deltalux::paper
