@@ -186,7 +186,14 @@ void ParticleTracing::watch(const Particles& p, std::span<const SceneChange::Mov
 
 void ParticleTracing::watchAround(const Particles& p, const Box& box) {
   const double room = box.diagonal();
-  watch_.emplace(p, Box{box.lower - room, box.upper + room}, 2 * kMargin * farDistance(scene_));
+  watch_.emplace(p, Box{box.lower - room, box.upper + room}, margin());
+}
+
+double ParticleTracing::margin() const { return 2 * kMargin * farDistance(scene_); }
+
+ParticleTracing::MovedEnds ParticleTracing::moveEnds(const Particles& p, std::span<const PrimitiveId> moved) {
+  if (p.paths() > 0 && !weighed_) weigh(p);
+  return {ends_->senders.follow(moved), ends_->receivers.follow(moved)};
 }
 
 void ParticleTracing::expectMotion(const Particles& p, const Box& ofObject) {
@@ -199,8 +206,7 @@ std::vector<std::uint32_t> ParticleTracing::touched(const Particles& p, std::spa
   if (!watch_) return {};
   std::vector<PrimitiveId> primitives;
   for (const SceneChange::Moved& m : moved) primitives.push_back(m.primitive);
-  const std::vector<char> senderMoved = ends_->senders.follow(primitives);
-  const std::vector<Receivers::Motion> nodes = ends_->receivers.follow(primitives);
+  const auto [senderMoved, nodes] = moveEnds(p, primitives);
   const Motions motions(scene_, moved, p, nodes, senderMoved);
   std::vector<std::uint32_t> paths;
   if (std::find(nodes.begin(), nodes.end(), Receivers::Motion::Bound) != nodes.end())

@@ -6,8 +6,9 @@
 // thing where it was, or, blocked, was blocked by it; when it starts on the thing; and when its link goes to that
 // alone. Paths know what they met, so where things were is no question of geometry; a blocked path knows one thing that
 // blocks it, and stays blocked, unasked, as long as that stays. So next to all paths that are touched do change.
-// (Departure: the paper keeps an octree whose cells know their links, and emits whole links anew. Here every segment of
-// every path is held against a box, and then against the surfaces in it: exact for each path, and no memory.)
+// (Departure: the paper keeps an octree whose cells know their links, and emits whole links anew, as
+// paper/incremental_particles.hpp does. Here every segment of every path is held against a box, and then against the
+// surfaces in it: exact for each path, and no memory.)
 // Dimmed lights and new diffuse colours change no path; other lights, other speculars and new things change all.
 // Cost: some nanoseconds a path, and the rays of what is touched.
 #include <deltalux/edit.hpp>
@@ -49,6 +50,24 @@ class ParticleTracing {
   /// Brings `particles`, which were right before, up to an edit that scene and tracer have taken in.
   ParticleUpdate follow(Particles&, const SceneChange&);
 
+  // The parts of follow(), for who chooses by himself what to trace again.
+
+  /// Whether an edit that the scene has taken in leaves all paths as they are but those that a motion can touch.
+  bool looksAsBefore(const SceneChange&) const;
+  /// All particles, of the scene as it is.
+  ParticleUpdate traceAnew(Particles&);
+  /// Which ends of links have moved.
+  struct MovedEnds {
+    std::vector<char> senders;                 // by cell
+    std::vector<Receivers::Motion> receivers;  // by node
+  };
+  /// Takes in where these primitives are now.
+  MovedEnds moveEnds(const Particles&, std::span<const PrimitiveId>);
+  /// Traces paths (ascending) again; by the same numbers, so those that nothing touched come out the same.
+  ParticleUpdate retrace(Particles&, const std::vector<std::uint32_t>& paths);
+  /// By how much paths may be off what they join [scene units].
+  double margin() const;
+
   /// Looks for the paths that motion from here can touch, so that follow() need not.
   void expectMotion(const Particles&, const Box& ofObject);
   /// Of what knows the paths near the motion: the place of the paper's octree.
@@ -76,9 +95,6 @@ class ParticleTracing {
 
   Particles trace(const ParticlePlan&);
   void weigh(const Particles&);
-  bool looksAsBefore(const SceneChange&) const;
-  ParticleUpdate traceAnew(Particles&);
-  ParticleUpdate retrace(Particles&, const std::vector<std::uint32_t>& paths);
   void watch(const Particles&, std::span<const SceneChange::Moved>);
   void watchAround(const Particles&, const Box&);
   /// The paths that a motion touches, ascending.
