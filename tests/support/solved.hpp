@@ -62,6 +62,18 @@ inline double meshMean(const Engine& engine, PrimitiveId primitive) {
   return sum / area;
 }
 
+/// What arrives at all leaves, of any light. [W, gray, with the scene's unit squared as area]
+inline double arrivingPower(const Engine& engine) {
+  const hierarchy::Elements& e = engine.solution().get().elements;
+  double power = 0;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const hierarchy::ElementLight& l = e.radiometry[i];
+    if (e.isReceivingLeaf(hierarchy::ElementId(i)))
+      power += e.geometry[i].litArea() * gray(l.direct + l.indirect + l.particle);
+  }
+  return power;
+}
+
 struct Spread {
   double median, p95;
 };
