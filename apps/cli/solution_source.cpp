@@ -29,6 +29,11 @@ void SolveOptions::add(CLI::App& app) {
          "How diffuse light is exchanged: over stored lines, or over links of clusters")
       ->check(CLI::IsMember({"lines", "paper"}))
       ->type_name("lines|paper");
+  app.add_option("--reemitted-share", settings.reemittedShare,
+                 "By --method paper, of the links of particles that a motion affects, the share emitted again a frame")
+      ->type_name("S")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->capture_default_str();
   app.add_flag("--diffuse-only", settings.diffuseOnly,
                "Drop specular lobes and mirrors; thin glass still passes light");
   app.add_flag("!--no-caustic-textures", settings.causticTextures,

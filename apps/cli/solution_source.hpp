@@ -15,7 +15,8 @@ struct SolveOptions {
 
   void add(CLI::App&);  // names()
   static std::vector<const char*> names() {
-    return {"--error", "--particles", "--method", "--diffuse-only", "--no-caustic-textures", "--by-light", "--group"};
+    return {"--error",        "--particles",           "--method",   "--reemitted-share",
+            "--diffuse-only", "--no-caustic-textures", "--by-light", "--group"};
   }
   enum class Then : std::uint8_t { Edited, Read };  // what is to become of the solution
   /// Solves; notes times, counts and energy in the run's report. Throws Interrupted.

@@ -40,9 +40,10 @@ class Engine {
   /// nothing.
   void select(const std::string& object);
   /// As much of an update as fits into so much time: over lines shadows follow, those first where most light comes or
-  /// goes, over links nothing. What it could not do waits: the report says how much, and how much light is not yet
-  /// where it would be. Frames to come go on with it, and update() ends it: the solution is then what one update()
-  /// after all edits had made of it.
+  /// goes. Over links things that move are followed, for as long as it takes, but for most of the particles: a share of
+  /// the links that send them is emitted again (SolveSettings::reemittedShare). What it could not do waits: the report
+  /// says how much, and how much light is not yet where it would be. Frames to come go on with it, and update() ends
+  /// it: the solution is then what one update() after all edits had made of it.
   StepReport frame(double milliseconds, Progress* progress = nullptr);
 
   /// Gives back what is kept for updates to ask, where none will come: a third of all memory, over lines. An update

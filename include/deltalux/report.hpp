@@ -27,7 +27,9 @@ struct WorkCounts {
 
 struct MemoryBytes {
   std::uint64_t elements = 0, links = 0, lines = 0, particles = 0;
-  std::uint64_t octree = 0;  // of what knows the paths near an object in motion: a region and a bit a path; 0 before
+  // Of what knows the paths near an object in motion; 0 before. Over lines a region and a bit a path, over links the
+  // octree.
+  std::uint64_t octree = 0;
   std::uint64_t textures = 0, peakRss = 0;
 };
 
@@ -51,7 +53,7 @@ struct StepReport {
   std::uint64_t leavesChanged = 0;  // whose lines are others, new or gone: each counted once
   std::uint64_t particlesRetraced = 0, particlesTotal = 0, texturesRebuilt = 0;
   std::uint64_t rays = 0;        // all that were traced, for whatever purpose
-  std::uint64_t deferred = 0;    // in motion: leaves, surfaces and lights that wait
+  std::uint64_t deferred = 0;    // in motion: leaves, surfaces, lights and links of particles that wait
   std::optional<double> staleW;  // in motion: light that is not yet where it would be [W]; absent in JSON otherwise
 };
 

@@ -30,6 +30,7 @@ struct SolveSettings {
   SolveMethod method = SolveMethod::Lines;
   bool byLight = false;  // the light of each lamp, of each sun and of the skies is kept apart (light_groups.hpp)
   std::vector<LightPattern> groups = {};  // of those, what is to be dimmed together
+  double reemittedShare = 0.1;  // by Paper: of particle links that a motion affects, emitted again a frame, in (0, 1]
 };
 
 }  // namespace deltalux

@@ -11,6 +11,7 @@ namespace deltalux {
 
 Engine::Engine(Scene scene, SolveSettings settings) : state_(std::make_unique<State>()) {
   DELTALUX_CHECK(settings.error > 0 && settings.error < 1, "the target error is a fraction between 0 and 1");
+  DELTALUX_CHECK(settings.reemittedShare > 0 && settings.reemittedShare <= 1, "a share of links, above 0 and up to 1");
   addAreaLights(scene);
   if (settings.diffuseOnly) scene::dropSpeculars(scene);
   validate(scene);
@@ -69,7 +70,8 @@ void Engine::select(const std::string& object) { state_->select(object); }
 
 void Engine::forget() {
   state_->solution->memory.reset(), state_->lineMotion.reset();
-  state_->transfer.reset(), state_->upkeep.reset(), state_->tracing.reset();
+  state_->transfer.reset(), state_->upkeep.reset(), state_->incremental.reset(), state_->tracing.reset();
+  state_->lists.reset();
 }
 
 EnergyLedger Engine::balance() const { return state_->balance(); }

@@ -1,5 +1,6 @@
 // Edits are shown frame by frame, as far as the time of each goes. [GD01 4.3]
 #include <algorithm>
+#include <utility>
 
 #include "base/sort_unique.hpp"
 #include "engine/state.hpp"
@@ -16,8 +17,8 @@ StepReport Engine::State::frame(double seconds) {
   if (byLines())
     followWithShadows(
         now, [&] { return engine::tuning::kPlanned * seconds - time.seconds(); }, step);
-  else  // all else waits for the update
-    groups.rebuild(tracer(), solution->scene, now.primitives());
+  else
+    followWithShareOfLinks(now, step);
   step.deferred += waiting.moved.size() + waiting.dimmed.size() + waiting.movedLights.size() + waiting.materials.size();
   step.rays = tracer().traced() - traced;
   step.times.total = time.seconds();
@@ -37,6 +38,19 @@ void Engine::State::followWithShadows(const engine::SceneUpdate& now, const Seco
   step.staleW = lineMotion ? lineMotion->stale(s) * s.scene.metresPerUnit * s.scene.metresPerUnit : 0.0;
 }
 
+void Engine::State::followWithShareOfLinks(const engine::SceneUpdate& now, StepReport& step) {
+  if (waiting.empty() && !(incremental && incremental->waiting() > 0)) return;
+  const bool alone = waiting.dimmed.empty() && waiting.movedLights.empty() && waiting.materials.empty() &&
+                     engine::haveElements(solution->elements, solution->scene, waiting);
+  if (alone) {
+    updated = true;
+    paperUpdate(engine::endToEnd(std::exchange(waiting, {})), solution->settings.reemittedShare, step, nullptr);
+  } else {  // what lights do waits for the update, and all that comes after it
+    groups.rebuild(tracer(), solution->scene, now.primitives());
+  }
+  step.deferred = incremental ? incremental->waiting() : 0;
+}
+
 void Engine::State::select(const std::string& object) {
   Solution& s = *solution;
   const std::vector<ObjectId> found = findObjects(s.scene, object);
@@ -53,8 +67,14 @@ void Engine::State::select(const std::string& object) {
     if (const Box b = bounds(s.scene[p].shape); !b.empty()) box.extend(b);
   if (!tracing) return;
   s.particles.makeRoom();
-  tracing->expectMotion(s.particles, box);
-  s.report.memory.octree = tracing->watchBytes();
+  if (byLines()) {
+    tracing->expectMotion(s.particles, box);
+    s.report.memory.octree = tracing->watchBytes();
+  } else {
+    if (!incremental) incremental.emplace(s.scene, *tracing);
+    incremental->select(s.particles, primitives);
+    s.report.memory.octree = incremental->octreeBytes();
+  }
 }
 
 }  // namespace deltalux

@@ -9,6 +9,7 @@
 #include "engine/tuning.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/pull.hpp"
+#include "paper/caustic_textures.hpp"
 #include "paper/coarse_solution.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/reached_sides.hpp"
@@ -76,6 +77,7 @@ void Engine::State::trace() {
   if (s.settings.diffuseOnly) return;
   const engine::Clock time;
   const particles::ParticleSettings settings = engine::particleSettings(s.settings);
+  incremental.reset();
   tracing.emplace(s.scene, *s.tracer, settings);
   s.particles =
       budget.limited() ? tracing->traceWithin(engine::tuning::kParticleTime * budget.seconds()) : tracing->trace();
@@ -106,8 +108,9 @@ caustics::SurfaceSides Engine::State::chooseTextures() {
   if (s.particles.impacts() == 0 || !s.settings.causticTextures)
     return caustics::SurfaceSides(2 * s.scene.primitives.size(), false);
   const engine::Clock time;
-  caustics::SurfaceSides sides = caustics::sidesWithTextures(
-      s.scene, s.elements, particles::impacts(s.particles, s.elements, s.scene), s.settings.error);
+  caustics::SurfaceSides sides =
+      caustics::sidesWithTextures(s.scene, s.elements, particles::impacts(s.particles, s.elements, s.scene),
+                                  s.settings.error, paper::textureRule());
   s.report.times.textures += time.seconds();
   return sides;
 }
@@ -122,10 +125,22 @@ bool Engine::State::iterateOverLinks(bool well, Progress* progress) {
                       if (progress) progress->report("gather", emitted / std::max(emitted + left, 1e-30));
                       return !budget.up() || (well && left > paper::kSettled * emitted);
                     });
+  lists.reset();
   unsettled = settled.unsettled;
   s.report.counts.iterations += settled.iterations;
   s.report.times.gather += time.seconds();
   return settled.whole;
+}
+
+void Engine::State::iterateOverLists(std::span<const hierarchy::ElementId> changed) {
+  Solution& s = *solution;
+  const engine::Clock time;
+  const paper::Settled settled =
+      lists->settle({s.scene, *s.tracer, s.elements, s.links}, *transfer, changed, paper::kSettledWell);
+  DELTALUX_VALIDATED(lists->validate(s.elements, s.links));
+  unsettled = settled.unsettled;
+  s.report.counts.iterations += settled.iterations;
+  s.report.times.gather += time.seconds();
 }
 
 }  // namespace deltalux

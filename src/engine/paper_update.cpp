@@ -7,14 +7,16 @@
 #include "engine/tuning.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
+#include "paper/texture_update.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/side_index.hpp"
 
 namespace deltalux {
 
-void Engine::State::paperUpdate(const engine::SceneUpdate& edits, StepReport& step, Progress* progress) {
+void Engine::State::paperUpdate(const engine::SceneUpdate& edits, double share, StepReport& step, Progress* progress) {
   Solution& s = *solution;
   const double gathered = s.report.times.gather, textured = s.report.times.textures;
+  if (!lists) lists.emplace(s.elements);
   std::vector<hierarchy::ElementId> painted, reflecting;
   relight(edits, painted, reflecting);
   groups.rebuild(tracer(), s.scene, edits.primitives());
@@ -24,7 +26,7 @@ void Engine::State::paperUpdate(const engine::SceneUpdate& edits, StepReport& st
   step.times.visibility = leaving.seconds();
 
   particles::ParticleUpdate followed;
-  if (tracing) followed = followWithParticles(edits.whole, step), countParticles();
+  if (tracing) followed = reemitParticles(edits.whole, share, step), countParticles();
   step.particlesTotal = s.particles.arrived();
   const engine::Clock splitting;
   subdivideWhereParticlesLanded(followed);
@@ -38,18 +40,48 @@ void Engine::State::paperUpdate(const engine::SceneUpdate& edits, StepReport& st
   const engine::Clock placing;
   placeParticles(followed, changed);
   step.times.particles += placing.seconds();
-  iterateOverLinks(true, progress);
   const bool relit = !edits.dimmed.empty() || !edits.movedLights.empty() || !painted.empty();
-  if (relit && refineByNewLight(progress)) iterateOverLinks(true, progress);
+  if (relit) {  // all light is another
+    iterateOverLinks(true, progress);
+    if (refineByNewLight(progress)) iterateOverLinks(true, progress);
+  } else {
+    const std::vector<hierarchy::ElementId> moved = hierarchy::elementsOf(s.elements, edits.primitives());
+    changed.insert(changed.end(), moved.begin(), moved.end());
+    iterateOverLists(changed);
+  }
   step.times.gather = s.report.times.gather - gathered;
   step.leavesChanged = s.report.counts.leafElements;
 
-  if (followed.all) upkeep.reset();
-  newPaths = std::move(followed);
-  followTextures(step);
+  if (followed.all || relit)  // particles of one texture may have been dimmed unlike others
+    followTextures(step);
+  else
+    followPaperTextures(followed, step);
   step.times.textures = s.report.times.textures - textured;
   if (gapsAreMany()) closeGaps();
   counted = false;
+}
+
+void Engine::State::followPaperTextures(const particles::ParticleUpdate& followed, StepReport& step) {
+  Solution& s = *solution;
+  if (!s.settings.causticTextures) return;
+  const engine::Clock time;
+  step.texturesRebuilt =
+      paper::followTextures(s.caustics, s.scene, s.elements, s.particles, followed, s.settings.error);
+  DELTALUX_VALIDATED(validate(s.caustics));
+  s.report.times.textures += time.seconds();
+  countTextures();
+}
+
+particles::ParticleUpdate Engine::State::reemitParticles(const SceneChange& change, double share, StepReport& step) {
+  Solution& s = *solution;
+  const engine::Clock time;
+  if (!incremental) incremental.emplace(s.scene, *tracing);
+  particles::ParticleUpdate followed = incremental->follow(s.particles, change, share);
+  DELTALUX_VALIDATED(validate(s.particles, s.scene));
+  step.particlesRetraced = followed.all ? s.particles.arrived() : followed.particles;
+  s.report.memory.octree = incremental->octreeBytes();
+  step.times.particles += time.seconds();
+  return followed;
 }
 
 bool Engine::State::outshines(const engine::SceneUpdate& edits) const {
@@ -101,11 +133,11 @@ void Engine::State::judgeAnew(paper::LinkMarks marks, const engine::Growth& grow
   Solution& s = *solution;
   const paper::Parts parts{s.scene, *s.tracer, s.elements, s.links};
   const engine::Clock time;
-  paper::arrive(parts, marks, {growth.root, growth.woken});
+  paper::arrive(parts, marks, {growth.root, growth.woken, growth.asleep});
   step.linksVisited = marks.visited;
   step.times.visibility += time.seconds();
   const engine::Clock refining;
-  const paper::RefineReport refined = paper::follow(parts, marks, linksJudged());
+  const paper::RefineReport refined = paper::follow(parts, marks, linksJudged(), *lists);
   s.report.counts.raysVisibility += refined.rays;
   step.linksChanged = refined.changed;
   step.times.refine = refining.seconds();
@@ -128,7 +160,7 @@ bool Engine::State::refineByNewLight(Progress* progress) {
   const std::size_t elements = s.elements.size();
   const paper::RefineReport refined = refineLinks(linksJudged(), progress);
   if (s.elements.size() != elements) transfer->follow(s.particles, {}, s.elements, s.scene);
-  return refined.created > 0;
+  return refined.created > 0 || refined.rays > 0;
 }
 
 }  // namespace deltalux

@@ -5,6 +5,7 @@
 #include "base/check.hpp"
 #include "engine/energy_balance.hpp"
 #include "engine/state.hpp"
+#include "paper/caustic_textures.hpp"
 
 namespace deltalux {
 
@@ -59,7 +60,8 @@ void Engine::State::makeTextures() {
   std::vector<particles::Impact> landed;
   // The mesh shows what no texture does.
   if (s.settings.causticTextures && !budget.up()) landed = particles::impacts(s.particles, s.elements, s.scene);
-  s.caustics = caustics::makeCaustics(s.scene, s.elements, std::move(landed), s.settings.error);
+  s.caustics = caustics::makeCaustics(s.scene, s.elements, std::move(landed), s.settings.error,
+                                      byLines() ? caustics::adaptiveRule() : paper::textureRule());
   DELTALUX_VALIDATED(validate(s.caustics));
   s.report.times.textures += time.seconds();
   countTextures();
@@ -90,8 +92,9 @@ void Engine::State::solveAfresh(Progress* progress) {
   Solution& s = *solution;
   if (!known) s.tracer = tracing::makeEmbreeTracer(s.scene), s.memory.reset();
   transfer.reset();
-  if (!known) tracing.reset(), newPaths.reset(), groups = {}, s.particles = {};
+  if (!known) incremental.reset(), tracing.reset(), newPaths.reset(), groups = {}, s.particles = {};
   if (!newPaths) upkeep.reset(), s.caustics = {};
+  lists.reset();
   s.elements = {}, s.links = {}, s.lines = {}, s.columns = {}, s.deviation.clear(), lineSolve.reset();
   s.report = {};
   finished = false;
@@ -127,7 +130,7 @@ void Engine::State::count() {
   c.links = s.links.size();
   s.report.memory.elements = s.elements.memoryBytes();
   s.report.memory.links = s.links.memoryBytes();
-  s.report.memory.octree = tracing ? tracing->watchBytes() : 0;
+  s.report.memory.octree = incremental ? incremental->octreeBytes() : tracing ? tracing->watchBytes() : 0;
 }
 
 }  // namespace deltalux

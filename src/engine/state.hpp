@@ -16,6 +16,7 @@
 #include "engine/moving_groups.hpp"
 #include "engine/scene_update.hpp"
 #include "engine/time_budget.hpp"
+#include "paper/incremental_particles.hpp"
 #include "paper/refine.hpp"
 #include "paper/update.hpp"
 #include "particles/particle_tracing.hpp"
@@ -45,9 +46,11 @@ struct Engine::State {
   std::optional<engine::KnownSolve> known;       // of the solution before, while the next is found
   StepReport counts;                             // of the update that runs
   // Over links.
-  double nextError = 0;    // of the next round
-  bool curtailed = false;  // fewer particles than the error asks for: there was no time
-  RgbSum unsettled{0.0};   // power that the last iteration changed
+  std::optional<paper::IncrementalParticles> incremental;  // of the particles, once there are edits
+  std::optional<paper::IrradianceLists> lists;             // of light that has converged, once there are edits
+  double nextError = 0;                                    // of the next round
+  bool curtailed = false;                                  // fewer particles than the error asks for: there was no time
+  RgbSum unsettled{0.0};                                   // power that the last iteration changed
 
   /// Whether light is exchanged by lines: an update is then a solve of the edited scene.
   bool byLines() const { return solution->settings.method == SolveMethod::Lines; }
@@ -79,6 +82,8 @@ struct Engine::State {
   caustics::SurfaceSides chooseTextures();
   /// Returns whether light has converged; `well`: it is to be the last time.
   bool iterateOverLinks(bool well, Progress* progress);
+  /// The same over what edits have changed [GD01 5]; `changed`: elements that are others.
+  void iterateOverLists(std::span<const hierarchy::ElementId> changed);
   /// How links are judged when they are as fine as the error asks for.
   paper::OracleSettings linksJudged() const { return paper::judgedFor(solution->settings.error); }
 
@@ -109,7 +114,10 @@ struct Engine::State {
   void closeGaps();
 
   // Updating over links: paper_update.cpp.
-  void paperUpdate(const engine::SceneUpdate& edits, StepReport& step, Progress* progress);
+  /// `share`: of the particle links that edits affect, which is emitted again; 1 ends what frames have left.
+  void paperUpdate(const engine::SceneUpdate& edits, double share, StepReport& step, Progress* progress);
+  /// Re-emits links of particles as wholes. [GD01 4.2]
+  particles::ParticleUpdate reemitParticles(const SceneChange& change, double share, StepReport& step);
   /// Whether a light is so much brighter than when links were refined that they, and particles, are too few for it.
   bool outshines(const engine::SceneUpdate& edits) const;
   /// Emission and reflectance of what stays where it was. What is painted is appended to `painted`; what was black and
@@ -124,6 +132,8 @@ struct Engine::State {
   void judgeAnew(paper::LinkMarks marks, const engine::Growth& growth, StepReport& step);
   /// On the mesh as it is now, of which these patches reflect otherwise, or are others.
   void placeParticles(const particles::ParticleUpdate& newPaths, std::span<const hierarchy::ElementId> changed);
+  /// Of surfaces whose particles have changed. [GD01 4]
+  void followPaperTextures(const particles::ParticleUpdate& newPaths, StepReport& step);
   /// Links that err by more than they may where more light has come; returns whether there are more now.
   bool refineByNewLight(Progress* progress);
 
@@ -132,8 +142,10 @@ struct Engine::State {
 
   // Frames of motion.
   using SecondsLeft = std::function<double()>;
-  /// As much of an update as fits: over lines shadows, over links where things are. [GD01 4.3]
+  /// A part of an update: over lines shadows, as far as time goes; over links all but the particles of most affected
+  /// links. [GD01 4.3]
   StepReport frame(double seconds);
+  void followWithShareOfLinks(const engine::SceneUpdate& now, StepReport& step);
   void followWithShadows(const engine::SceneUpdate& now, const SecondsLeft& left, StepReport& step);
   /// Gives an object a place of its own in the tracer, and makes ready what updates need to know.
   void select(const std::string& object);

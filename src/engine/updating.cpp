@@ -31,7 +31,7 @@ void Engine::State::prepareToFollow() {
   if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
   if (s.settings.diffuseOnly) return;
   if (!tracing) tracing.emplace(s.scene, *s.tracer, engine::particleSettings(s.settings));
-  if (!upkeep && s.settings.causticTextures)
+  if (byLines() && !upkeep && s.settings.causticTextures)
     upkeep.emplace(caustics::TextureUpkeep::Parts{s.scene, s.elements, s.particles}, *transfer, s.settings.error);
 }
 
@@ -59,7 +59,7 @@ StepReport Engine::State::update(Progress* progress) {
     step.times = s.report.times;
     step.times.particles += counts.times.particles;
   } else {
-    paperUpdate(taken, step, progress);
+    paperUpdate(taken, 1.0, step, progress);
   }
   step.rays = tracer().traced() - traced;
   step.times.total = time.seconds();

@@ -131,4 +131,13 @@ RgbSum pull(Elements& elements) {
   return change;
 }
 
+RgbSum pull(Elements& elements, std::span<const char> marked) {
+  RgbSum change(0.0);
+  for (std::size_t i = elements.size(); i-- > 0;)
+    if (marked[i]) pullExposure(elements, i), pullIrradiance(elements, i);
+  for (std::size_t i = elements.size(); i-- > 0;)
+    if (marked[i]) reflectAndPull(elements, i, change);
+  return change;
+}
+
 }  // namespace deltalux::hierarchy

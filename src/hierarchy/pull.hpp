@@ -10,5 +10,7 @@ namespace deltalux::hierarchy {
 /// Over the whole hierarchy. Returns the power by which leaf radiosities changed: sum of A |dB| per channel [W in
 /// unit^2 as area].
 RgbSum pull(Elements&);
+/// Of marked elements alone: with every one of them, all above it is to be marked.
+RgbSum pull(Elements&, std::span<const char> marked);
 
 }  // namespace deltalux::hierarchy

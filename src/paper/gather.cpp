@@ -8,12 +8,9 @@ namespace deltalux::paper {
 
 GatherPlan::GatherPlan(const hierarchy::Links& links, const hierarchy::Elements& elements) {
   // Counting sort by receiver, direct senders first; links keep their order within.
-  const auto carries = [&](const hierarchy::Link& l) {
-    return l.state == hierarchy::LinkState::Active && l.K > 0 && !isBlack(l.V);
-  };
   std::vector<std::uint32_t> direct(elements.size() + 1, 0), indirect(elements.size() + 1, 0);
   for (const hierarchy::Link& l : links.all)
-    if (carries(l)) ++(elements.at(l.sender).emitter ? direct : indirect)[l.receiver.index()];
+    if (bringsLight(l)) ++(elements.at(l.sender).emitter ? direct : indirect)[l.receiver.index()];
   std::uint32_t total = 0;
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const std::uint32_t d = direct[e], i = indirect[e];
@@ -29,7 +26,7 @@ GatherPlan::GatherPlan(const hierarchy::Links& links, const hierarchy::Elements&
   begin_.push_back(total);
   transfers_.resize(total);
   for (const hierarchy::Link& l : links.all) {
-    if (!carries(l)) continue;
+    if (!bringsLight(l)) continue;
     auto& next = (elements.at(l.sender).emitter ? direct : indirect)[l.receiver.index()];
     transfers_[next++] = {l.sender, l.K * l.V};
   }

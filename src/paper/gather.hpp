@@ -6,6 +6,11 @@
 
 namespace deltalux::paper {
 
+/// Whether a link brings its receiver light.
+inline bool bringsLight(const hierarchy::Link& l) {
+  return l.state == hierarchy::LinkState::Active && l.K > 0 && !isBlack(l.V);
+}
+
 /// Active links by receiver, reduced to what gathering needs.
 class GatherPlan {
  public:

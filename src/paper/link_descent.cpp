@@ -134,7 +134,10 @@ bool LinkDescent::settle(const Task& task, const Verdict& v, Block& block) {
 void LinkDescent::commit(const Pending& p, bool stopping, std::vector<Task>& next) {
   const hierarchy::LinkId id = p.task.link;
   const Verdict& v = p.verdict;
-  if (links_[id].state == hierarchy::LinkState::Interior) links_.collapse(id);
+  if (links_[id].state == hierarchy::LinkState::Interior) {
+    if (collapsing) collapsing(id);
+    links_.collapse(id);
+  }
   links_.judged(id, v.link);
   if (v.split == Split::None) return;
   const bool optional =

@@ -41,6 +41,7 @@ class LinkDescent {
         disturbed_(disturbed) {}
 
   std::function<bool()> stop;
+  std::function<void(hierarchy::LinkId)> collapsing;  // told of interior links that become active
 
   RefineReport run();
 

@@ -6,8 +6,9 @@ namespace deltalux::paper {
 
 namespace {
 
-/// Light from above each element: scalar below the input level, directional at clusters.
-void push(hierarchy::Elements& elements) {
+/// Light from above each element where `marked(index)`: scalar below the input level, directional at clusters.
+template <class Marked>
+void push(hierarchy::Elements& elements, const Marked& marked) {
   std::vector<hierarchy::DirectionalRgb> direct(elements.clusters.size()), indirect(elements.clusters.size());
   std::vector<std::uint32_t> source(elements.size(), Id<void>::kNone);  // slot of the cluster above a patch
   for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -24,11 +25,12 @@ void push(hierarchy::Elements& elements) {
       }
       continue;
     }
+    const bool input = t.depth == 0;
+    source[i] = input ? elements.slot[t.parent.index()] : source[t.parent.index()];
+    if (!marked(i)) continue;
     hierarchy::ElementLight& light = elements.radiometry[i];
     light.direct = light.directGathered;
     light.indirect = light.indirectGathered;
-    const bool input = t.depth == 0;
-    source[i] = input ? elements.slot[t.parent.index()] : source[t.parent.index()];
     if (!input) {
       light.direct += elements.radiometry[t.parent.index()].direct;
       light.indirect += elements.radiometry[t.parent.index()].indirect;
@@ -44,8 +46,18 @@ void push(hierarchy::Elements& elements) {
 }  // namespace
 
 RgbSum pushPull(hierarchy::Elements& elements) {
-  push(elements);
+  push(elements, [](std::size_t) { return true; });
   return hierarchy::pull(elements);
+}
+
+RgbSum pushPull(hierarchy::Elements& elements, std::vector<char>& marked) {
+  const auto parentOf = [&](std::size_t i) { return elements.topology[i].parent; };
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    if (parentOf(i).valid() && marked[parentOf(i).index()]) marked[i] = 1;
+  for (std::size_t i = marked.size(); i-- > 0;)
+    if (marked[i] && parentOf(i).valid()) marked[parentOf(i).index()] = 1;
+  push(elements, [&](std::size_t i) { return marked[i] != 0; });
+  return hierarchy::pull(elements, marked);
 }
 
 }  // namespace deltalux::paper

@@ -10,4 +10,9 @@ namespace deltalux::paper {
 /// unit^2 as area].
 RgbSum pushPull(hierarchy::Elements&);
 
+/// The same in the marked parts of the hierarchy alone [GD01 4.2, 5]: elements whose own gathered irradiance,
+/// particles, shape or reflectance have changed. On return all is marked that was evaluated: those, what is below and
+/// above them.
+RgbSum pushPull(hierarchy::Elements&, std::vector<char>& marked);
+
 }  // namespace deltalux::paper

@@ -58,7 +58,8 @@ RefineReport refine(hierarchy::Links& links, hierarchy::Elements& elements, cons
 }
 
 RefineReport rejudge(hierarchy::Links& links, hierarchy::Elements& elements, const Scene& scene,
-                     const tracing::RayTracer& tracer, const OracleSettings& settings, LinkMarks& marked) {
+                     const tracing::RayTracer& tracer, const OracleSettings& settings, LinkMarks& marked,
+                     std::function<void(hierarchy::LinkId)> collapsing) {
   std::sort(marked.between.begin(), marked.between.end(),
             [](const DisturbedLink& a, const DisturbedLink& b) { return a.link < b.link; });
   LinkDescent::Marks marks(links.size());
@@ -69,7 +70,9 @@ RefineReport rejudge(hierarchy::Links& links, hierarchy::Elements& elements, con
     markAbove(links, marks, d.link,
               links[d.link].visibility == hierarchy::Visibility::Sampled ? LinkMark::Way : LinkMark::Path);
   for (const hierarchy::LinkId root : marked.made) marks.at(root.index()) = LinkMark::Path;
-  return LinkDescent(links, elements, scene, tracer, settings, std::move(marks), marked.between).run();
+  LinkDescent descent(links, elements, scene, tracer, settings, std::move(marks), marked.between);
+  descent.collapsing = std::move(collapsing);
+  return descent.run();
 }
 
 }  // namespace deltalux::paper

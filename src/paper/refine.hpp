@@ -27,9 +27,10 @@ void makeRootLinks(hierarchy::Links&, const hierarchy::Elements&);
 void addRootLinks(hierarchy::Links&, const hierarchy::Elements&, hierarchy::ElementId grown);
 
 /// Judges the marked links anew after a move: active ones whose ends or visibility changed, interior ones that may no
-/// longer need to be refined, which collapse; and refines root links that were made since the marks were.
+/// longer need to be refined, which collapse (`collapsing` is told each of them before it does); and refines root links
+/// that were made since the marks were.
 RefineReport rejudge(hierarchy::Links&, hierarchy::Elements&, const Scene&, const tracing::RayTracer&,
-                     const OracleSettings&, LinkMarks& marks);
+                     const OracleSettings&, LinkMarks& marks, std::function<void(hierarchy::LinkId)> collapsing);
 
 /// `stop` is asked between levels; true ends refinement with a consistent tree.
 RefineReport refine(hierarchy::Links&, hierarchy::Elements&, const Scene&, const tracing::RayTracer&,

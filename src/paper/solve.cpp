@@ -10,10 +10,6 @@
 
 namespace deltalux::paper {
 
-namespace {
-
-constexpr int kMaxIterations = 1024;  // halls of white plaster settle in some fifty [limit]
-
 RgbSum directPower(const hierarchy::Elements& e) {
   return parallelSum<RgbSum>(e.inputs.size(), 4096, [&](std::size_t i) {
     const hierarchy::ElementId input = e.inputs[i];
@@ -21,8 +17,6 @@ RgbSum directPower(const hierarchy::Elements& e) {
                              : RgbSum(0.0);
   });
 }
-
-}  // namespace
 
 OracleSettings judgedFor(double error) {
   OracleSettings settings;

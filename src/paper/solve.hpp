@@ -36,9 +36,13 @@ struct Settled {
   bool whole = false;  // as little is unsettled as shall be
 };
 
+constexpr int kMaxIterations = 1024;  // halls of white plaster settle in some fifty [limit]
 constexpr double kSettled =
     deltalux::tuning::kNegligible;                     // unsettled power between rounds, over what arrives of lights
 constexpr double kSettledWell = tuning::kSettledWell;  // the same in the end: dark corners too shall be right
+
+/// What arrives of lights [W, with the scene's unit squared as area].
+RgbSum directPower(const hierarchy::Elements&);
 
 /// Gathers over all links, and from particles, until light no longer changes, from the light there is. `goOn` is asked
 /// after every iteration.

@@ -32,14 +32,23 @@ void arrive(const Parts& x, LinkMarks& marks, const Newcomers& newcomers) {
     woken.addMoved(newcomers.woken, x.elements);
     add(LineSpace(x.links, x.elements, x.scene, woken, {}, {}).visit(), marks);
   }
+  if (!newcomers.asleep.empty()) {
+    SpaceChange asleep;
+    asleep.addMoved(newcomers.asleep, x.elements);
+    const LinkMarks found = LineSpace(x.links, x.elements, x.scene, asleep, {}, {}).visit();
+    marks.shifted = found.moved, marks.visited += found.visited;
+  }
   if (!newcomers.root.valid()) return;
   const std::size_t known = x.links.roots.size();
   addRootLinks(x.links, x.elements, newcomers.root);
   marks.made.assign(x.links.roots.begin() + static_cast<std::ptrdiff_t>(known), x.links.roots.end());
 }
 
-RefineReport follow(const Parts& x, LinkMarks& marks, const OracleSettings& settings) {
-  const RefineReport refined = rejudge(x.links, x.elements, x.scene, x.tracer, settings, marks);
+RefineReport follow(const Parts& x, LinkMarks& marks, const OracleSettings& settings, IrradianceLists& lists) {
+  lists.remove(x.elements, x.links, marks);
+  const RefineReport refined = rejudge(x.links, x.elements, x.scene, x.tracer, settings, marks,
+                                       [&](hierarchy::LinkId id) { lists.removeBelow(x.elements, x.links, id); });
+  lists.add(x.elements, x.links);
   DELTALUX_VALIDATED(validate(x.links, x.elements));
   return refined;
 }

@@ -1,11 +1,11 @@
 #pragma once
 // What a move does to links [GD01 5]: those that it touches are found by the line-space traversal, where things stand
-// before they leave; they are judged anew where things have arrived, refined or made coarse again. All light is then
-// gathered over links again, from the light there is (solve.hpp). (Departure: the paper takes light out of touched
-// links and puts it in again; gathering leaves nothing to add up or forget.) Cost: some 0.1 microseconds a link
-// visited, and what judging costs those that are touched.
+// before they leave; they are judged anew where things have arrived, refined or made coarse again. The light that they
+// brought is taken out of their receivers, and what they bring now is put in (irradiance_lists.hpp). Cost: some 0.1
+// microseconds a link visited, and what judging costs those that are touched.
 #include <deltalux/edit.hpp>
 
+#include "paper/irradiance_lists.hpp"
 #include "paper/line_space.hpp"
 #include "paper/solve.hpp"
 
@@ -19,12 +19,13 @@ LinkMarks leave(const Parts&, std::span<const SceneChange::Moved>, std::span<con
 struct Newcomers {
   hierarchy::ElementId root;
   std::span<const hierarchy::ElementId> woken;
+  std::span<const hierarchy::ElementId> asleep;  // and what has left it
 };
 
 /// It comes to its new place, and newcomers with it: adds the links of these to the marks.
 void arrive(const Parts&, LinkMarks&, const Newcomers&);
 
-/// Judges the marked links anew.
-RefineReport follow(const Parts&, LinkMarks&, const OracleSettings&);
+/// Judges the marked links anew. `lists`: of the light that they bring.
+RefineReport follow(const Parts&, LinkMarks&, const OracleSettings&, IrradianceLists& lists);
 
 }  // namespace deltalux::paper

@@ -135,6 +135,7 @@ TEST(Recording, ComesBackAndReplaysTheSame) {
   recording.import.metresPerUnit = 0.3048;
   recording.settings.error = 0.1, recording.settings.seed = 18446744073709551615u,
   recording.settings.diffuseOnly = true, recording.settings.causticTextures = false;
+  recording.settings.reemittedShare = 0.25;
   recording.luminaires = {{folder / "lamp.ies", {1, 2, 3}}};
   recording.steps = parse(
       R"({"op": "transform", "object": "ball", "rotate": {"axis": [1, 2, 3], "degrees": 33.3, "about": [0.1, 0.2, 0.3]}},
@@ -148,6 +149,7 @@ TEST(Recording, ComesBackAndReplaysTheSame) {
   EXPECT_EQ(loaded.settings.seed, recording.settings.seed);
   EXPECT_EQ(loaded.settings.diffuseOnly, true);
   EXPECT_EQ(loaded.settings.causticTextures, false);
+  EXPECT_EQ(loaded.settings.reemittedShare, 0.25);
   EXPECT_EQ(loaded.scene, recording.scene);
   ASSERT_EQ(loaded.luminaires.size(), 1u);
   EXPECT_EQ(loaded.luminaires[0].file, recording.luminaires[0].file);

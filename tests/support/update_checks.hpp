@@ -20,10 +20,11 @@ inline void expectValid(const Engine& engine, const std::string& after) {
 /// For small scenes, where bounds are wide.
 inline constexpr CheckSettings kQuickCheck{2000, 0.01};
 
-inline void expectAsSolved(const Engine& engine, const SolveSettings& settings, double median, double p95) {
+inline void expectAsSolved(const Engine& engine, const SolveSettings& settings, double median, double p95,
+                           const CheckSettings& measured = kQuickCheck) {
   Engine fresh(engine.solution().scene(), settings);
   fresh.solve();
-  const CheckReport check = compareSolutions(engine.solution(), fresh.solution(), kQuickCheck);
+  const CheckReport check = compareSolutions(engine.solution(), fresh.solution(), measured);
   EXPECT_LT(check.medianRelDiff, median);
   EXPECT_LT(check.p95RelDiff, p95);
   EXPECT_TRUE(check.particlesIdentical);

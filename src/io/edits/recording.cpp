@@ -92,6 +92,7 @@ SolveSettings settingsOf(const io::JsonView& document) {
     if (name != "lines" && name != "paper") method.fail("is neither \"lines\" nor \"paper\"");
     s.method = name == "paper" ? SolveMethod::Paper : SolveMethod::Lines;
   }
+  s.reemittedShare = number(json, "reemitted_share", 1e-6, 1, s.reemittedShare);
   byLight.expectBool();
   if (byLight.present()) s.byLight = byLight.value().get<bool>();
   if (groups.present())
@@ -142,6 +143,7 @@ std::string toJson(const Recording& r) {
         {"diffuse_only", r.settings.diffuseOnly},
         {"caustic_textures", r.settings.causticTextures},
         {"method", r.settings.method == SolveMethod::Paper ? "paper" : "lines"},
+        {"reemitted_share", r.settings.reemittedShare},
         {"by_light", r.settings.byLight},
         {"groups", std::move(groups)}}},
       {"edits", std::move(edits)}};

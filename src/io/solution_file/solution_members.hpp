@@ -16,8 +16,9 @@ void members(auto& archive, Is<LightPattern> auto& p) {
   transferAll(archive, group, pattern);
 }
 void members(auto& archive, Is<SolveSettings> auto& s) {
-  auto& [error, particles, seconds, diffuseOnly, causticTextures, seed, method, byLight, groups] = s;
-  transferAll(archive, error, particles, seconds, diffuseOnly, causticTextures, seed, method, byLight, groups);
+  auto& [error, particles, seconds, diffuseOnly, causticTextures, seed, method, byLight, groups, reemittedShare] = s;
+  transferAll(archive, error, particles, seconds, diffuseOnly, causticTextures, seed, method, byLight, groups,
+              reemittedShare);
 }
 
 void members(auto& archive, Is<EnergyLedger> auto& e) {
