@@ -97,7 +97,7 @@ void IrradianceLists::follow(const Elements& elements) {
     intensity_.push_back(elements.clusters[slot].intensity);
 }
 
-Rgb IrradianceLists::told(const Elements& elements, ElementId sender, const Vec3f& w) const {
+Rgb IrradianceLists::propagated(const Elements& elements, ElementId sender, const Vec3f& w) const {
   return elements.isCluster(sender) ? intensity_[elements.slot[sender.index()]].at(-w) : B_[sender.index()];
 }
 
@@ -115,7 +115,7 @@ IrradianceLists::Operation IrradianceLists::brought(const Elements& elements, co
 
 void IrradianceLists::list(const Elements& elements, const Link& l, float sign) {
   if (!bringsLight(l)) return;
-  operations_.push_back(brought(elements, l, [&](const Vec3f& w) { return told(elements, l.sender, w); }));
+  operations_.push_back(brought(elements, l, [&](const Vec3f& w) { return propagated(elements, l.sender, w); }));
   operations_.back().E *= sign;
 }
 
@@ -173,7 +173,7 @@ void IrradianceLists::apply(Elements& elements, std::vector<char>& marked) {
   operations_.clear();
 }
 
-/// Whether an element sends something else than it last told, by more than a radiosity [W/m2].
+/// Whether an element sends something else than it last propagated, by more than a radiosity [W/m2].
 bool IrradianceLists::differs(const Elements& elements, std::size_t i, double threshold) const {
   const ElementId e(i);
   if (!elements.isCluster(e)) {
@@ -188,15 +188,15 @@ bool IrradianceLists::differs(const Elements& elements, std::size_t i, double th
 }
 
 /// Lists what changes over the links of these senders.
-void IrradianceLists::tell(const Elements& elements, const Links& links, const Outgoing& outgoing,
-                           std::span<const ElementId> senders) {
+void IrradianceLists::propagate(const Elements& elements, const Links& links, const Outgoing& outgoing,
+                                std::span<const ElementId> senders) {
   constexpr std::size_t kBlock = 32;  // [task]
   std::vector<std::vector<Operation>> blocks((senders.size() + kBlock - 1) / kBlock);
   parallelFor(senders.size(), kBlock, [&](std::size_t i) {
     const ElementId s = senders[i];
     const auto difference = [&](const Vec3f& w) {
       const Rgb now = elements.isCluster(s) ? elements.cluster(s).intensity.at(-w) : elements.radiometry[s.index()].B;
-      return now - told(elements, s, w);
+      return now - propagated(elements, s, w);
     };
     for (const LinkId id : outgoing.of(s)) blocks[i / kBlock].push_back(brought(elements, links[id], difference));
   });
@@ -207,8 +207,8 @@ void IrradianceLists::tell(const Elements& elements, const Links& links, const O
   }
 }
 
-/// Power of leaves that their receivers do not know of.
-RgbSum IrradianceLists::untold(const Elements& elements) const {
+/// Power of leaves that is not propagated.
+RgbSum IrradianceLists::pendingPower(const Elements& elements) const {
   RgbSum sum(0.0);
   for (std::size_t i = 0; i < elements.size(); ++i)
     if (elements.isReceivingLeaf(ElementId(i)))
@@ -245,10 +245,10 @@ Settled IrradianceLists::settle(const Parts& x, const particles::ParticleTransfe
     s.whole = senders.empty();
     if (s.whole) break;
     if (!outgoing) outgoing.emplace(x.links, x.elements.size());
-    tell(x.elements, x.links, *outgoing, senders);
+    propagate(x.elements, x.links, *outgoing, senders);
     std::fill(marked.begin(), marked.end(), 0);
   }
-  s.unsettled = untold(x.elements);
+  s.unsettled = pendingPower(x.elements);
   return s;
 }
 
@@ -264,7 +264,7 @@ void IrradianceLists::validate(const Elements& elements, const Links& links) con
   float most = 0;
   for (const Link& l : links.all) {
     if (!bringsLight(l)) continue;
-    const Operation o = brought(elements, l, [&](const Vec3f& w) { return told(elements, l.sender, w); });
+    const Operation o = brought(elements, l, [&](const Vec3f& w) { return propagated(elements, l.sender, w); });
     if (!elements.isCluster(o.receiver)) {
       Rgb& E = (o.direct ? direct : indirect)[o.receiver.index()];
       E += o.E, most = std::max(most, maxChannel(E));

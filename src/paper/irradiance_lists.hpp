@@ -6,9 +6,9 @@
 //
 // Every link has brought its receiver what its sender sent when that was last gathered; this is kept by sender, with
 // the centre that it was seen at, so that what is removed is what was added, to rounding. After each push-pull of the
-// marked parts, senders whose radiosity has come to differ from that by more than a threshold tell their receivers: the
+// marked parts, senders whose radiosity has come to differ from that by more than a threshold propagate it: the
 // difference is added over their links. The threshold is the mean radiosity that is unsettled in the end, so the power
-// that no one was told of is no more than a full solve leaves (solve.hpp).
+// that is pending is no more than a full solve leaves (solve.hpp).
 // Cost: some ten nanoseconds a link once, to list them by sender, and thirty for each that is gathered over; push-pull
 // of what is marked. Memory: 24 bytes an element, 108 a cluster.
 #include <span>
@@ -26,7 +26,7 @@ class IrradianceLists {
   /// Of a solution whose light has converged over its links.
   explicit IrradianceLists(const hierarchy::Elements&);
 
-  /// Before links are judged anew: lists what the marked ones have brought, to be removed.
+  /// Before links are evaluated again: lists what the marked ones have brought, to be removed.
   void remove(const hierarchy::Elements&, const hierarchy::Links&, const LinkMarks&);
   /// Before an interior link collapses: the same of all links below it.
   void removeBelow(const hierarchy::Elements&, const hierarchy::Links&, hierarchy::LinkId);
@@ -39,8 +39,8 @@ class IrradianceLists {
                  double unsettled);
 
   std::size_t memoryBytes() const;
-  /// Recounts: every element has gathered, to rounding, what its links bring of what their senders last told. To be
-  /// asked when nothing is listed. Throws std::logic_error.
+  /// Recounts: every element has gathered, to rounding, what its links bring of what their senders last propagated. To
+  /// be asked when nothing is listed. Throws std::logic_error.
   void validate(const hierarchy::Elements&, const hierarchy::Links&) const;
 
  private:
@@ -54,18 +54,18 @@ class IrradianceLists {
   class Outgoing;
 
   void follow(const hierarchy::Elements&);
-  Rgb told(const hierarchy::Elements&, hierarchy::ElementId sender, const Vec3f& w) const;
+  Rgb propagated(const hierarchy::Elements&, hierarchy::ElementId sender, const Vec3f& w) const;
   template <class Sent>
   Operation brought(const hierarchy::Elements&, const hierarchy::Link&, const Sent& sent) const;
   void list(const hierarchy::Elements&, const hierarchy::Link&, float sign);
   void takeOut(const hierarchy::Elements&, const hierarchy::Links&, hierarchy::LinkId);
   void apply(hierarchy::Elements&, std::vector<char>& marked);
   bool differs(const hierarchy::Elements&, std::size_t element, double threshold) const;
-  void tell(const hierarchy::Elements&, const hierarchy::Links&, const Outgoing&,
-            std::span<const hierarchy::ElementId> senders);
-  RgbSum untold(const hierarchy::Elements&) const;
+  void propagate(const hierarchy::Elements&, const hierarchy::Links&, const Outgoing&,
+                 std::span<const hierarchy::ElementId> senders);
+  RgbSum pendingPower(const hierarchy::Elements&) const;
 
-  // What was last told: by element, and of clusters by their slot.
+  // What was last propagated: by element, and of clusters by their slot.
   std::vector<Rgb> B_;
   std::vector<Vec3f> center_;
   std::vector<hierarchy::DirectionalRgb> intensity_;

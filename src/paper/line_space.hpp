@@ -26,7 +26,7 @@ struct LinkMarks {
   std::vector<DisturbedLink> between;
   std::vector<hierarchy::LinkId> moved;    // an end of theirs moved, or holds what moved
   std::vector<hierarchy::LinkId> made;     // root links that were made since
-  std::vector<hierarchy::LinkId> shifted;  // not judged anew: an end holds what fell asleep, and has another centre
+  std::vector<hierarchy::LinkId> shifted;  // not evaluated again: an end holds what became inactive, and moves
   std::uint64_t visited = 0;
 };
 

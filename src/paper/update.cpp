@@ -32,10 +32,10 @@ void arrive(const Parts& x, LinkMarks& marks, const Newcomers& newcomers) {
     woken.addMoved(newcomers.woken, x.elements);
     add(LineSpace(x.links, x.elements, x.scene, woken, {}, {}).visit(), marks);
   }
-  if (!newcomers.asleep.empty()) {
-    SpaceChange asleep;
-    asleep.addMoved(newcomers.asleep, x.elements);
-    const LinkMarks found = LineSpace(x.links, x.elements, x.scene, asleep, {}, {}).visit();
+  if (!newcomers.inactive.empty()) {
+    SpaceChange inactive;
+    inactive.addMoved(newcomers.inactive, x.elements);
+    const LinkMarks found = LineSpace(x.links, x.elements, x.scene, inactive, {}, {}).visit();
     marks.shifted = found.moved, marks.visited += found.visited;
   }
   if (!newcomers.root.valid()) return;

@@ -19,7 +19,7 @@ LinkMarks leave(const Parts&, std::span<const SceneChange::Moved>, std::span<con
 struct Newcomers {
   hierarchy::ElementId root;
   std::span<const hierarchy::ElementId> woken;
-  std::span<const hierarchy::ElementId> asleep;  // and what has left it
+  std::span<const hierarchy::ElementId> inactive;  // and what has left it
 };
 
 /// It comes to its new place, and newcomers with it: adds the links of these to the marks.

@@ -37,18 +37,18 @@ std::vector<Distance> distances(const std::string& scene, const std::vector<doub
                                 const std::vector<ProbePoint>& points) {
   const Engine lines = solveOf(scene, ofLines, SolveMethod::Lines);
   std::vector<Distance> result;
-  for (const double error : errors) {
+  for (const double error : errors)
     result.push_back(distance(solveOf(scene, error, SolveMethod::Paper), lines, points));
-  }
   return result;
 }
 
-void expectToApproach(const std::vector<Distance>& d) {
+/// `residue`: what the ledger may not account for at the least error.
+void expectToApproach(const std::vector<Distance>& d, double residue) {
   EXPECT_LT(d.back().median, d.front().median);
   EXPECT_LT(d.back().median, 0.02);
   EXPECT_NEAR(d.back().mean, 0, 0.02);
   EXPECT_LT(std::abs(d.back().residue), std::abs(d.front().residue));
-  EXPECT_NEAR(d.back().residue, 0, 0.02);
+  EXPECT_NEAR(d.back().residue, 0, residue);
 }
 
 /// n x n points in the middles of equal parts of a rectangle.
@@ -62,12 +62,12 @@ std::vector<ProbePoint> gridOn(const Vec3& corner, const Vec3& u, const Vec3& v,
 TEST(PaperConvergence, CornellBoxComesToWhatLinesComeTo) {
   std::vector<ProbePoint> points = gridOn({0, 0, 0}, {0.54, 0, 0}, {0, 0, 0.55}, {0, 1, 0}, 8);
   for (const ProbePoint& p : gridOn({0, 0, 0.559}, {0.54, 0, 0}, {0, 0.54, 0}, {0, 0, -1}, 8)) points.push_back(p);
-  expectToApproach(distances("cornell/cornell.rad", {0.1, 0.02, 0.005}, 0.01, points));
+  expectToApproach(distances("cornell/cornell.rad", {0.1, 0.02, 0.005}, 0.01, points), 0.02);
 }
 
 TEST(PaperConvergence, LightInTheRingComesToWhatLinesComeTo) {
   const std::vector<ProbePoint> points = gridOn({-0.03, -0.03, 0}, {0.06, 0, 0}, {0, 0.06, 0}, {0, 0, 1}, 12);
-  expectToApproach(distances("ring/ring.rad", {0.1, 0.03}, 0.02, points));
+  expectToApproach(distances("ring/ring.rad", {0.1, 0.03}, 0.02, points), 0.03);
 }
 
 }  // namespace

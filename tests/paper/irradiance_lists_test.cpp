@@ -59,7 +59,7 @@ TEST(IrradianceLists, AConvergedSolutionStaysAsItIs) {
   EXPECT_NO_THROW(w.lists.validate(w.s.elements, w.s.links));
 }
 
-TEST(IrradianceLists, ALampThatIsDimmedIsToldToItsReceivers) {
+TEST(IrradianceLists, ADimmedLampReachesItsReceivers) {
   Work w(test::furnishedRoom());
   for (std::size_t i = 0; i < w.s.elements.size(); ++i)
     if (w.s.elements.at(ElementId(i)).emitter) w.s.elements.radiometry[i].B *= 0.5f;
