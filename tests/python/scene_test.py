@@ -62,7 +62,7 @@ class Lights(unittest.TestCase):
     def test_a_measured_light_is_that_of_the_command_line(self):
         with support.folder() as folder:
             (folder / "flood.ies").write_text(
-                "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 100\n0 45 90\n0\n500 400 0\n"
+                "IESNA:LM-63-2002\nTILT=NONE\n1 1639 1 3 1 1 2 0 0 0\n1 1 100\n0 45 90\n0\n500 400 0\n"
             )
             scene = lit_floor({"kind": "ies", "file": folder / "flood.ies", "position": (0, 0, 2)})
             self.assertEqual(scene.lights, ("light",))
