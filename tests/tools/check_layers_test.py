@@ -26,6 +26,8 @@ GOOD = {
     "src/render/reference/path.cpp": '#include "tracing/ray_tracer.hpp"\n#include <fmt/format.h>\n',
     "apps/cli/main.cpp": '#include "options.hpp"\n#include <deltalux/io.hpp>\n#include <iostream>\n',
     "apps/cli/options.hpp": "#include <string>\n",
+    "python/bindings/bind.hpp": "#include <pybind11/pybind11.h>\n",
+    "python/bindings/module.cpp": '#include "bind.hpp"\n#include <deltalux/io.hpp>\n',
 }
 
 
@@ -65,6 +67,7 @@ class CheckLayers(unittest.TestCase):
     def test_apps_see_public_headers_only(self):
         self.assert_offence("apps/cli/bad.cpp", '#include "../../src/base/check.hpp"\n', "internal")
         self.assert_offence("apps/cli/bad.cpp", '#include "base/check.hpp"\n', "internal")
+        self.assert_offence("python/bindings/bad.cpp", '#include "base/check.hpp"\n', "internal")
 
     def test_public_headers_include_public_headers_only(self):
         self.assert_offence("include/deltalux/view.hpp", '#include "base/check.hpp"\n', "internal")
