@@ -17,6 +17,23 @@ export default defineConfig({
   plugins: [
     viteSingleFile({ removeViteModuleLoader: true }),
     {
+      // The viewer stands between what its first picture needs and all else, and does not wait for that.
+      name: 'order',
+      enforce: 'post',
+      generateBundle: {
+        order: 'post',
+        handler(_, bundle) {
+          for (const part of Object.values(bundle)) {
+            if (!part.fileName.endsWith('.html')) continue;
+            const page = part.source.toString(), begin = page.indexOf('<script type="module"'), end = page.indexOf('</script>', begin) + 9;
+            const viewer = page.slice(begin, end).replace(/^<script[^>]*>/, '<script type="module" async>'), rest = page.slice(0, begin) + page.slice(end);
+            const at = rest.indexOf('<script id="later"');
+            part.source = rest.slice(0, at) + viewer + '\n' + rest.slice(at);
+          }
+        },
+      },
+    },
+    {
       name: 'licences',
       enforce: 'post',
       generateBundle(_, bundle) {

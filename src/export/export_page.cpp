@@ -9,6 +9,7 @@
 #include "export/page_data.hpp"
 #include "export/page_html.hpp"
 #include "export/page_points.hpp"
+#include "export/page_refine.hpp"
 #include "export/page_template.hpp"
 #include "export/simplify.hpp"
 #include "io/atomic_file.hpp"
@@ -20,8 +21,7 @@ namespace {
 
 using namespace exporting;
 
-constexpr double kShareOfError = 0.5;  // of the solution's: what leaving vertices out may add [limit]
-constexpr double kOverlap = 3e-4;      // of sides over their outlines [m] [shown]
+constexpr double kOverlap = 3e-4;                         // of sides over their outlines [m] [shown]
 constexpr int kExposureWidth = 96, kExposureHeight = 72;  // of the picture that the exposure is chosen from [shown]
 
 std::vector<View> viewsOf(const Scene& scene, const PageSettings& settings) {
@@ -74,11 +74,16 @@ void exportPage(const SolutionView& solution, const std::filesystem::path& path,
   page.ev = settings.ev ? *settings.ev : exposureOf(solution, page.views);
   const std::vector<SolutionMesh> meshes = readGroups(solution, groups, settings, page, progress);
   page.mesh = pageMesh(groups, meshes);
+  std::vector<std::vector<Rgb>> direct;
   for (std::size_t g = 0; g < meshes.size(); ++g) {
     page.layers.push_back(pageLayer(page.mesh, g, meshes[g]));
+    direct.push_back(pageDirect(page.mesh, g, meshes[g]));
     page.caustics.push_back(pageCaustics(page.mesh, meshes[g]));
   }
-  simplify(page.mesh, page.layers, {kShareOfError * solution.settings().error}, sidesUnderTextures(page.mesh, meshes));
+  const std::vector<char> whole = sidesUnderTextures(page.mesh, meshes);
+  const double error = kShareOfError * solution.settings().error;
+  refineDirect(page.mesh, page.layers, direct, scene, DirectLight(solution), Refinement::of(scene, error), whole);
+  simplify(page.mesh, page.layers, {error}, whole);
   widenSides(page.mesh, kOverlap / scene.metresPerUnit);
   page.skies = pageSkies(scene, groups, !page.byLight), page.suns = pageSuns(scene, groups, !page.byLight);
   advance(progress, "export", static_cast<double>(groups.size()) / static_cast<double>(groups.size() + 1));

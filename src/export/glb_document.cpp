@@ -28,6 +28,8 @@ ChartedMesh chartedMesh(const SolutionView& solution, const GlbSettings& setting
   advance(progress, "mesh", 0);
   ChartedMesh result;
   result.mesh = SolutionReader(solution).mesh();
+  advance(progress, "direct light", 0);
+  result.light = bakedLight(solution, result.mesh);
   advance(progress, "charts", 0);
   std::vector<AtlasChart> charts = litCharts(result.mesh, glm::radians(settings.crease));
   groupByBrightness(charts, result.mesh, settings.range);
@@ -37,6 +39,10 @@ ChartedMesh chartedMesh(const SolutionView& solution, const GlbSettings& setting
   const double finest = finestTexel(result.mesh, charts);
   result.atlas = layOut(std::move(charts), layout, finest);
   return result;
+}
+
+MeasuredLight bakedLight(const SolutionView& solution, const SolutionMesh& mesh) {
+  return measuredLight(solution, mesh, kShareOfError * solution.settings().error);
 }
 
 GlbJson assetOf(const Scene& scene) {

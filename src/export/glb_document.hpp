@@ -7,16 +7,21 @@
 #include "export/atlas_layout.hpp"
 #include "export/glb_container.hpp"
 #include "export/glb_geometry.hpp"
+#include "export/measured_direct.hpp"
 
 namespace deltalux::exporting {
 
 struct ChartedMesh {
   SolutionMesh mesh;
+  MeasuredLight light;  // of it
   Atlas atlas;
 };
 
 /// Throws Interrupted. Precondition: the settings are in their ranges.
 ChartedMesh chartedMesh(const SolutionView&, const GlbSettings&, Progress*);
+
+/// Measures the light of the solution, or of a group of its lights, for the atlas of the whole.
+MeasuredLight bakedLight(const SolutionView&, const SolutionMesh&);
 
 /// glTF's `asset`, whose extras say where the origin lies and what the numbers mean.
 GlbJson assetOf(const Scene&);

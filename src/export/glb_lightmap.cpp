@@ -127,7 +127,7 @@ GlbJson lightmapExtras(const std::filesystem::path& glb, const LightmapTextures&
 std::vector<FileBytes> litFiles(const ChartedMesh& charted, const std::filesystem::path& path,
                                 const GlbSettings& settings, GeometryCounts& counts) {
   std::vector<std::vector<char>> covered;
-  const std::vector<Image> pages = bake(charted.atlas, charted.mesh, charted.mesh, irradianceAt, &covered);
+  const std::vector<Image> pages = bake(charted.atlas, charted.mesh, charted.light, irradianceAt, &covered);
   GlbContainer glb;
   glb.json["asset"] = assetOf(*charted.mesh.scene);
   const LightmapTextures lightmaps = addLightmaps(glb, pages, covered, settings.clipped);
@@ -148,7 +148,8 @@ void addGroupFiles(std::vector<FileBytes>& files, const SolutionView& solution, 
   const std::vector<LightGroup> groups = lightGroups(solution);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     advance(progress, "groups", static_cast<double>(g) / static_cast<double>(groups.size()));
-    const SolutionMesh light = SolutionReader(lightOf(solution, g)).mesh();
+    const SolutionView group = lightOf(solution, g);
+    const MeasuredLight light = bakedLight(group, SolutionReader(group).mesh());
     const std::vector<Image> pages = bake(charted.atlas, charted.mesh, light, irradianceAt);
     for (std::size_t i = 0; i < pages.size(); ++i)
       files.push_back({besides(path, "." + fitForFile(groups[g].name) + pageSuffix(i)), io::encodeExr(pages[i])});

@@ -56,7 +56,7 @@ Rgb albedoAt(const Scene& scene, const BakedTexel& t) {
 
 std::vector<Image> radiancePages(const ChartedMesh& charted) {
   const LightBehind behind(charted.mesh);
-  return bake(charted.atlas, charted.mesh, charted.mesh, [&](const BakedTexel& t) {
+  return bake(charted.atlas, charted.mesh, charted.light, [&](const BakedTexel& t) {
     const Rgb sent = albedoAt(*charted.mesh.scene, t) * t.irradiance + behind.at(t);
     return t.side.radiance + sent / static_cast<float>(kPi);
   });

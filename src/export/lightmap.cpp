@@ -13,6 +13,8 @@ namespace {
 constexpr int kMostSamples = 8;        // a side of a texel, of caustic textures [limit]
 constexpr float kOffTriangle = 1e-3f;  // how far a caustic's triangles may lie off the side's, of their size [rounding]
 
+constexpr double kOffTexel = 0.5;  // texels that measured triangles of curved sides may lie off the mesh's [layout]
+
 /// By triangle of a chart: whether light falls on it.
 std::vector<char> litTriangles(const AtlasChart& chart, const SurfaceMesh& side) {
   std::vector<char> lit;
@@ -82,12 +84,14 @@ class TexelCaustics {
 };
 
 /// Writes one chart onto its page.
-void bakeChart(const Atlas& atlas, std::size_t index, const SolutionMesh& whole, const SolutionMesh& light,
+void bakeChart(const Atlas& atlas, std::size_t index, const SolutionMesh& whole, const MeasuredLight& light,
                const LightmapCaustics* caustics, const std::function<Rgb(const BakedTexel&)>& colour, Image& page,
                std::vector<char>* covered) {
   const AtlasChart& chart = atlas.charts[index];
   const ChartPlace& place = atlas.places[index];
-  const SurfaceMesh& side = *light.surfaces[chart.side];
+  const SurfaceMesh& side = *light.mesh.surfaces[chart.side];
+  const SideDirect* measured = light.sides[chart.side].get();
+  const auto reach = static_cast<float>(kOffTexel / atlas.texelsPerUnit);
   const std::vector<LightmapTexel> texels =
       texelsOf(chart, place, atlas.gutter, litTriangles(chart, *whole.surfaces[chart.side]));
   std::optional<TexelCaustics> texelCaustics;
@@ -102,6 +106,7 @@ void bakeChart(const Atlas& atlas, std::size_t index, const SolutionMesh& whole,
     baked.irradiance = carriedOn(irradianceOf(a), irradianceOf(b), irradianceOf(c), texels[i]);
     if (texelCaustics) baked.irradiance += texelCaustics->mean(texels[i]);
     baked.position = within(a.position, b.position, c.position, texels[i].nearest);
+    if (measured) baked.irradiance += measured->at(baked.position, reach).value_or(Rgb(0.0f));
     pixels[i] = colour(baked), known[i] = 1;
   }
   const int width = place.texels.x + 2 * atlas.gutter;
@@ -168,7 +173,7 @@ double finestTexel(const SolutionMesh& mesh, const std::vector<AtlasChart>& char
   return finest;
 }
 
-std::vector<Image> bake(const Atlas& atlas, const SolutionMesh& whole, const SolutionMesh& light,
+std::vector<Image> bake(const Atlas& atlas, const SolutionMesh& whole, const MeasuredLight& light,
                         const std::function<Rgb(const BakedTexel&)>& colour, std::vector<std::vector<char>>* covered) {
   std::vector<Image> pages;
   for (const glm::ivec2& size : atlas.pages) {
@@ -182,9 +187,9 @@ std::vector<Image> bake(const Atlas& atlas, const SolutionMesh& whole, const Sol
     covered->clear();
     for (const Image& page : pages) covered->emplace_back(page.pixels.size(), 0);
   }
-  std::vector<std::unique_ptr<const LightmapCaustics>> caustics(light.caustics.size());
+  std::vector<std::unique_ptr<const LightmapCaustics>> caustics(light.mesh.caustics.size());
   parallelFor(caustics.size(), 1, [&](std::size_t side) {
-    if (const auto& of = light.caustics[side]; of && !of->textures.empty())
+    if (const auto& of = light.mesh.caustics[side]; of && !of->textures.empty())
       caustics[side] = std::make_unique<const LightmapCaustics>(*of);
   });
   parallelFor(atlas.charts.size(), 1, [&](std::size_t i) {

@@ -1,6 +1,7 @@
 #pragma once
 // The light of a solution's sides on the pages of an atlas: irradiance at every texel's centre is what the mesh has
-// there, direct, indirect and particles, plus the mean over the texel of what the caustic textures of its side show.
+// there, direct, indirect and particles, and what was measured in its place, plus the mean over the texel of what the
+// caustic textures of its side show.
 #include <deltalux/image.hpp>
 #include <deltalux/solution_mesh.hpp>
 #include <functional>
@@ -8,6 +9,7 @@
 
 #include "export/atlas_layout.hpp"
 #include "export/lightmap_texels.hpp"
+#include "export/measured_direct.hpp"
 
 namespace deltalux::exporting {
 
@@ -36,7 +38,7 @@ struct BakedTexel {
 /// `covered`, unless null, gets 1 for every pixel of a chart, by page. `light` holds what is read, and may be the light
 /// of a group (light_groups.hpp), whose vertices are those of the mesh the charts were made of.
 /// Cost: a triangle per texel, and some lookups of caustic textures.
-std::vector<Image> bake(const Atlas&, const SolutionMesh& whole, const SolutionMesh& light,
+std::vector<Image> bake(const Atlas&, const SolutionMesh& whole, const MeasuredLight& light,
                         const std::function<Rgb(const BakedTexel&)>& colour,
                         std::vector<std::vector<char>>* covered = nullptr);
 

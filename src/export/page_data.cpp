@@ -18,7 +18,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kSteps = 1 << 22;  // of positions over the longest side of the scene [layout]
 
-constexpr float kFaint = 0.1f, kVeryFaint = 0.01f;  // of all light: kept to 0.8 and 1.6 % of itself [shown]
+constexpr float kFaint = 0.1f, kVeryFaint = 0.01f;            // of all light: kept to 0.8 and 1.6 % of itself [shown]
+constexpr std::uint8_t kFaintSlack = 2, kVeryFaintSlack = 4;  // the same in steps of a mantissa [layout]
 
 template <class V>
 Json three(const V& v) {
@@ -142,10 +143,21 @@ void addLayers(Sections& sections, const std::vector<std::vector<Rgb>>& layers) 
     for (std::size_t v = 0; v < total.size(); ++v) {
       const float share = maxChannel(layers[g][v]) / std::max(total[v], 1e-30f);
       words.push_back(packRgb9e5(layers[g][v]));
-      slack.push_back(share < kVeryFaint ? 4 : share < kFaint ? 2 : 0);
+      slack.push_back(share < kVeryFaint ? kVeryFaintSlack : share < kFaint ? kFaintSlack : 0);
     }
     sections.add("layer" + std::to_string(g), rgb9e5Planes(words, slack));
   }
+}
+
+/// What the first picture shows, before the groups are told apart.
+void addSum(Sections& sections, const PageData& page) {
+  std::vector<std::uint32_t> words;
+  for (std::size_t v = 0; v < page.mesh.vertices.size(); ++v) {
+    Rgb sum(0.0f);
+    for (std::size_t g = 0; g < page.layers.size(); ++g) sum += page.groups[g].weight * page.layers[g][v];
+    words.push_back(packRgb9e5(sum));
+  }
+  sections.add("sum", rgb9e5Planes(words, std::vector<std::uint8_t>(words.size(), kVeryFaintSlack)));
 }
 
 int groupNumber(const std::optional<std::size_t>& group) { return group ? static_cast<int>(*group) : -1; }
@@ -208,9 +220,9 @@ void addPoints(Json& header, Sections& sections, const PageData& page) {
 
 }  // namespace
 
-std::string pageBytes(const PageData& page, const Scene& scene) {
+PageBytes pageBytes(const PageData& page, const Scene& scene) {
   const Box box = boxOf(page.mesh);
-  Sections sections;
+  Sections sections, later;
   Json header = {{"format", 1},
                  {"version", DELTALUX_VERSION},
                  {"title", page.title},
@@ -230,17 +242,19 @@ std::string pageBytes(const PageData& page, const Scene& scene) {
   addVertices(sections, page.mesh);
   addDraws(header, sections, page.mesh, scene);
   addMaterials(header, page.mesh);
-  addLayers(sections, page.layers);
+  const bool several = page.layers.size() > 1;
+  if (several) addSum(sections, page);
+  addLayers(several ? later : sections, page.layers);
   addCaustics(header, sections, page.caustics);
   addSkies(header, sections, page);
   addPoints(header, sections, page);
-  header["sections"] = sections.table();
+  header["sections"] = sections.table(), header["later"] = later.table();
   const std::string text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
   const auto length = static_cast<std::uint32_t>(text.size());
   std::string out(reinterpret_cast<const char*>(&length), sizeof(length));
   out += text;
   out.resize((out.size() + 3) / 4 * 4, '\0');
-  return out + sections.bytes();
+  return {out + sections.bytes(), later.bytes()};
 }
 
 }  // namespace deltalux::exporting

@@ -2,17 +2,25 @@
 
 #include "base/check.hpp"
 #include "export/packing.hpp"
+#include "export/page_data.hpp"
 
 namespace deltalux::exporting {
 
-std::string pageHtml(std::string_view pageTemplate, std::string_view bytes) {
-  constexpr std::string_view kPlace = "@DELTALUX_SOLUTION@";
-  const std::size_t at = pageTemplate.find(kPlace);
-  DELTALUX_CHECK(at != std::string_view::npos, "the template has a place for the solution");
-  std::string out(pageTemplate.substr(0, at));
-  out += base64(gzip(bytes));
-  out += pageTemplate.substr(at + kPlace.size());
-  return out;
+namespace {
+
+void put(std::string& page, std::string_view place, std::string_view bytes) {
+  const std::size_t at = page.find(place);
+  DELTALUX_CHECK(at != std::string::npos, "the template has a place for the solution");
+  page.replace(at, place.size(), base64(gzip(bytes)));
+}
+
+}  // namespace
+
+std::string pageHtml(std::string_view pageTemplate, const PageBytes& bytes) {
+  std::string page(pageTemplate);
+  put(page, "@DELTALUX_SOLUTION@", bytes.first);
+  put(page, "@DELTALUX_LATER@", bytes.later);
+  return page;
 }
 
 }  // namespace deltalux::exporting

@@ -4,7 +4,10 @@
 
 namespace deltalux::exporting {
 
-/// The template with a solution put into its place: gzip and base64 of pageBytes(). Precondition: the template has one.
-std::string pageHtml(std::string_view pageTemplate, std::string_view bytes);
+struct PageBytes;
+
+/// The template with a solution put into its places: gzip and base64 of pageBytes(). Precondition: the template has
+/// both.
+std::string pageHtml(std::string_view pageTemplate, const PageBytes&);
 
 }  // namespace deltalux::exporting

@@ -206,6 +206,16 @@ class Builder {
   std::map<std::array<float, 4>, std::uint32_t> emitterNumbers_;
 };
 
+/// By vertex of the page's mesh.
+std::vector<Rgb> readVertices(const PageMesh& page, std::size_t group, const SolutionMesh& mesh, const auto& light) {
+  std::vector<Rgb> out;
+  out.reserve(page.vertices.size());
+  for (const PageMesh::Side& side : page.sides)
+    for (std::uint32_t i = side.first; i < side.first + side.count; ++i)
+      out.push_back(light(mesh.surfaces[side.side]->vertices[page.source[group][i]]));
+  return out;
+}
+
 }  // namespace
 
 PageMesh pageMesh(const std::vector<LightGroup>& groups, const std::vector<SolutionMesh>& meshes) {
@@ -219,14 +229,11 @@ PageMesh pageMesh(const std::vector<LightGroup>& groups, const std::vector<Solut
 }
 
 std::vector<Rgb> pageLayer(const PageMesh& page, std::size_t group, const SolutionMesh& mesh) {
-  std::vector<Rgb> light;
-  light.reserve(page.vertices.size());
-  for (const PageMesh::Side& side : page.sides)
-    for (std::uint32_t i = side.first; i < side.first + side.count; ++i) {
-      const MeshVertex& v = mesh.surfaces[side.side]->vertices[page.source[group][i]];
-      light.push_back(v.direct + v.indirect + v.particle);
-    }
-  return light;
+  return readVertices(page, group, mesh, [](const MeshVertex& v) { return v.direct + v.indirect + v.particle; });
+}
+
+std::vector<Rgb> pageDirect(const PageMesh& page, std::size_t group, const SolutionMesh& mesh) {
+  return readVertices(page, group, mesh, [](const MeshVertex& v) { return v.direct; });
 }
 
 std::vector<std::uint32_t> sideOfVertices(const PageMesh& mesh) {
@@ -245,6 +252,25 @@ std::vector<SideTriangles> trianglesOfSides(const PageMesh& mesh) {
         triangles[sideOf[mesh.triangles[i]]].push_back(
             {mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]});
   return triangles;
+}
+
+void replaceTriangles(PageMesh& mesh, const std::vector<SideTriangles>& of, const std::vector<std::uint32_t>& firsts) {
+  const std::vector<std::uint32_t> sideOf = sideOfVertices(mesh);
+  std::vector<std::uint32_t> triangles;
+  for (PageDraw& d : mesh.draws) {
+    std::optional<std::uint32_t> last;
+    const std::uint32_t from = d.first, end = d.first + d.count;
+    d.first = static_cast<std::uint32_t>(triangles.size());
+    for (std::uint32_t i = from; i < end; i += 3) {
+      const std::uint32_t s = sideOf[mesh.triangles[i]];
+      if (s == last) continue;
+      last = s;
+      for (const auto& t : of[s])
+        for (const std::uint32_t v : t) triangles.push_back(firsts[s] + v);
+    }
+    d.count = static_cast<std::uint32_t>(triangles.size()) - d.first;
+  }
+  mesh.triangles = std::move(triangles);
 }
 
 }  // namespace deltalux::exporting

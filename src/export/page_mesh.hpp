@@ -71,13 +71,19 @@ struct PageMesh {
 /// for every group. Throws InputError where they are not of one shape.
 PageMesh pageMesh(const std::vector<LightGroup>&, const std::vector<SolutionMesh>& meshes);
 
-/// By side, its triangles, in the mesh's numbers of vertices. (A side that is drawn from behind, too, has them once.)
 using SideTriangles = std::vector<std::array<std::uint32_t, 3>>;
+/// By side, its triangles, in the mesh's numbers of vertices. (A side that is drawn from behind, too, has them once.)
 std::vector<SideTriangles> trianglesOfSides(const PageMesh&);
 /// By vertex: its side.
 std::vector<std::uint32_t> sideOfVertices(const PageMesh&);
 
-/// Irradiance by vertex of the page's mesh as it was built, of a group and its mesh [W/m2].
+/// Puts other triangles in the place of a mesh's. `of`: by side, in numbers of its vertices from 0; `firsts`: by side,
+/// what is added to those. Vertices and sides stay as they are.
+void replaceTriangles(PageMesh&, const std::vector<SideTriangles>& of, const std::vector<std::uint32_t>& firsts);
+
+/// Irradiance by vertex of the page's mesh as it was built, of a group and its mesh: all of it, and what is direct
+/// [W/m2].
 std::vector<Rgb> pageLayer(const PageMesh&, std::size_t group, const SolutionMesh&);
+std::vector<Rgb> pageDirect(const PageMesh&, std::size_t group, const SolutionMesh&);
 
 }  // namespace deltalux::exporting

@@ -254,26 +254,12 @@ std::vector<SideTriangles> keptTriangles(const PageMesh& mesh, const std::vector
 
 void simplify(PageMesh& mesh, std::vector<std::vector<Rgb>>& layers, const LightTolerance& tolerance,
               const std::vector<char>& whole) {
-  const std::vector<std::uint32_t> sideOf = sideOfVertices(mesh);
-  const std::vector<SideTriangles> kept = keptTriangles(mesh, layers, tolerance.relative, whole);
-  // Triangles of the draws, side after side, in the old numbers.
-  std::vector<std::uint32_t> triangles;
-  for (PageDraw& d : mesh.draws) {
-    std::uint32_t last = kNone;
-    const std::uint32_t from = d.first, end = d.first + d.count;
-    d.first = static_cast<std::uint32_t>(triangles.size());
-    for (std::uint32_t i = from; i < end; i += 3) {
-      const std::uint32_t s = sideOf[mesh.triangles[i]];
-      if (s == last) continue;
-      last = s;
-      for (const auto& t : kept[s])
-        for (const std::uint32_t v : t) triangles.push_back(mesh.sides[s].first + v);
-    }
-    d.count = static_cast<std::uint32_t>(triangles.size()) - d.first;
-  }
+  std::vector<std::uint32_t> firsts;
+  for (const PageMesh::Side& side : mesh.sides) firsts.push_back(side.first);
+  replaceTriangles(mesh, keptTriangles(mesh, layers, tolerance.relative, whole), firsts);
   // Vertices that any of them has, in their order.
   std::vector<std::uint32_t> number(mesh.vertices.size(), kNone);
-  for (const std::uint32_t v : triangles) number[v] = 0;
+  for (const std::uint32_t v : mesh.triangles) number[v] = 0;
   std::uint32_t next = 0;
   for (PageMesh::Side& side : mesh.sides) {
     const std::uint32_t from = side.first, end = side.first + side.count;
@@ -289,8 +275,7 @@ void simplify(PageMesh& mesh, std::vector<std::vector<Rgb>>& layers, const Light
   };
   keep(mesh.vertices);
   for (auto& layer : layers) keep(layer);
-  for (std::uint32_t& v : triangles) v = number[v];
-  mesh.triangles = std::move(triangles);
+  for (std::uint32_t& v : mesh.triangles) v = number[v];
   mesh.source.clear();
 }
 

@@ -19,13 +19,19 @@ struct BakedScene {
   std::vector<Image> pages;
 };
 
+/// As the mesh has it.
+inline exporting::MeasuredLight unmeasured(const SolutionMesh& mesh) {
+  return {mesh, std::vector<std::shared_ptr<const exporting::SideDirect>>(mesh.surfaces.size())};
+}
+
 inline BakedScene baked(SolutionMesh mesh, const exporting::AtlasSettings& settings) {
   BakedScene scene;
   scene.mesh = std::move(mesh);
   std::vector<exporting::AtlasChart> charts = exporting::litCharts(scene.mesh, kCrease);
   const double finest = exporting::finestTexel(scene.mesh, charts);
   scene.atlas = layOut(std::move(charts), settings, finest);
-  scene.pages = bake(scene.atlas, scene.mesh, scene.mesh, [](const exporting::BakedTexel& t) { return t.irradiance; });
+  scene.pages = bake(scene.atlas, scene.mesh, unmeasured(scene.mesh),
+                     [](const exporting::BakedTexel& t) { return t.irradiance; });
   return scene;
 }
 

@@ -8,6 +8,7 @@
 #include <deltalux/export_glb.hpp>
 #include <deltalux/image_io.hpp>
 #include <deltalux/io.hpp>
+#include <deltalux/light_groups.hpp>
 #include <nlohmann/json.hpp>
 
 #include "baked_scene.hpp"
@@ -176,6 +177,55 @@ TEST(ExportGlb, OfADarkSceneHasGeometryAlone) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"dark.glb"});
   expectValid(folder / "dark.glb");
 }
+
+/// What a page of a group's light has, its pixels all together.
+RgbSum sumOfPage(const std::filesystem::path& file) {
+  RgbSum sum(0.0);
+  for (const Rgb& p : loadImage(file).pixels) sum += RgbSum(p);
+  return sum;
+}
+
+TEST(ExportGlb, LightByGroupsAddsUpToAll) {
+  SolveSettings settings = test::coarse();
+  settings.byLight = true;
+  Engine engine(test::oneOfEverything(), settings);
+  engine.solve();
+  const SolutionView solution = engine.solution();
+  const std::vector<LightGroup> groups = lightGroups(solution);
+  ASSERT_GT(groups.size(), 2u);
+  const TempFolder folder;
+  GlbSettings onePage = small();
+  onePage.range = 1e30;
+  const GlbReport report = exportGlbByLight(solution, folder / "room.glb", onePage);
+  ASSERT_EQ(report.files.size(), 1 + report.pages * (1 + groups.size()));
+  expectValid(folder / "room.glb");
+  RgbSum all(0.0), parts(0.0);
+  for (std::size_t page = 0; page < report.pages; ++page) all += sumOfPage(report.files[1 + page]);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (std::size_t page = 0; page < report.pages; ++page)
+      parts += RgbSum(solution.scene()[groups[g].lights.front()].scale) *
+               sumOfPage(report.files[1 + report.pages * (1 + g) + page]);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(parts[c], all[c], 0.02 * all[c]);
+}
+
+class NastyGlb : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(NastyGlb, IsValidAndItsLightFinite) {
+  Engine engine(loadScene({std::filesystem::path(DELTALUX_SOURCE_DIR "/scenes/nasty") / GetParam()}).scene,
+                test::coarse());
+  engine.solve();
+  const TempFolder folder;
+  const GlbReport report = exportGlb(engine.solution(), folder / "nasty.glb", small());
+  for (std::size_t i = 1; i < report.files.size(); ++i)
+    for (const Rgb& p : loadImage(report.files[i]).pixels)
+      ASSERT_TRUE(std::isfinite(p.r + p.g + p.b) && p.r >= 0 && p.g >= 0 && p.b >= 0);
+  expectValid(folder / "nasty.glb");
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, NastyGlb,
+                         ::testing::Values("coplanar.rad", "far_away.rad", "mirror_corridor.rad", "nested_glass.rad",
+                                           "outlines.rad", "scales.rad", "sealed.rad", "slivers.rad", "thin.rad",
+                                           "touching.rad"));
 
 TEST(ExportGlb, LeavesNothingWhereItCannotWrite) {
   const TempFolder folder;

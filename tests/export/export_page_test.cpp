@@ -77,7 +77,10 @@ TEST(ExportPage, TheTemplateAsksNobodyForAnything) {
   const std::string page(exporting::pageTemplate());
   EXPECT_NE(page.find("MIT License"), std::string::npos);
   EXPECT_NE(page.find("three.js authors"), std::string::npos);
-  EXPECT_EQ(page.find("@DELTALUX_SOLUTION@"), page.rfind("@DELTALUX_SOLUTION@"));
+  for (const char* place : {"@DELTALUX_SOLUTION@", "@DELTALUX_LATER@"}) {
+    EXPECT_NE(page.find(place), std::string::npos);
+    EXPECT_EQ(page.find(place), page.rfind(place));
+  }
   for (const char* from : {"src=\"http", "href=\"http", "src=\"./", "href=\"./", "import(\"http"})
     EXPECT_EQ(page.find(from), std::string::npos) << from;
 }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "export/packing.hpp"
+#include "export/page_data.hpp"
 #include "export/page_html.hpp"
 #include "export/page_support.hpp"
 
@@ -23,11 +24,14 @@ TEST(Packing, GzipComesBack) {
   EXPECT_EQ(exporting::gzip(bytes), exporting::gzip(bytes));
 }
 
-TEST(Packing, ThePageHasTheSolutionInItsPlace) {
-  const std::string page = exporting::pageHtml("<p>@DELTALUX_SOLUTION@</p>", "light");
+TEST(Packing, ThePageHasTheSolutionInItsPlaces) {
+  const std::string page = exporting::pageHtml("<p>@DELTALUX_SOLUTION@</p><i>@DELTALUX_LATER@</i>", {"light", "more"});
   EXPECT_EQ(page.substr(0, 3), "<p>");
-  EXPECT_EQ(page.substr(page.size() - 4), "</p>");
-  EXPECT_EQ(test::gunzip(test::fromBase64(page.substr(3))), "light");
+  const std::size_t between = page.find("</p><i>");
+  ASSERT_NE(between, std::string::npos);
+  EXPECT_EQ(page.substr(page.size() - 4), "</i>");
+  EXPECT_EQ(test::gunzip(test::fromBase64(page.substr(3, between - 3))), "light");
+  EXPECT_EQ(test::gunzip(test::fromBase64(page.substr(between + 7))), "more");
 }
 
 }  // namespace

@@ -40,11 +40,12 @@ inline std::string gunzip(const std::string& bytes) {
 
 struct Payload {
   nlohmann::json header;
-  std::string sections;
+  std::string sections, later;
 
   std::string section(const std::string& name) const {
-    const auto& at = header.at("sections").at(name);
-    return sections.substr(at.at(0), at.at(1));
+    const bool first = header.at("sections").contains(name);
+    const auto& at = header.at(first ? "sections" : "later").at(name);
+    return (first ? sections : later).substr(at.at(0), at.at(1));
   }
   template <class T>
   std::vector<T> array(const std::string& name) const {
@@ -55,16 +56,19 @@ struct Payload {
   }
 };
 
-inline Payload payloadOf(const std::string& bytes) {
-  std::uint32_t length = 0;
-  std::memcpy(&length, bytes.data(), 4);
-  return {nlohmann::json::parse(bytes.substr(4, length)), bytes.substr((4 + length + 3) / 4 * 4)};
+/// What an element of the page holds.
+inline std::string unpacked(const std::string& html, const std::string& id) {
+  const std::string begin = "<script id=\"" + id + "\" type=\"text/plain\">";
+  const std::size_t at = html.find(begin) + begin.size();
+  return gunzip(fromBase64(html.substr(at, html.find('<', at) - at)));
 }
 
 inline Payload payloadOfPage(const std::string& html) {
-  const std::string begin = "<script id=\"solution\" type=\"text/plain\">";
-  const std::size_t at = html.find(begin) + begin.size();
-  return payloadOf(gunzip(fromBase64(html.substr(at, html.find('<', at) - at))));
+  const std::string bytes = unpacked(html, "solution");
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data(), 4);
+  return {nlohmann::json::parse(bytes.substr(4, length)), bytes.substr((4 + length + 3) / 4 * 4),
+          unpacked(html, "later")};
 }
 
 }  // namespace deltalux::test

@@ -1,5 +1,6 @@
 // The page in a browser: node page_test.mjs DELTALUX SOURCES [SCREENSHOT.png]. Opens a page of the Cornell box from
-// file://, moves a slider, and compares what it reads and shows with `deltalux probe` and `deltalux render`.
+// file://, moves a slider, and compares what it reads and shows with `deltalux probe` and `deltalux render`; then one of a
+// room with a sun and two lamps, solved by light, whose lamps are dimmed apart.
 // Exit 77: skipped, as there is no chromium, or no playwright-core (npm ci in web/).
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -73,6 +74,7 @@ async function main() {
   await aSliderMoves(page);
   await theAddressKeepsIt(browser, page);
   if (screenshot) await page.screenshot({ path: screenshot });
+  await groupsApart(browser);
   expect(errors.length === 0, `no errors on the page ${errors.join('; ')}`);
   await browser.close();
 }
@@ -170,6 +172,78 @@ async function theAddressKeepsIt(browser, page) {
   expect(a[0].every((v, i) => Math.abs(v - b[0][i]) < 1e-6 * v), 'the address keeps the dimmers');
   expect(a[1].position.every((v, i) => Math.abs(v - b[1].position[i]) < 1e-3), 'the address keeps the view');
   await other.close();
+}
+
+/** A room of 5 x 4 x 2.6 m with a window, a table, and two lamps; the sun stands in the window. */
+function roomWithLamps() {
+  const wall = (name, material, ...points) => `${material} polygon ${name}\n0\n0\n${3 * points.length} ${points.flat().join(' ')}\n`;
+  const lamp = (name, x) => wall(name, name, [x, 1.8, 2.5], [x, 2.2, 2.5], [x + 0.4, 2.2, 2.5], [x + 0.4, 1.8, 2.5]);
+  return [
+    'void plastic white\n0\n0\n5 .7 .7 .7 0 0\nvoid plastic wood\n0\n0\n5 .4 .3 .2 0 0\n',
+    'void light left\n0\n0\n3 12 10 7\nvoid light right\n0\n0\n3 6 8 11\n',
+    'void light sun\n0\n0\n3 3e4 2.8e4 2.4e4\nsun source morning\n0\n0\n4 .3 -.8 .5 .533\n',
+    wall('floor', 'white', [0, 0, 0], [5, 0, 0], [5, 4, 0], [0, 4, 0]),
+    wall('ceiling', 'white', [0, 0, 2.6], [0, 4, 2.6], [5, 4, 2.6], [5, 0, 2.6]),
+    wall('back', 'white', [0, 4, 0], [5, 4, 0], [5, 4, 2.6], [0, 4, 2.6]),
+    wall('west', 'white', [0, 0, 0], [0, 4, 0], [0, 4, 2.6], [0, 0, 2.6]),
+    wall('east', 'white', [5, 0, 0], [5, 0, 2.6], [5, 4, 2.6], [5, 4, 0]),
+    wall('sill', 'white', [0, 0, 0], [0, 0, 1], [5, 0, 1], [5, 0, 0]),
+    wall('lintel', 'white', [0, 0, 2.2], [0, 0, 2.6], [5, 0, 2.6], [5, 0, 2.2]),
+    wall('pier1', 'white', [0, 0, 1], [0, 0, 2.2], [2, 0, 2.2], [2, 0, 1]),
+    wall('pier2', 'white', [3, 0, 1], [3, 0, 2.2], [5, 0, 2.2], [5, 0, 1]),
+    '!genbox wood table 1.2 .8 .05 | xform -t 1.9 1.9 .7\n',
+    lamp('left', 0.8), lamp('right', 3.8),
+  ].join('');
+}
+
+/** What a page reads under the cursor, and `probe` of the solution at those places. */
+async function cursorAgainstProbe(page, places, width, height, solution) {
+  const found = [];
+  for (const [x, y] of places) {
+    const reading = await page.evaluate(([px, py]) => window.deltalux.readingAt(px, py), [x * width, y * height]);
+    if (reading) found.push(reading);
+  }
+  writeFileSync(at('places.csv'), ['x,y,z,nx,ny,nz', ...found.map((r) => [...r.position, ...r.normal].join(','))].join('\n') + '\n');
+  deltalux('probe', solution, '--points', at('places.csv'), '-o', at('places-lux.csv'));
+  const there = luxOf(at('places-lux.csv'));
+  return found.map((r, i) => ({ lux: r.lux, probed: there[i], off: Math.abs(r.lux - there[i]) / there[i] }));
+}
+
+async function groupsApart(browser) {
+  const width = 300, height = 200;
+  writeFileSync(at('room.rad'), roomWithLamps());
+  writeFileSync(at('room.vf'), 'rvu -vtv -vp 2.5 .1 1.6 -vd 0 1 -.22 -vu 0 0 1 -vh 90 -vv 67.38\n');
+  deltalux('solve', at('room.rad'), '--error', '0.02', '--by-light', '-o', at('room.dlx'));
+  deltalux('export', at('room.dlx'), '--view', at('room.vf'), '-o', at('room.html'));
+  const page = await browser.newPage({ viewport: { width: width + 320, height } });
+  await page.goto(`file://${at('room.html')}`);
+  await page.waitForFunction(() => window.deltalux?.ready, null, { timeout: 120000 });
+  const names = await page.evaluate(() => window.deltalux.header.groups.map((g) => g.name));
+  expect(names.length === 3, `the room has three groups: ${names.join(', ')}`);
+
+  const lamp = names.findIndex((name) => /left/.test(name)), sun = names.findIndex((name) => /sun|morning/.test(name));
+  await page.locator(`[data-dim="${lamp}"]`).evaluate((slider) => {
+    slider.value = '0.8';  // 4 x 0.8 x 0.8 = 256 %
+    slider.dispatchEvent(new Event('input', { bubbles: true }));
+    slider.dispatchEvent(new Event('change', { bubbles: true }));
+  });
+  writeFileSync(at('left.json'), JSON.stringify(await page.evaluate(() => window.deltalux.edits())));
+  deltalux('update', at('room.dlx'), '--edits', at('left.json'), '-o', at('left.dlx'));
+  // On the floor, the walls, the ceiling and the table, away from the rims of shadows.
+  const smooth = [[0.15, 0.9], [0.85, 0.9], [0.12, 0.5], [0.88, 0.5], [0.5, 0.3], [0.3, 0.28], [0.5, 0.1], [0.5, 0.5], [0.2, 0.75]];
+  const read = await cursorAgainstProbe(page, smooth, width, height, at('left.dlx'));
+  for (const r of read) console.log(`     cursor ${r.lux.toFixed(1)}, probe ${r.probed.toFixed(1)}: ${(100 * r.off).toFixed(2)} %`);
+  expect(read.length >= 8 && median(read.map((r) => r.off)) < 0.01, `a lamp is dimmed by itself: median ${(100 * median(read.map((r) => r.off))).toFixed(2)} % off probe`);
+  // Twice what the solution's irradiance is asked to be right to.
+  expect(Math.max(...read.map((r) => r.off)) < 0.04, `worst ${(100 * Math.max(...read.map((r) => r.off))).toFixed(2)} %`);
+
+  deltalux('render', at('left.dlx'), '--view', at('room.vf'), '--size', `${width}x${height}`, '--ev', '-3', '-o', at('left.png'));
+  await page.evaluate(() => { window.deltalux.state.ev = -3; });
+  const shown = await pixelsOfPage(page), rendered = await pixelsOfFile(page, at('left.png'));
+  const share = agreement(shown, rendered, 0, 12);
+  expect(shown.width === rendered.width && share > 0.95, `${(100 * share).toFixed(1)} % of pixels within 12/255 of render`);
+  if (screenshot) await page.screenshot({ path: screenshot.replace(/\.png$/, '') + '-lamps.png' });
+  await page.close();
 }
 
 try {

@@ -5,6 +5,8 @@ import { undoDifferences } from './payload.js';
 import * as shaders from './shaders.js';
 
 const near = THREE.NearestFilter, linear = THREE.LinearFilter;
+/** Of what is added to a surface: over it by a few steps of depth, and no more, or it would show through what is thin. */
+const overSurface = { polygonOffset: true, polygonOffsetFactor: -0.1, polygonOffsetUnits: -4 };
 
 function dataTexture(data, width, height, format, type, filter) {
   const t = new THREE.DataTexture(data, width, height, format, type);
@@ -60,7 +62,6 @@ export class Drawing {
       ambient: { value: new THREE.Vector3() },
       upwards: { value: new THREE.Vector3().fromArray(header.up) },
       eye: { value: new THREE.Vector3() },
-      lift: { value: 1e-3 / header.metresPerUnit },
     };
     this.attributes = {
       position: new THREE.BufferAttribute(mesh.positions, 3),
@@ -107,7 +108,7 @@ export class Drawing {
     if (draw.kind === 'opaque') this.add(geometry, this.shader(textured, {}, image), 0);
     if (draw.kind === 'mirror') this.addMirror(geometry, draw);
     if (draw.kind === 'behind')
-      this.add(geometry, this.shader(['BEHIND'], { ...added, side: THREE.BackSide }), 1);
+      this.add(geometry, this.shader(['BEHIND'], { ...added, ...overSurface, side: THREE.BackSide }), 1);
     if (draw.kind === 'pane') {
       const passes = { transmissivity: { value: new THREE.Vector3().fromArray(draw.transmissivity) }, index: { value: draw.index } };
       this.add(geometry, this.shader(['PASSES'], { ...over, blendSrc: THREE.ZeroFactor, blendDst: THREE.SrcColorFactor,
@@ -139,7 +140,7 @@ export class Drawing {
     mask.unpackAlignment = 1;
     const weight = { value: new THREE.Vector3() };
     this.add(geometry, this.shader(['CAUSTIC'], {
-      transparent: true, depthWrite: false, blending: THREE.CustomBlending, blendEquation: THREE.AddEquation,
+      ...overSurface, transparent: true, depthWrite: false, blending: THREE.CustomBlending, blendEquation: THREE.AddEquation,
       blendSrc: THREE.OneFactor, blendDst: THREE.OneFactor,
     }, { light: { value: light }, shows: { value: mask }, weight }), 2);
     this.caustics.push({ group, width, height, positions, texels, triangles, words, shows, weight });

@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { Eye } from './camera.js';
 import { luxText, roundUp } from './colour.js';
-import { editsOf, initialDimmer, weightOf } from './dimmers.js';
+import { editsOf, initialDimmer, sameWeight, weightOf } from './dimmers.js';
 import { Drawing, unpackMesh } from './drawing.js';
 import { Grids } from './grids.js';
 import { hashOf, readHash } from './hash.js';
@@ -10,7 +10,7 @@ import { drawLegend } from './legend.js';
 import { Marks } from './marks.js';
 import { Meter } from './meter.js';
 import { Panel } from './panel.js';
-import { readPayload } from './payload.js';
+import { joinRgb9e5, readLater, readPayload } from './payload.js';
 import { Relight } from './relight.js';
 
 const decades = 3;
@@ -31,6 +31,21 @@ async function start() {
     get view() { return eye.view; },
   };
   const weights = () => state.dimmers.map((d, g) => weightOf(header.groups[g], d));
+
+  const joined = (section, name) => joinRgb9e5(section(name, Uint8Array), header.vertexCount);
+  /** Light for the first picture: as exported it is there; of other weights the sum has to wait for all groups. */
+  async function lightUp() {
+    const asExported = weights().every((w, g) => sameWeight(w, header.groups[g].weight));
+    if (header.sections.sum && asExported) return relight.begin(weights(), joined(payload.section, 'sum'));
+    relight.setWeights(weights());
+    await groupsApart();
+  }
+  async function groupsApart() {
+    if (relight.layerOf) return;
+    const section = header.sections.sum ? await readLater(payload) : payload.section;
+    relight.take((g) => joined(section, `layer${g}`));
+    performance.mark('groups-apart');
+  }
 
   let waiting = false, meter = null, panel = null, pointer = null;
   function redraw() {
@@ -183,7 +198,7 @@ async function start() {
   }
 
   resize();
-  relight.setWeights(weights());
+  await lightUp();
   drawing.takeWeights();
   goTo(said.view ?? header.views[0] ?? header.overview);
   performance.mark('prepared');
@@ -210,7 +225,9 @@ async function start() {
     if (/^[1-9]$/.test(e.key) && header.views[e.key - 1]) goTo(header.views[e.key - 1]);
   });
   window.addEventListener('hashchange', () => location.reload());
-  setTimeout(() => {
+  setTimeout(async () => {
+    await groupsApart();
+    relit();
     meter = new Meter(drawing);
     // Mirrors behind walls need no picture: one of their corners, or the middle, is to be seen.
     drawing.seen = ({ corners }) => {

@@ -27,7 +27,6 @@ centroid out vec2 materialUv;
 uniform mat4 modelViewMatrix, projectionMatrix;
 uniform sampler2D materials;
 uniform vec3 eye;
-uniform float lift;   // a millimetre
 flat out vec3 reflects, emitted, gloss;
 centroid out vec3 towards, normal;
 
@@ -37,12 +36,7 @@ vec4 entry(int k) {
 }
 
 void main() {
-  vec3 shown = position;
-#if defined(CAUSTIC) || defined(BEHIND)
-  // Over the surface that it is added to, on the way to the eye: pixels stay where they are.
-  shown += (eye - position) * (3e-4 + lift / max(distance(eye, position), lift));
-#endif
-  gl_Position = projectionMatrix * modelViewMatrix * vec4(shown, 1.0);
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 #ifdef CAUSTIC
   place = texel;
 #else
