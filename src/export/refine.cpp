@@ -213,7 +213,6 @@ class SideRefiner {
   double threshold(double length) const { return std::max(1.0, kVisible * settings_.smallest / length); }
   /// Whether corners tell light apart by so much that there is something to look for between them.
   bool mayStep(std::span<const std::uint32_t> corners, double length) const {
-    if (threshold(length) <= 1) return true;
     float total = 0;
     for (std::size_t g = 0; g < groups_; ++g) total += sumOf(side_.all[g][corners[0]]);
     for (std::size_t g = 0; g < groups_; ++g)
