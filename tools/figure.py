@@ -26,7 +26,7 @@ class Axis:
 
 
 class Figure:
-    def __init__(self, x, y, width=620, height=400, left=66, right=170, top=16, bottom=48):
+    def __init__(self, x, y, width=660, height=400, left=66, right=210, top=16, bottom=48):
         self.x, self.y, self.width = x, y, width
         x.low, x.high, y.low, y.high = left, width - right, height - bottom, top
         self.legend = top + 14
