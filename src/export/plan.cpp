@@ -7,6 +7,7 @@
 #include <cmath>
 #include <deltalux/image_io.hpp>
 
+#include "export/drawing.hpp"
 #include "io/atomic_file.hpp"
 
 namespace deltalux {
@@ -55,19 +56,11 @@ class PlanField {
   std::vector<double> lux_;
 };
 
-/// The round number below: 1, 2 or 5 times a power of ten.
-double roundBelow(double x) {
-  const double power = std::pow(10, std::floor(std::log10(x)));
-  for (const double m : {5.0, 2.0})
-    if (m * power <= x) return m * power;
-  return power;
-}
-
 std::vector<double> levelsOf(const GridStatistics& s) {
   std::vector<double> levels;
   const double span = s.most - s.least;
   if (!(span > 0)) return levels;
-  double step = roundBelow(span / 3);
+  double step = exporting::roundBelow(span / 3);
   while (span / step > kLevels) step *= 2;
   for (double level = step * std::ceil(s.least / step); level < s.most; level += step)
     if (level > s.least) levels.push_back(level);
@@ -79,9 +72,9 @@ FalseColorSettings coloursOf(const GridStatistics& s, double decades) {
   FalseColorSettings settings;
   settings.decades = kMostDecades;
   if (!(s.most > 0)) return settings;
-  settings.top = roundBelow(s.most);
+  settings.top = exporting::roundBelow(s.most);
   for (const double m : {2.0, 2.5, 2.0})
-    if (settings.top < s.most) settings.top = roundBelow(m * settings.top * (1 + 1e-9));
+    if (settings.top < s.most) settings.top = exporting::roundBelow(m * settings.top * (1 + 1e-9));
   if (s.least > 0) settings.decades = std::clamp(std::log10(settings.top / s.least) + 0.05, decades, kMostDecades);
   return settings;
 }
@@ -140,12 +133,6 @@ std::string colourAt(const DisplayImage& image, int x, int y) {
   return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
 }
 
-std::string withEntities(const std::string& text) {
-  std::string safe;
-  for (const char c : text) safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return safe;
-}
-
 }  // namespace
 
 DisplayImage planImage(const Plan& plan) {
@@ -180,8 +167,8 @@ std::string planSvg(const Plan& plan) {
       "font-size=\"11\">\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n<text x=\"{2}\" y=\"18\" font-size=\"14\">{3}</text>\n"
       "<text x=\"{2}\" y=\"34\">Em {4:.4g} lx, Emin {5:.4g} lx, Emax {6:.4g} lx, U0 {7:.2f}, Ud {8:.2f}</text>\n",
-      width + 2 * kMargin + kScale, height + 2 * kMargin, kMargin, withEntities(plan.title), s.mean, s.least, s.most,
-      s.uniformity(), s.diversity());
+      width + 2 * kMargin + kScale, height + 2 * kMargin, kMargin, exporting::inXml(plan.title), s.mean, s.least,
+      s.most, s.uniformity(), s.diversity());
   const auto x = [&](double column) { return kMargin + column * cellX; };
   const auto y = [&](double row) { return kMargin + height - row * cellY; };
   const auto tint = [&](int i, int j) { return field.at((i + 0.5) / kTints, (down - j - 0.5) / kTints); };

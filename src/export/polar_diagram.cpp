@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "export/drawing.hpp"
 #include "io/atomic_file.hpp"
 
 namespace deltalux {
@@ -52,20 +53,6 @@ Photometry belowHorizon(const Photometry& p) {
   return below;
 }
 
-/// About a third of `most` or less: 1, 2 or 5 times a power of ten.
-double circleStep(double most) {
-  const double power = std::pow(10, std::floor(std::log10(most / 3)));
-  for (const double m : {5.0, 2.0})
-    if (m * power <= most / 3) return m * power;
-  return power;
-}
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return safe;
-}
-
 }  // namespace
 
 PhotometrySummary summarize(const Photometry& p) {
@@ -83,7 +70,7 @@ PhotometrySummary summarize(const Photometry& p) {
 std::string polarDiagram(const Photometry& p, const std::string& title) {
   const PhotometrySummary s = summarize(p);
   const double x0 = 0.5 * kSide, y0 = kTop + 0.5 * kSide;
-  const double step = s.peak > 0 ? circleStep(s.peak) : 1;
+  const double step = s.peak > 0 ? exporting::roundBelow(s.peak / 3) : 1;
   const double rim = s.peak > 0 ? step * std::ceil(s.peak / step) : 1;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" font-family=\"sans-serif\" "
@@ -92,7 +79,7 @@ std::string polarDiagram(const Photometry& p, const std::string& title) {
       "<text x=\"{2}\" y=\"20\" text-anchor=\"middle\" font-size=\"14\">{3}</text>\n"
       "<text x=\"{2}\" y=\"38\" text-anchor=\"middle\">{4:.0f} lm, at most {5:.4g} cd; C0-C180 solid, C90-C270 "
       "dashed</text>\n",
-      kSide, kSide + kTop + 8, x0, escaped(title), s.flux, s.peak);
+      kSide, kSide + kTop + 8, x0, exporting::inXml(title), s.flux, s.peak);
   svg += "<g fill=\"none\" stroke=\"#ccc\">\n";
   for (double circle = step; circle <= rim * 1.0001; circle += step)
     svg += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{:.1f}\"/>\n", x0, y0, kRadius * circle / rim);
