@@ -34,8 +34,8 @@ TEST(GridCommand, TellsTheAnalyticMeanAndUniformityOfALuminaire) {
   folder.write("black.rad",
                "void plastic black\n0\n0\n5 0 0 0 0 0\nblack polygon floor\n0\n0\n12 0 0 0 6 0 0 6 5 0 0 5 0\n");
   folder.write("lamp.ies", luminaire());
-  const auto result = runCli({"grid", folder / "black.rad", "--ies", (folder / "lamp.ies") + "@2.5,2,2.8", "--surface",
-                              "floor", "-o", folder / "g.csv", "--plan", folder / "g.svg"});
+  const auto result = runCli({"grid", folder / "black.rad", "--ies", (folder / "lamp.ies").string() + "@2.5,2,2.8",
+                              "--surface", "floor", "-o", folder / "g.csv", "--plan", folder / "g.svg"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
 
   const Photometry photometry = loadPhotometry(folder / "lamp.ies");
