@@ -42,7 +42,7 @@ std::vector<float> roughIndirect(const LineSolve& x, const hierarchy::LeafTable&
 /// Whether a leaf faces what is as wide as a room.
 std::vector<char> inRooms(const LineSolve& x, const hierarchy::LeafTable& leaves) {
   const double room = std::min(lines::tuning::kDimRoom / x.s.scene.metresPerUnit,
-                               lines::tuning::kSlotOfScene * x.s.elements.extent());
+                               lines::tuning::kSlotOfScene * x.s.elements.sceneBox.diagonal());
   std::vector<char> in(leaves.size(), 0);
   parallelFor(leaves.size(), kRoomLeaves, [&](std::size_t i) {
     const lines::LeafScale& scale = x.samples.scale[leaves[i].index()];

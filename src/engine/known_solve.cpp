@@ -60,7 +60,8 @@ std::uint32_t KnownSolve::findPart(const hierarchy::Elements& elements, hierarch
 }
 
 void KnownSolve::holdTo(const hierarchy::Elements& elements) {
-  holds_ = elements.extent() == elements_.extent();
+  const Box &now = elements.sceneBox, &before = elements_.sceneBox;
+  holds_ = now.lower == before.lower && now.upper == before.upper;
   parts(elements, elements.inputs);
 }
 

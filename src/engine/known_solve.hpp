@@ -16,7 +16,7 @@ class KnownSolve {
   /// Of the solution that there was, out of which elements and lines are taken.
   KnownSolve(SolveMemory, Solution&, change::MovedSpace, Lights);
 
-  /// Nothing is known where the scene's extent is another, by which its scales are measured.
+  /// Nothing is known where the extent of the scene is another, by which its scales are measured.
   void holdTo(const hierarchy::Elements&);
   /// Walks for light from a side that are what they would be now, or nothing.
   lines::LightWalks* walks(const hierarchy::Elements&, hierarchy::ElementId side);

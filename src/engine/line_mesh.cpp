@@ -27,7 +27,7 @@ struct Samplers {
       : x(solve),
         meter(x.s.elements, x.tracer, x.cover, x.enclosed),
         direct(x.s.elements, x.s.scene, *x.s.tracer, x.lamps, x.s.settings.error),
-        slot(lines::slotWidth(x.s.scene, x.s.elements.extent())) {}
+        slot(lines::slotWidth(x.s.scene, x.s.elements.sceneBox.diagonal())) {}
 
   /// Rays that were traced.
   std::uint64_t measure(hierarchy::ElementId patch) const {

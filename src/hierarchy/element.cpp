@@ -1,16 +1,10 @@
 #include "hierarchy/element.hpp"
 
-#include <cmath>
 #include <numeric>
 
 #include "hierarchy/below.hpp"
 
 namespace deltalux::hierarchy {
-
-double Elements::extent() const {
-  const double diagonal = sceneBox.diagonal();
-  return diagonal > 0 ? std::exp2(std::ceil(std::log2(diagonal))) : 0;
-}
 
 ElementId Elements::addChildren(ElementId parent, ElementKind kind, std::size_t count) {
   const std::size_t first = size();

@@ -125,9 +125,6 @@ class Elements {
   ContactLines contacts;          // where patches are split besides in their middle
 
   std::size_t size() const { return topology.size(); }
-  /// The power of two that is not below the scene's diagonal; 0 of an empty scene. What is measured by the scene is
-  /// measured by this, so that it stays where something moves at the rim.
-  double extent() const;
   /// Appends `count` contiguous elements as the children of `parent` (none: invalid); returns the first.
   ElementId addChildren(ElementId parent, ElementKind kind, std::size_t count);
 

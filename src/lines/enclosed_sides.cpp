@@ -111,7 +111,7 @@ std::vector<LightWalks> walkForLight(const hierarchy::Elements& elements, const 
   constexpr std::size_t kBlock = 16;  // [task]
   const Scene& scene = tracer.scene();
   const double hollow =
-      std::min(tuning::kHollow / scene.metresPerUnit, tuning::kHollowOfScene * elements.extent());
+      std::min(tuning::kHollow / scene.metresPerUnit, tuning::kHollowOfScene * elements.sceneBox.diagonal());
   const LightSearch search(elements, tracer);
   std::vector<LightWalks> walks(elements.size());
   rays += parallelSum<std::uint64_t>(elements.inputs.size(), kBlock, [&](std::size_t i) {

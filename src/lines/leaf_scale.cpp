@@ -15,7 +15,7 @@ ScaleMeter::ScaleMeter(const hierarchy::Elements& elements, const LineTracer& tr
       tracer_(tracer),
       cover_(cover),
       enclosed_(enclosed),
-      farthest_(static_cast<float>(elements.extent())) {}
+      farthest_(static_cast<float>(elements.sceneBox.diagonal())) {}
 
 LeafScale ScaleMeter::measure(hierarchy::ElementId patch, FirstLines& first) const {
   const hierarchy::LeafSequence points(elements_, tracer_.scene(), patch);
@@ -92,8 +92,8 @@ void setMeanFreePaths(hierarchy::Elements& elements, const std::vector<LeafScale
   }
 }
 
-double slotWidth(const Scene& scene, double extent) {
-  return std::min(tuning::kSlotWidth / scene.metresPerUnit, tuning::kSlotOfScene * extent);
+double slotWidth(const Scene& scene, double diagonal) {
+  return std::min(tuning::kSlotWidth / scene.metresPerUnit, tuning::kSlotOfScene * diagonal);
 }
 
 bool tooWide(const hierarchy::ElementGeometry& g, const LeafScale& scale, double error, double dim, double slot) {

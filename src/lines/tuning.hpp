@@ -36,7 +36,7 @@ constexpr double kDimWidth = 3;
 /// boards fill with leaves that nobody sees.
 constexpr double kSlot = 0.5;
 /// Mean distance above which no place is a slot that has this many times the floor's light, however wide its surfaces
-/// [m], and the same relative to the scene's extent. Larger: the floor of a wide room that no lamp shines on is one
+/// [m], and the same relative to the scene's diagonal. Larger: the floor of a wide room that no lamp shines on is one
 /// leaf. Less: gaps between logs fill with leaves.
 constexpr double kSlotWidth = 1, kSlotOfScene = 0.1, kSlotDim = 10;
 /// Least mean free path of a surface, relative to what is usual below a cluster so many above it, and of a part,
@@ -48,7 +48,7 @@ constexpr int kClustersUp = 3;
 /// Fewer: slots that light reaches after some bounces are taken for closed hollows.
 constexpr int kWalks = 6, kBounces = 40, kFirstSteps = 8;
 /// Mean distance below which a hollow where walks find no light counts as enclosed [m], and the same relative to the
-/// scene's extent. Larger: rooms that are lit through a slot stay dark.
+/// scene's diagonal. Larger: rooms that are lit through a slot stay dark.
 constexpr double kHollow = 0.2, kHollowOfScene = 0.03;
 /// Widest side that may face such a hollow as a whole, in mean distances: of wider ones a rim may look out. Wider: rims
 /// of what lies close behind something stay dark.
