@@ -159,7 +159,7 @@ TEST(Info, DescribesALuminaireAndDrawsIt) {
   const CliResult result = runCli({"info", folder / "disc & co.ies", "-o", svg});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   for (const char* part :
-       {"3141 lm, 100 % of it downwards", "at most 1000 cd", "gamma 0", "within 120 degrees", "0.12 m along C0"})
+       {"3142 lm, 100 % of it downwards", "at most 1000 cd", "gamma 0", "within 120 degrees", "0.12 m along C0"})
     EXPECT_TRUE(contains(result.out, part)) << part << "\n" << result.out;
   const std::string drawn = test::readText(svg);
   EXPECT_TRUE(contains(drawn, "disc &amp; co.ies"));
