@@ -21,7 +21,8 @@ namespace {
 
 using namespace exporting;
 
-constexpr double kOverlap = 3e-4;                         // of sides over their outlines [m] [shown]
+constexpr std::size_t kMostMeasured = 2'000'000;  // vertices times groups: direct light of more takes minutes [limit]
+constexpr double kOverlap = 3e-4;                 // of sides over their outlines [m] [shown]
 constexpr int kExposureWidth = 96, kExposureHeight = 72;  // of the picture that the exposure is chosen from [shown]
 
 std::vector<View> viewsOf(const Scene& scene, const PageSettings& settings) {
@@ -82,7 +83,8 @@ void exportPage(const SolutionView& solution, const std::filesystem::path& path,
   }
   const std::vector<char> whole = sidesUnderTextures(page.mesh, meshes);
   const double error = kShareOfError * solution.settings().error;
-  refineDirect(page.mesh, page.layers, direct, scene, DirectLight(solution), Refinement::of(scene, error), whole);
+  if (page.mesh.vertices.size() * groups.size() <= kMostMeasured)
+    refineDirect(page.mesh, page.layers, direct, scene, DirectLight(solution), Refinement::of(scene, error), whole);
   simplify(page.mesh, page.layers, {error}, whole);
   widenSides(page.mesh, kOverlap / scene.metresPerUnit);
   page.skies = pageSkies(scene, groups, !page.byLight), page.suns = pageSuns(scene, groups, !page.byLight);
