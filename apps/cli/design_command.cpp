@@ -119,9 +119,7 @@ class Designer {
     std::vector<double> daylight(points.size(), 0.0), wanted = targets_;
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const SolutionView alone = lightOf(solution, g);
-      std::vector<double> lux;
-      for (const ProbeResult& r : probe(alone, points, settings_, &progress_))
-        lux.push_back(photometric(r.irradiance, scene.luminousEfficacy));
+      std::vector<double> lux = luxOf(probe(alone, points, settings_, &progress_), scene.luminousEfficacy);
       if (isDaylight(scene, groups[g])) {
         const double weight = gray(scene[groups[g].lights.front()].scale);
         for (std::size_t p = 0; p < points.size(); ++p) daylight[p] += weight * lux[p], wanted[p] -= weight * lux[p];

@@ -17,8 +17,7 @@ namespace deltalux::cli {
 
 namespace {
 
-constexpr int kMostSamples = 1 << 17;  // lines or shadow rays of a point
-constexpr double kRight = 1e-4;        // cosine between sides at right angles at most
+constexpr double kRight = 1e-4;  // cosine between sides at right angles at most
 
 struct GridOptions {
   SolutionSource source;
@@ -48,12 +47,6 @@ MeasuringGrid gridIn(const Scene& scene, const GridOptions& options) {
   GridArea area = areaIn(options.area);
   area.corner -= scene.origin;
   return gridOf(area, scene.metresPerUnit, options.grid);
-}
-
-std::vector<double> luxOf(const std::vector<ProbeResult>& results, double efficacy) {
-  std::vector<double> lux;
-  for (const ProbeResult& r : results) lux.push_back(photometric(r.irradiance, efficacy));
-  return lux;
 }
 
 /// The points in the coordinates of the scene's files, as a table to write.
@@ -106,8 +99,7 @@ void runGrid(const GridOptions& options) {
         options.source.load(run, options.run, progress, [&](const Scene& scene) { (void)gridIn(scene, options); });
     const Scene& scene = solution.scene();
     const MeasuringGrid grid = gridIn(scene, options);
-    ProbeSettings settings;
-    settings.seed = options.run.seed, settings.error = meterError(solution), settings.maxSamples = kMostSamples;
+    const ProbeSettings settings = meterSettings(solution, options.run.seed);
     const std::vector<ProbeResult> results = probe(solution, grid.points, settings, &progress);
     const std::vector<double> lux = luxOf(results, scene.luminousEfficacy);
     const GridStatistics s = statisticsOf(lux);

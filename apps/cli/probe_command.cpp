@@ -12,8 +12,6 @@
 namespace deltalux::cli {
 
 namespace {
-constexpr int kMostSamples = 1 << 17;  // lines or shadow rays of a point
-
 struct ProbeOptions {
   SolutionSource source;
   RunOptions run;
@@ -38,13 +36,11 @@ void runProbe(const ProbeOptions& options) {
   Run run("probe", options.run);
   checkWritable(options.output);
   const PointTable table = readPoints(options.points);
-  ProbeSettings settings;
-  settings.mesh = options.mesh;
-  settings.seed = options.run.seed;
   {
     ProgressPrinter progress(options.run.progressStyle());
     const SolutionView solution = options.source.load(run, options.run, progress);
-    settings.error = meterError(solution), settings.maxSamples = kMostSamples;
+    ProbeSettings settings = meterSettings(solution, options.run.seed);
+    settings.mesh = options.mesh;
     if (options.source.byLight()) {
       probeByLight(options, solution, table, settings, progress);
     } else {

@@ -147,6 +147,19 @@ Recording recordingOf(const SceneOptions& scene, const SolveOptions& solve, cons
 
 double meterError(const SolutionView& solution) { return 0.25 * solution.settings().error; }
 
+ProbeSettings meterSettings(const SolutionView& solution, std::uint64_t seed) {
+  ProbeSettings settings;
+  settings.error = meterError(solution), settings.seed = seed;
+  settings.maxSamples = 1 << 17;  // lines or shadow rays of a point
+  return settings;
+}
+
+std::vector<double> luxOf(const std::vector<ProbeResult>& results, double luminousEfficacy) {
+  std::vector<double> lux;
+  for (const ProbeResult& r : results) lux.push_back(photometric(r.irradiance, luminousEfficacy));
+  return lux;
+}
+
 void noteSolve(const SolveReport& solved, RunReport& report) {
   const double import = report.times.import;
   report.times = solved.times;

@@ -2,6 +2,7 @@
 // Where a command reads a SOLUTION, a SCENE may stand: it is solved first.
 #include <cstdint>
 #include <deltalux/edit_io.hpp>
+#include <deltalux/render.hpp>
 #include <deltalux/solution.hpp>
 #include <functional>
 
@@ -54,6 +55,10 @@ Recording recordingOf(const SceneOptions&, const SolveOptions&, const RunOptions
 
 /// Relative standard error that readings of a solution are to have: a quarter of the error that it was solved to.
 double meterError(const SolutionView&);
+/// Of meters that are read until they have it.
+ProbeSettings meterSettings(const SolutionView&, std::uint64_t seed);
+/// Illuminance by result [lux].
+std::vector<double> luxOf(const std::vector<ProbeResult>&, double luminousEfficacy);
 
 /// Adds what solving did to a run's report.
 void noteSolve(const SolveReport&, RunReport&);

@@ -95,8 +95,7 @@ LdtHead readHead(LdtLines& lines, IesRecord& record, const std::string& name) {
   // A long luminaire lies along C90; the record's length is along the 0 plane.
   const double length = metre * lines.number("the length of the luminous area");
   const double width = metre * lines.number("the width of the luminous area");
-  record.length = width > 0 ? width : length, record.width = length;
-  if (!(width > 0)) record.length = record.width = -length;  // round
+  record.width = width > 0 ? length : -length, record.length = width > 0 ? width : -length;  // negative: round
   for (int i = 0; i < 4; ++i)
     record.height = std::max(record.height, metre * lines.number("a height of the luminous area"));
   lines.number("the downward flux fraction");
@@ -185,7 +184,6 @@ bool setHorizontals(const LdtHead& head, const std::vector<double>& all, const S
   h.front() = expect(h.front(), head.symmetry == 3 ? 270 : 0);
   if (head.symmetry == 2) h.back() = expect(h.back(), 180);
   if (head.symmetry == 4) h.back() = expect(h.back(), 90);
-  if (head.symmetry == 0 && h.size() == 1) return false;
   if (head.symmetry != 3) return false;
   // From C270 over C0 to C90; mirrored in that plane they are C270 to C90 the other way.
   h.back() = expect(h.back(), 90);

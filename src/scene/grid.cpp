@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deltalux/error.hpp>
 #include <numeric>
+
+#include "scene/edit/plan.hpp"
 
 namespace deltalux {
 
@@ -17,28 +18,11 @@ constexpr int kCylinderSides = 16;    // a small lamp's light is 0.8 % off at mo
 /// How many cells no wider than `spacing` a side of such a length has: [EN12464] takes the nearest whole number.
 int cellsOf(double length, double spacing) { return std::max(1, static_cast<int>(std::lround(length / spacing))); }
 
-bool holds(const std::vector<Vec2>& outline, const Vec2& p) {
-  bool in = false;
-  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const Vec2 &a = outline[i], &b = outline[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) in = !in;
-  }
-  return in;
-}
-
 const Polygon& polygonOf(const Scene& scene, std::string_view name) {
-  const std::vector<ObjectId> objects = findObjects(scene, name);
-  if (objects.empty()) {
-    std::vector<std::string> names;
-    for (const Object& o : scene.objects) names.push_back(o.name);
-    std::string near;
-    for (const std::string& n : nearMisses(name, names)) near += (near.empty() ? "" : ", ") + n;
-    throw InputError("grid", 0, "there is no object '" + std::string(name) + "'", "nearest: " + near);
-  }
   const Polygon* best = nullptr;
   bool bestLevel = false;
   double bestHeight = 0;
-  for (const ObjectId object : objects)
+  for (const ObjectId object : scene::edits::objectsNamed(scene, std::string(name)))
     for (const PrimitiveId p : primitivesOf(scene, object)) {
       const auto* polygon = std::get_if<Polygon>(&scene[p].shape);
       if (!polygon || !(polygon->area > 0)) continue;
@@ -51,8 +35,7 @@ const Polygon& polygonOf(const Scene& scene, std::string_view name) {
       if (!best || (level && !bestLevel) || (level == bestLevel && larger))
         best = polygon, bestLevel = level, bestHeight = height;
     }
-  if (!best)
-    throw InputError("grid", 0, "'" + std::string(name) + "' has no polygon", "give an area of its own instead");
+  if (!best) scene::edits::refuse("'" + std::string(name) + "' has no polygon", "give an area of its own instead");
   return *best;
 }
 
@@ -98,23 +81,24 @@ MeasuringGrid gridOn(const Scene& scene, std::string_view object, const GridSett
   }
   u = glm::normalize(u);
   const Vec3 v = glm::cross(normal, u);
-  std::vector<Vec2> outline;
-  Vec2 low(1e300), high(-1e300);
+  Vec2 low(0.0), high(0.0);
   for (const Vec3& p : corners) {
-    outline.emplace_back(glm::dot(p - corners[0], u), glm::dot(p - corners[0], v));
-    low = glm::min(low, outline.back()), high = glm::max(high, outline.back());
+    const Vec2 at(glm::dot(p - corners[0], u), glm::dot(p - corners[0], v));
+    low = glm::min(low, at), high = glm::max(high, at);
   }
   MeasuringGrid grid = gridOf({corners[0] + low.x * u + low.y * v, (high.x - low.x) * u, (high.y - low.y) * v},
                               scene.metresPerUnit, settings);
   MeasuringGrid on = grid;
   on.points.clear(), on.cells.clear();
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
-    const Vec3 from = grid.points[i].position - corners[0];
-    if (!holds(outline, {glm::dot(from, u), glm::dot(from, v)})) continue;
+    const Vec3 from = grid.points[i].position - polygon.origin;
+    const Vec2 uv(glm::dot(from, polygon.dualU), glm::dot(from, polygon.dualV));
+    const bool inFrame = std::min(uv.x, uv.y) >= 0 && std::max(uv.x, uv.y) <= 1;  // which covers() takes for granted
+    if (!inFrame || !covers(polygon, uv)) continue;
     on.points.push_back(grid.points[i]), on.cells.push_back(grid.cells[i]);
   }
   if (on.points.empty())
-    throw InputError("grid", 0, "no point of its grid lies on '" + std::string(object) + "'", "set a smaller spacing");
+    scene::edits::refuse("no point of its grid lies on '" + std::string(object) + "'", "set a smaller spacing");
   return on;
 }
 
@@ -124,13 +108,11 @@ GridStatistics statisticsOf(std::span<const double> lux) {
 }
 
 std::vector<ProbePoint> cylinderAt(const ProbePoint& point, const Vec3& up) {
-  const Vec3 axis = glm::normalize(up);
-  const Vec3 hint = std::abs(axis.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-  const Vec3 a = glm::normalize(hint - glm::dot(hint, axis) * axis), b = glm::cross(axis, a);
+  const Frame frame(glm::normalize(up));
   std::vector<ProbePoint> all;
   for (int i = 0; i < kCylinderSides; ++i) {
     const double angle = 2 * kPi * (i + 0.5) / kCylinderSides;
-    all.push_back({point.position, std::cos(angle) * a + std::sin(angle) * b});
+    all.push_back({point.position, frame.toWorld({std::cos(angle), std::sin(angle), 0})});
   }
   return all;
 }
