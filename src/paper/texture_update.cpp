@@ -10,6 +10,8 @@ namespace deltalux::paper {
 
 namespace {
 
+constexpr double kSameFlux = 1e-6;  // relative, of the same deposits in another order [rounding]
+
 /// By side: whether deposits on it were taken back, or are new.
 std::vector<char> changedSides(const Scene& scene, const particles::Particles& p,
                                const particles::ParticleUpdate& update) {
@@ -32,7 +34,7 @@ std::size_t followTextures(caustics::Caustics& textures, const Scene& scene, con
   for (const particles::Impact& i : impacts) flux[particles::sideIndex(i.primitive, i.front)] += RgbSum(i.flux);
   for (caustics::SurfaceCaustics& s : textures.surfaces)
     if (const std::size_t side = particles::sideIndex(s.primitive, s.front); !changed[side])
-      caustics::rescale(s, flux[side], 0.0);
+      caustics::rescale(s, flux[side], kSameFlux);
   std::erase_if(impacts,
                 [&](const particles::Impact& i) { return !changed[particles::sideIndex(i.primitive, i.front)]; });
   return caustics::remakeCaustics(textures, scene, elements, std::move(impacts), error, changed, textureRule());
