@@ -40,6 +40,27 @@ std::optional<SolutionMesh> skyLight(const SolutionView& view, Rgb& weight) {
   return std::nullopt;
 }
 
+/// By vertex of a side: direct light that stays with the mesh.
+std::vector<Rgb> keptLight(const SolutionMesh& sky, const Rgb& weight, std::size_t s, const SurfaceMesh& side) {
+  std::vector<Rgb> kept(side.vertices.size(), Rgb(0.0f));
+  if (sky.surfaces.empty()) return kept;
+  const SurfaceMesh& of = *sky.surfaces[s];
+  for (std::size_t i = 0; i < side.triangles.size(); ++i)
+    kept[side.triangles[i]] = weight * of.vertices[of.triangles[i]].direct;
+  return kept;
+}
+
+LitSide measuredSideOf(const SurfaceMesh& mesh, const std::vector<Rgb>& kept) {
+  LitSide side;
+  side.vertices = mesh.vertices;
+  side.all.resize(1), side.direct.resize(1);
+  for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3)
+    side.triangles.push_back({mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]});
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    side.all[0].push_back(irradianceOf(mesh.vertices[v])), side.direct[0].push_back(mesh.vertices[v].direct - kept[v]);
+  return side;
+}
+
 }  // namespace
 
 SideDirect::SideDirect(std::vector<Vec3f> corners, std::vector<std::array<std::uint32_t, 3>> triangles,
@@ -73,33 +94,28 @@ MeasuredLight measuredLight(const SolutionView& view, const SolutionMesh& mesh, 
   const std::optional<SolutionMesh> sky = skyLight(view, weight);
   if (!sky) return out;
   const DirectLight light = DirectLight::together(view);
-  const Refinement refinement = Refinement::of(view.get().scene, error);
-  parallelFor(mesh.surfaces.size(), 1, [&](std::size_t s) {
-    if (!mesh.surfaces[s] || mesh.surfaces[s]->triangles.empty()) return;
+  std::vector<LitSide> sides(mesh.surfaces.size());
+  const auto at = [&](std::size_t s) { return mesh.surfaces[s] && !mesh.surfaces[s]->triangles.empty(); };
+  parallelFor(sides.size(), 1, [&](std::size_t s) {
+    if (at(s)) sides[s] = measuredSideOf(*mesh.surfaces[s], keptLight(*sky, weight, s, *mesh.surfaces[s]));
+  });
+  LightFloors floors(1);
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    if (at(s)) floors.add(sides[s]);
+  Refinement refinement = Refinement::of(view.get().scene, error);
+  refinement.floors = floors.floors();
+  parallelFor(sides.size(), 1, [&](std::size_t s) {
+    LitSide& side = sides[s];
+    if (!at(s) || std::ranges::all_of(side.all[0], [](const Rgb& E) { return isBlack(E); })) return;
     auto rest = std::make_shared<SurfaceMesh>(*mesh.surfaces[s]);
-    LitSide side;
-    side.vertices = rest->vertices;
-    side.all.resize(1), side.direct.resize(1);
-    for (std::size_t i = 0; i + 2 < rest->triangles.size(); i += 3)
-      side.triangles.push_back({rest->triangles[i], rest->triangles[i + 1], rest->triangles[i + 2]});
-    std::vector<Rgb> kept(rest->vertices.size(), Rgb(0.0f));
-    if (!sky->surfaces.empty())
-      for (std::size_t i = 0; i < rest->triangles.size(); ++i)
-        kept[rest->triangles[i]] = weight * sky->surfaces[s]->vertices[sky->surfaces[s]->triangles[i]].direct;
-    bool lit = false;
-    for (std::size_t v = 0; v < rest->vertices.size(); ++v) {
-      MeshVertex& vertex = rest->vertices[v];
-      side.all[0].push_back(irradianceOf(vertex)), side.direct[0].push_back(vertex.direct - kept[v]);
-      lit = lit || !isBlack(irradianceOf(vertex));
-      vertex.direct = kept[v];
-    }
-    if (!lit) return;
+    for (std::size_t v = 0; v < rest->vertices.size(); ++v) rest->vertices[v].direct -= side.direct[0][v];
     refine(side, (*mesh.scene)[rest->primitive].shape, rest->front, light, refinement);
     std::vector<Vec3f> corners;
     for (const MeshVertex& v : side.vertices) corners.push_back(v.position);
     out.sides[s] =
         std::make_shared<const SideDirect>(std::move(corners), std::move(side.triangles), std::move(side.direct[0]));
     out.mesh.surfaces[s] = std::move(rest);
+    side = {};
   });
   return out;
 }

@@ -39,8 +39,14 @@ void refineDirect(PageMesh& mesh, std::vector<std::vector<Rgb>>& layers, const s
   std::vector<LitSide> sides(mesh.sides.size());
   parallelFor(sides.size(), 1, [&](std::size_t s) {
     sides[s] = litSideOf(mesh, mesh.sides[s], std::move(triangles[s]), layers, direct);
+  });
+  LightFloors floors(layers.size());
+  for (const LitSide& side : sides) floors.add(side);
+  Refinement bounded = settings;
+  bounded.floors = floors.floors();
+  parallelFor(sides.size(), 1, [&](std::size_t s) {
     if (!isLitAnywhere(sides[s])) return;
-    Refinement own = settings;
+    Refinement own = bounded;
     own.keepsShape = whole[s];
     refine(sides[s], scene[PrimitiveId(mesh.sides[s].side / 2)].shape, mesh.sides[s].side % 2 == 0, light, own);
   });

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "base/parallel.hpp"
+#include "direct/tuning.hpp"
 
 namespace deltalux::exporting {
 
@@ -16,11 +17,13 @@ constexpr double kShadowEdge = 3e-3;           // size of what is left of a shad
 constexpr double kBorderInset = 1e-3;          // inside of borders, where corners on them are measured [m] [rounding]
 constexpr double kVisible = 10;                // times that: edges from which on all that is not allowed shows [shown]
 constexpr int kMostCuts = 32;                  // of cuts of cuts [limit]
-constexpr std::size_t kMeasured = 64;          // places of a task [task]
-constexpr float kChannels = 3;                 // whose sum light is compared by [layout]
-constexpr int kLooks = 8;                      // parts of an edge that is cut [task]
-constexpr double kLeastWay = 0.05;             // of the way inside that a border's corner is moved at most [rounding]
-constexpr double kOnePlane = 0.9999;           // cosine between normals of a flat triangle [rounding]
+constexpr std::size_t kMostAdded = 16384,
+                      kMostPerVertex = 8;  // corners that a side gets, and more by those it has [limit]
+constexpr std::size_t kMeasured = 64;      // places of a task [task]
+constexpr float kChannels = 3;             // whose sum light is compared by [layout]
+constexpr int kLooks = 8;                  // parts of an edge that is cut [task]
+constexpr double kLeastWay = 0.05;         // of the way inside that a border's corner is moved at most [rounding]
+constexpr double kOnePlane = 0.9999;       // cosine between normals of a flat triangle [rounding]
 
 float sumOf(const Rgb& c) { return c.r + c.g + c.b; }
 float differenceOf(const Rgb& a, const Rgb& b) {
@@ -35,6 +38,7 @@ class SideRefiner {
  public:
   SideRefiner(LitSide& side, const Shape& shape, bool front, const DirectLight& light, const Refinement& settings)
       : side_(side), shape_(shape), front_(front), light_(light), settings_(settings), groups_(side.all.size()) {
+    room_ = kMostAdded + kMostPerVertex * side.vertices.size();
     flat_ = std::holds_alternative<Polygon>(shape) || std::holds_alternative<Ring>(shape);
     mesh_ = std::holds_alternative<Mesh>(shape);
   }
@@ -44,7 +48,7 @@ class SideRefiner {
     measureCorners();
     if (!mayBeCut()) return;
     std::vector<std::array<std::uint32_t, 3>> active = side_.triangles, done;
-    for (int pass = 0; pass < kMostCuts && !active.empty(); ++pass) {
+    for (int pass = 0; pass < kMostCuts && !active.empty() && room_ > 0; ++pass) {
       cutEdges();
       std::vector<std::array<std::uint32_t, 3>> whole, next;
       for (const auto& t : active)
@@ -69,6 +73,7 @@ class SideRefiner {
     Vec3 inside;              // where it is measured
     std::vector<Rgb> rest;    // light that is not measured, by group
     std::vector<Rgb> direct;  // by group
+    double worth = 0;         // how far linear light is off, over what is allowed, times how far it reaches
   };
   /// How far linear light is off, over what is allowed, and of which group.
   struct Disagreement {
@@ -128,11 +133,14 @@ class SideRefiner {
     return sum;
   }
 
+  float floorOf(std::size_t g) const {
+    return settings_.floors.empty() ? 0.0f : static_cast<float>(settings_.floors[g]);
+  }
   /// Of one group; `rest` is all groups' there.
   Rgb measured(std::size_t g, const Place& place) const {
     float all = 0;
     for (const Rgb& r : place.rest) all += gray(r);
-    const float other = std::max(gray(place.rest[g]), static_cast<float>(settings_.share) * all);
+    const float other = std::max({gray(place.rest[g]), static_cast<float>(settings_.share) * all, floorOf(g)});
     return light_.at(g, place.inside, Vec3(place.vertex.normal), other, settings_.error);
   }
   void measure(Place& place) const {
@@ -191,7 +199,8 @@ class SideRefiner {
   }
   float allowedFor(std::size_t g, std::span<const std::uint32_t> corners, float there, float total) const {
     return static_cast<float>(settings_.error) *
-           std::max({there, lightAround(g, corners), static_cast<float>(settings_.share) * total});
+           std::max(
+               {there, lightAround(g, corners), static_cast<float>(settings_.share) * total, kChannels * floorOf(g)});
   }
   Disagreement disagreement(const Place& place, std::span<const std::uint32_t> corners, const auto& linear) const {
     Disagreement worst;
@@ -269,7 +278,21 @@ class SideRefiner {
     const double least = 0.5 * settings_.smallest / length;
     Place place = placeOn(e, std::clamp(cutFor(worst.group, e, length), least, 1 - least));
     measure(place);
+    place.worth = worst.most * length;
     return place;
+  }
+
+  /// Leaves those out that are worth least where there are more than there is room for.
+  void fitIntoRoom(std::vector<std::optional<Place>>& places) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (places[i]) order.push_back(i);
+    if (order.size() > room_) {
+      std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return places[i]->worth; });
+      for (std::size_t k = room_; k < order.size(); ++k) places[order[k]].reset();
+      order.resize(room_);
+    }
+    room_ -= order.size();
   }
 
   std::uint32_t add(const Place& place) {
@@ -282,6 +305,7 @@ class SideRefiner {
   void cutEdges() {
     std::vector<std::optional<Place>> cuts(fresh_.size());
     parallelFor(fresh_.size(), kMeasured, [&](std::size_t i) { cuts[i] = cutOf(edges_[fresh_[i]]); });
+    fitIntoRoom(cuts);
     for (std::size_t i = 0; i < fresh_.size(); ++i) {
       edges_[fresh_[i]].known = true;
       if (cuts[i]) edges_[fresh_[i]].corner = add(*cuts[i]);
@@ -334,12 +358,15 @@ class SideRefiner {
     measure(place);
     const Disagreement worst = disagreement(
         place, t, [&](std::size_t g) { return mean([&](std::uint32_t v) { return side_.direct[g][v]; }); });
-    return worst.most > threshold(longest) ? std::optional(std::move(place)) : std::nullopt;
+    if (!(worst.most > threshold(longest))) return std::nullopt;
+    place.worth = worst.most * longest;
+    return place;
   }
   void cutMiddles(const std::vector<std::array<std::uint32_t, 3>>& whole,
                   std::vector<std::array<std::uint32_t, 3>>& next, std::vector<std::array<std::uint32_t, 3>>& done) {
     std::vector<std::optional<Place>> middles(whole.size());
     parallelFor(whole.size(), kMeasured, [&](std::size_t i) { middles[i] = middleOf(whole[i]); });
+    fitIntoRoom(middles);
     for (std::size_t i = 0; i < whole.size(); ++i) {
       const auto& t = whole[i];
       if (!middles[i]) {
@@ -358,6 +385,7 @@ class SideRefiner {
   const Refinement& settings_;
   const std::size_t groups_;
   bool flat_ = false, mesh_ = false;
+  std::size_t room_ = 0;  // for corners that may be added yet
   std::vector<Edge> edges_;
   std::unordered_map<std::uint64_t, std::uint32_t> edgeOf_;
   std::vector<std::uint32_t> fresh_;  // edges that nobody has looked at yet
@@ -368,6 +396,22 @@ class SideRefiner {
 Refinement Refinement::of(const Scene& scene, double error) {
   Refinement out;
   out.error = error, out.smallest = kShadowEdge / scene.metresPerUnit, out.border = kBorderInset / scene.metresPerUnit;
+  return out;
+}
+
+void LightFloors::add(const LitSide& side) {
+  for (const auto& t : side.triangles) {
+    const auto at = [&](std::size_t k) { return Vec3(side.vertices[t[k]].position); };
+    const double area = 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
+    area_ += area;
+    for (std::size_t g = 0; g < light_.size(); ++g)
+      for (const std::uint32_t v : t) light_[g] += area / 3 * double(gray(side.all[g][v]));
+  }
+}
+
+std::vector<double> LightFloors::floors() const {
+  std::vector<double> out;
+  for (const double light : light_) out.push_back(area_ > 0 ? direct::tuning::kFloor * light / area_ : 0);
   return out;
 }
 

@@ -27,12 +27,25 @@ struct LitSide {
 struct Refinement {
   double error = 0.01;  // of a group's light at a place, or of `share` of all light there if that is more
   double share = 0.01;
-  double smallest = 0;      // edges shorter than twice that are not cut [scene units]
-  double border = 0;        // how far inside corners on borders are measured [scene units]
-  bool keepsShape = false;  // no corners are added: caustic textures lie on the same triangles
+  std::vector<double> floors;  // by group: light below it is not told more finely [W/m2, gray]; empty: 0
+  double smallest = 0;         // edges shorter than twice that are not cut [scene units]
+  double border = 0;           // how far inside corners on borders are measured [scene units]
+  bool keepsShape = false;     // no corners are added: caustic textures lie on the same triangles
 
   /// In the units of a scene.
   static Refinement of(const Scene&, double error);
+};
+
+/// By group, the share of its mean over sides below which light does not matter [W/m2, gray].
+class LightFloors {
+ public:
+  explicit LightFloors(std::size_t groups) : light_(groups, 0.0) {}
+  void add(const LitSide&);
+  std::vector<double> floors() const;
+
+ private:
+  std::vector<double> light_;  // by group: area times irradiance
+  double area_ = 0;
 };
 
 /// Puts what is measured in the place of `direct`, in `all` too.

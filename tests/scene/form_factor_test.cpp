@@ -36,6 +36,16 @@ TEST(FormFactor, ClosedBoxSumsToOneAndTheHorizonClips) {
   }
 }
 
+TEST(FormFactor, OfASmallPolygonFarAwayIsThatOfItsArea) {
+  const std::vector<Vec3f> lamp = {
+      {-0.01f, -0.01f, 0.5f}, {-0.01f, 0.01f, 0.5f}, {0.01f, 0.01f, 0.5f}, {0.01f, -0.01f, 0.5f}};
+  for (const double r : {1.0, 10.0, 100.0, 1000.0}) {
+    const double squared = r * r + 0.25;
+    EXPECT_NEAR(formFactorToPolygon(Vec3f(Vec3(r, 0, 0)), {0, 0, 1}, lamp) / (4e-4 * 0.25 / (kPi * squared * squared)),
+                1, 2e-3);
+  }
+}
+
 TEST(FormFactor, SeamsOfAHoleCancel) {
   // A square with a square hole, as one seamed outline, equals the square less the hole.
   const std::vector<Vec3f> seamed = {{-2, -2, 1}, {2, -2, 1}, {2, 2, 1}, {-2, 2, 1}, {-2, -2, 1},
