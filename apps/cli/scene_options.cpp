@@ -52,7 +52,7 @@ SceneStats sceneStats(const Scene& scene) {
 
 void SceneOptions::add(CLI::App& app) {
   app.add_option("SCENE", files, ".gltf, .glb or .obj, or .rad files in order")->required()->type_name("FILE");
-  app.add_option("--ies", luminaires, "Add a measured light (IES LM-63, EULUMDAT), aimed straight down; may be repeated")
+  app.add_option("--ies", luminaires, "Add a measured light (IES LM-63, TM-33, EULUMDAT), aimed straight down; may be repeated")
       ->type_name("FILE@x,y,z")
       ->allow_extra_args(false)
       ->check(checkLuminaire);
