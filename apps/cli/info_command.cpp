@@ -21,7 +21,7 @@ struct InfoOptions {
 bool isLuminaire(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension == ".ies" || extension == ".ldt";
+  return extension == ".ies" || extension == ".ldt" || extension == ".xml" || extension == ".tm33";
 }
 
 void describeLuminaire(const Run& run, const std::string& file, const std::string& diagram, bool quiet) {
@@ -59,7 +59,7 @@ void runInfo(const InfoOptions& options) {
 
 void addInfoCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "info", "What is in a scene, and what its import ignored; or in a luminaire's file (.ies, .ldt)");
+      "info", "What is in a scene, and what its import ignored; or in a luminaire's file (.ies, .ldt, .xml of TM-33)");
   const auto options = std::make_shared<InfoOptions>();
   options->scene.add(*command);
   command->add_option("-o", options->diagram, "Where the polar diagram of a luminaire goes")->type_name("OUT.svg");

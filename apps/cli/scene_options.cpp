@@ -33,6 +33,24 @@ std::string checkLuminaire(const std::string& text) {
   return parseLuminaire(text) ? "" : fmt::format("'{}' should read FILE@x,y,z, e.g. lamp.ies@1,2.5,3", text);
 }
 
+template <class Parse>
+auto checkedBy(const Parse& parse, const char* example) {
+  return [parse, example](const std::string& text) {
+    return parse(text) ? std::string() : fmt::format("'{}' should read {}", text, example);
+  };
+}
+
+constexpr double kDegree = kPi / 180;  // [defined]
+
+/// What sun and sky come to, for a reader to find mistakes of time and place by.
+std::string describe(const Daylighting& daylight, const Scene& scene) {
+  const SunSighting sun = sightSun(daylight.time, daylight.place);
+  const SunAndSky lights = sunAndSky(daylight, scene.up, scene.luminousEfficacy);
+  const double beam = solidAngle(lights.sun) * photometric(lights.sun.radiance, scene.luminousEfficacy);
+  return fmt::format("daylight: the sun {:.2f} degrees high, {:.2f} degrees from north; across its beam {:.0f} lx",
+                     sun.altitude / kDegree, sun.azimuth / kDegree, beam);
+}
+
 bool isGltf(const std::string& file) {
   const std::string extension = std::filesystem::path(file).extension().string();
   return extension == ".gltf" || extension == ".glb";
@@ -52,10 +70,28 @@ SceneStats sceneStats(const Scene& scene) {
 
 void SceneOptions::add(CLI::App& app) {
   app.add_option("SCENE", files, ".gltf, .glb or .obj, or .rad files in order")->required()->type_name("FILE");
-  app.add_option("--ies", luminaires, "Add a measured light (IES LM-63, EULUMDAT), aimed straight down; may be repeated")
+  app.add_option("--ies", luminaires,
+                 "Add a measured light (IES LM-63, TM-33, EULUMDAT), aimed straight down; may be repeated")
       ->type_name("FILE@x,y,z")
       ->allow_extra_args(false)
       ->check(checkLuminaire);
+  app.add_option("--sky", sky, "Put a daylight over the scene: a CIE standard sky, or one of two irradiances [W/m2]")
+      ->type_name("cie:N|perez:DNI,DHI")
+      ->check(checkedBy(parseSkyModel, "cie:N with N of 1 to 15, cie:N,LUX or perez:DNI,DHI"));
+  daylightOptions_ = {
+      app.add_option("--when", when, "Time of the daylight, by clocks of its place or with a zone")
+          ->type_name("ISO")
+          ->check(checkedBy(parseCivilTime, "2026-06-21T09:00, or with a zone 2026-06-21T09:00+02:00")),
+      app.add_option("--where", where, "Its place, in degrees north and east")
+          ->type_name("LAT,LON")
+          ->check(checkedBy(parsePlace, "LATITUDE,LONGITUDE, e.g. 47.4,8.5")),
+      app.add_option("--north", north, "Where true north lies, clockwise from the scene's +y (from -z where y is up)")
+          ->type_name("DEG")
+          ->check(CLI::Range(-360.0, 360.0)),
+      app.add_option("--ground", ground, "Reflectance of the ground under the sky")
+          ->type_name("R")
+          ->check(CLI::Range(0.0, 1.0))
+          ->capture_default_str()};
   metresOption_ =
       app.add_option("--metres-per-unit", import.metresPerUnit, "Length of the unit of a .rad or .obj scene");
   metresOption_->type_name("M")->check(CLI::PositiveNumber)->capture_default_str();
@@ -67,6 +103,11 @@ void SceneOptions::add(CLI::App& app) {
 void SceneOptions::requireEffect() const {
   const bool gltf = isGltf(files.front());
   if (gltf && metresOption_->count() > 0) throw CLI::ValidationError("--metres-per-unit: glTF scenes are in metres");
+  if (sky.empty())
+    for (const CLI::Option* option : daylightOptions_)
+      if (option->count() > 0) throw CLI::ValidationError(option->get_name() + ": there is no --sky that it is about");
+  if (!sky.empty() && (when.empty() || where.empty()))
+    throw CLI::ValidationError("--sky " + sky + ": its sun needs --when and --where");
   if (!gltf && efficacyOption_->count() > 0)
     throw CLI::ValidationError("--efficacy: only glTF scenes hold photometric values");
 }
@@ -77,19 +118,33 @@ std::vector<Luminaire> SceneOptions::hung() const {
   return result;
 }
 
+std::optional<Daylighting> SceneOptions::daylight() const {
+  if (sky.empty()) return std::nullopt;
+  return Daylighting{parseSkyModel(sky).value(), parseCivilTime(when).value(), parsePlace(where).value(), north,
+                     ground};
+}
+
 ImportedScene SceneOptions::load(Run& run) const {
   requireEffect();
-  return importScene(run, {files.begin(), files.end()}, hung(), import);
+  return importScene(run, {files.begin(), files.end()}, hung(), import, daylight());
 }
 
 ImportedScene importScene(Run& run, const std::vector<std::filesystem::path>& files,
-                          const std::vector<Luminaire>& luminaires, const ImportSettings& import) {
+                          const std::vector<Luminaire>& luminaires, const ImportSettings& import,
+                          const std::optional<Daylighting>& daylight) {
   const double begin = run.elapsed();
   std::vector<std::string> names;
   for (const std::filesystem::path& file : files) names.push_back(file.string());
   run.report.scene = fmt::format("{}", fmt::join(names, " "));
   ImportedScene imported = loadScene(files, import);
   for (const Luminaire& luminaire : luminaires) addLuminaire(imported.scene, luminaire, &imported.report.warnings);
+  if (daylight) {
+    const std::size_t replaced = setDaylight(imported.scene, *daylight);
+    if (replaced > 0)
+      imported.report.warnings.push_back(
+          fmt::format("--sky takes the place of {} suns, skies and backdrops", replaced));
+    run.say(describe(*daylight, imported.scene));
+  }
   for (const std::string& warning : imported.report.warnings) run.say("warning: " + warning);
   warnIfDark(imported.scene, run);
   run.report.times.import = run.elapsed() - begin;

@@ -140,6 +140,7 @@ Recording recordingOf(const SceneOptions& scene, const SolveOptions& solve, cons
   recording.scene = {scene.files.begin(), scene.files.end()};
   recording.luminaires = scene.hung();
   recording.import = scene.import;
+  recording.daylight = scene.daylight();
   recording.settings = solve.settings;
   recording.settings.seed = run.seed;
   return recording;

@@ -140,7 +140,7 @@ void runReplay(const UpdateOptions& options, const CLI::App& command) {
   {
     ProgressPrinter progress(running.progressStyle());
     if (!options.edits.empty()) options.scene.requireEffect();
-    ImportedScene imported = importScene(run, session.scene, session.luminaires, session.import);
+    ImportedScene imported = importScene(run, session.scene, session.luminaires, session.import, session.daylight);
     addAreaLights(imported.scene);
     validateEdits(imported.scene, session.steps, options.edits.empty() ? options.scene.files.front() : options.edits);
     if (!options.record.empty()) record(options, session);

@@ -51,7 +51,8 @@ std::unique_ptr<Engine> open(const Recording& recording, Run& run) {
     SolutionView solution = loadSolution(recording.scene.front());
     return std::make_unique<Engine>(std::move(solution));
   }
-  ImportedScene imported = importScene(run, recording.scene, recording.luminaires, recording.import);
+  ImportedScene imported =
+      importScene(run, recording.scene, recording.luminaires, recording.import, recording.daylight);
   addAreaLights(imported.scene);
   EditHistory history;
   for (const EditStep& step : recording.steps) applyStep(imported.scene, history, step);

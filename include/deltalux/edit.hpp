@@ -5,6 +5,7 @@
 // double precision: however often it moves, its shape depends on where it is and not on the way there. A map that
 // returns to the identity within rounding is the identity, so that an edit and the opposite edit give back the very
 // same scene. What is removed stays as a surface without extent, so that ids stay good; its lights stay as dark points.
+#include <deltalux/daylight.hpp>
 #include <deltalux/scene.hpp>
 #include <memory>
 #include <optional>
@@ -72,6 +73,12 @@ struct SetMaterial {
   std::optional<float> roughness;
 };
 
+/// Puts the sun and the sky of a daylight over the scene: its first sun and its first sky become them, all others go
+/// black. A scene without them gets them as "sun" and "sky".
+struct SetDaylight {
+  Daylighting daylight;
+};
+
 /// Things of a scene in an exact state: what undoing an edit means, and redoing it.
 struct Restore {
   struct PrimitiveState {
@@ -95,7 +102,7 @@ struct Restore {
 };
 
 using Edit = std::variant<TransformObject, AddObject, RemoveObject, ScaleLight, ColourLight, SwitchLight, AimLight,
-                          MoveLight, SetMaterial, Restore>;
+                          MoveLight, SetMaterial, SetDaylight, Restore>;
 
 /// What an edit did to a scene.
 struct SceneChange {

@@ -8,11 +8,14 @@
 //     {"op": "light", "light": NAME, one of "scale": s, "rgb": [r,g,b], "on": true or false, "aim": [x,y,z],
 //                                           "translate": [x,y,z]},
 //     {"op": "material", "material": NAME, "reflectance": [r,g,b] and/or "roughness": a},
+//     {"op": "sky", "sky": "cie:12" or "perez:800,100", "when": "2026-06-21T09:00+02:00", "where": [latitude,
+//     longitude],
+//                   "north": degrees, "ground": reflectance},    what is left out is as in the entry of a sky before
 //     {"op": "add", "object": NAME, "scene": FILE, "matrix": [16 numbers]},       "matrix" may be left out
 //     {"op": "remove", "object": NAME}, {"op": "undo"}, {"op": "redo"}
 //   ]}
 //
-// A recording has "scene": [files], "luminaires", "import", "seed" and "settings" beside its edits.
+// A recording has "scene": [files], "luminaires", "import", "daylight", "seed" and "settings" beside its edits.
 #include <deltalux/edit.hpp>
 #include <deltalux/io.hpp>
 #include <deltalux/settings.hpp>
@@ -42,7 +45,8 @@ struct Recording {
   std::vector<std::filesystem::path> scene;
   std::vector<Luminaire> luminaires;
   ImportSettings import;
-  SolveSettings settings;  // with the seed
+  std::optional<Daylighting> daylight;  // that is put over the scene
+  SolveSettings settings;               // with the seed
   std::vector<EditStep> steps;
 };
 

@@ -37,6 +37,19 @@ AddObject addition(const std::string& object, const std::string& file, const Sce
   return {object, file, part.scene, placed};
 }
 
+/// As edits files mean it.
+Daylighting daylighting(const std::string& sky, const std::string& when, const Place& place, double north,
+                        double ground) {
+  const auto model = parseSkyModel(sky);
+  const auto time = parseCivilTime(when);
+  if (!model) throw std::invalid_argument("sky: is none of 'cie:TYPE', 'cie:TYPE,LUX', 'perez:DIRECT_NORMAL,DIFFUSE'");
+  if (!time) throw std::invalid_argument("when: is no time as '2026-06-21T09:00+02:00', of 1900 to 2100");
+  if (!(std::abs(place.latitude) <= 90 && std::abs(place.longitude) <= 180))
+    throw std::invalid_argument("where: is no latitude and longitude in degrees");
+  if (!std::isfinite(north)) throw std::invalid_argument("north: is not finite");
+  return {*model, *time, place, north, ground};
+}
+
 /// A light as edits see it: its scale when it is on, and whether it is.
 struct LightState {
   std::string name;
@@ -163,6 +176,14 @@ void bindEdits(py::module_& m) {
             l.take(edit);
           },
           py::arg("material"), py::arg("reflectance"), py::arg("roughness"))
+      .def(
+          "sky",
+          [](EditList& l, const std::string& sky, const std::string& when, double latitude, double longitude,
+             double north, double ground) {
+            l.take(SetDaylight{daylighting(sky, when, {latitude, longitude}, north, ground)});
+          },
+          py::arg("sky"), py::arg("when"), py::arg("latitude"), py::arg("longitude"), py::arg("north"),
+          py::arg("ground"))
       .def("lights", &lightsOf, py::arg("name"))
       .def("material", &materialOf, py::arg("name"));
 }

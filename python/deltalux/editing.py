@@ -187,6 +187,17 @@ class Edits:
         """Takes an object away, and all below it."""
         self._edits.remove(name)
 
+    def sky(
+        self, sky: str, when: str, where: tuple[float, float], *, north: float = 0.0, ground: float = 0.2
+    ) -> None:
+        """Puts the sun and the sky of a time and place over the scene, in place of its own.
+
+        sky: "cie:TYPE", "cie:TYPE,LUX" or "perez:DIRECT_NORMAL,DIFFUSE" in W/m2.  when: "2026-06-21T09:00+02:00".
+        where: latitude and longitude, degrees north and east.  north: of true north, clockwise from the scene's, degrees.
+        ground: its reflectance.
+        """
+        self._edits.sky(sky, when, where[0], where[1], north, ground)
+
     def light(self, name: str) -> LightEdits:
         """The light of that name: .scale, .rgb, .on, .aim(), .move(), .dim()."""
         light = LightEdits(self._edits, name)

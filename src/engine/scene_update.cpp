@@ -21,12 +21,8 @@ bool alike(const LambertPointLight& a, const LambertPointLight& b) {
 bool alike(const PhotometricLight& a, const PhotometricLight& b) {
   return a.position == b.position && a.frame == b.frame && a.photometry == b.photometry;
 }
-bool alike(const SunLight& a, const SunLight& b) {
-  return a.direction == b.direction && a.angularRadius == b.angularRadius;
-}
-bool alike(const DomeLight& a, const DomeLight& b) {
-  return a.axis == b.axis && a.halfAngle == b.halfAngle && a.up == b.up;
-}
+bool alike(const SunLight& a, const SunLight& b) { return a == b; }
+bool alike(const DomeLight& a, const DomeLight& b) { return a == b; }
 template <class A, class B>
 bool alike(const A&, const B&) {
   return false;

@@ -30,11 +30,12 @@ class EntryReader {
     if (op == "transform") return Edit(transform(entry));
     if (op == "light") return light(entry);
     if (op == "material") return Edit(material(entry));
+    if (op == "sky") return Edit(sky(entry));
     if (op == "add") return Edit(add(entry));
     if (op == "remove") return only(entry, {"op", "object"}), Edit(RemoveObject{text(entry, "object")});
     if (op == "undo") return only(entry, {"op"}), EditStep(Undo{});
     if (op == "redo") return only(entry, {"op"}), EditStep(Redo{});
-    const std::vector<std::string> known{"transform", "light", "material", "add", "remove", "undo", "redo"};
+    const std::vector<std::string> known{"transform", "light", "material", "sky", "add", "remove", "undo", "redo"};
     entry.member("op").fail(fmt::format("is '{}'; nearest: {}", op, fmt::join(nearMisses(op, known), ", ")));
   }
 
@@ -129,6 +130,15 @@ class EntryReader {
     return edit;
   }
 
+  SetDaylight sky(const io::JsonView& entry) {
+    only(entry, {"op", "sky", "when", "where", "north", "ground"});
+    if (!daylight_)
+      for (const char* key : {"sky", "when", "where"})
+        entry.member(key).expectPresent("the first sky of a file says sky, when and where");
+    daylight_ = io::daylightOf(entry, daylight_.value_or(Daylighting()));
+    return {*daylight_};
+  }
+
   AddObject add(const io::JsonView& entry) {
     only(entry, {"op", "object", "scene", "matrix"});
     AddObject edit{text(entry, "object"), text(entry, "scene"), nullptr, Mat4(1.0)};
@@ -143,6 +153,7 @@ class EntryReader {
   const std::string& file_;
   const fs::path& folder_;
   const ImportSettings& import_;
+  std::optional<Daylighting> daylight_;                     // of the last entry that said
   std::map<fs::path, std::shared_ptr<const Scene>> parts_;  // read once each
 };
 

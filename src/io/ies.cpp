@@ -8,6 +8,7 @@
 #include "io/ies/parse.hpp"
 #include "io/import_file.hpp"
 #include "io/ldt.hpp"
+#include "io/tm33.hpp"
 
 namespace deltalux {
 
@@ -38,6 +39,7 @@ void checkFlux(const io::IesRecord& record, const Photometry& photometry, const 
 namespace deltalux::io {
 
 PhotometryFile readPhotometry(std::string_view text, const std::string& name, const std::filesystem::path& folder) {
+  if (isTm33(name, text)) return readTm33(text, name);
   IesRecord record = namesLdt(name) ? parseLdt(text, name) : parseIes(text, name, folder);
   PhotometryFile file;
   file.photometry = completePhotometry(record, name);

@@ -1,6 +1,6 @@
 #pragma once
 // Measured light distributions, IES LM-63 of 1986, 1991, 1995, 2002 and 2019, photometric types A, B and C; EULUMDAT in
-// files that are named so is read by ldt.hpp.
+// files that are named so is read by ldt.hpp, TM-33, which is XML, by tm33.hpp.
 //
 // Type C is completed by its lateral symmetry; A and B are resampled to type C (io/ies/complete.hpp). What the standard
 // says is applied: candela multiplier, ballast factor, ballast-lamp factor (before 1995; the field has had other

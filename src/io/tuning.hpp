@@ -10,8 +10,6 @@ constexpr int kPlaces = 16;
 /// Steps of the polar angle that tables of patterns begin with, 2 degrees, and directions of such a ring. Fewer: narrow
 /// peaks are overlooked.
 constexpr std::size_t kSteps = 90;
-/// Rings of a sky whose irradiance is added up, in twice as many parts each. Fewer: the sun's glow is off.
-constexpr int kSkyRings = 128;
 /// Rounds in which efficacy and irradiance of a sky fit each other. Fewer: the sky's brightness is off by percents.
 constexpr int kEfficacyRounds = 8;
 /// Largest source that is a sun, and no part of the sky [degrees across]. Larger: edges of large skies are sharp lamps.

@@ -13,5 +13,7 @@ constexpr int kNominalOctaves = 4;
 constexpr std::size_t kMostBySolidAngle = 8;
 /// Cells of a sky's table along height, and looks of each, a side. Fewer: noise under an uneven sky.
 constexpr int kDomeRings = 32, kDomeLooks = 3;
+/// Rings of a sky whose irradiance is added up, in twice as many parts each. Fewer: the sun's glow is off.
+constexpr int kSkyRings = 128;
 
 }  // namespace deltalux::scene::tuning

@@ -97,6 +97,26 @@ constexpr const char* kRoom =
     "void plastic grey 0 0 5 .5 .5 .5 0 0\nvoid light glow 0 0 3 5 5 5\n"
     "grey sphere ball 0 0 4 0 0 0 1\nglow polygon lamp 0 0 12 0 0 3 0 1 3 1 1 3 1 0 3\n";
 
+TEST(EditsFile, SkiesSayWhatTheyChange) {
+  const std::vector<EditStep> steps = parseEdits(
+      R"({"edits": [{"op": "sky", "sky": "perez:800,100", "when": "2026-06-21T09:00+02:00", "where": [47.4, 8.5], "north": 10},
+                    {"op": "sky", "when": "2026-06-21T10:00+02:00"}, {"op": "sky", "sky": "cie:1", "ground": 0.5}]})",
+      "e.json", ".");
+  ASSERT_EQ(steps.size(), 3u);
+  const auto daylight = [&](std::size_t i) { return std::get<SetDaylight>(std::get<Edit>(steps[i])).daylight; };
+  EXPECT_EQ(daylight(0), (Daylighting{AllWeatherSky{800, 100}, {2026, 6, 21, 9, 2.0}, {47.4, 8.5}, 10, 0.2}));
+  EXPECT_EQ(daylight(1), (Daylighting{AllWeatherSky{800, 100}, {2026, 6, 21, 10, 2.0}, {47.4, 8.5}, 10, 0.2}));
+  EXPECT_EQ(daylight(2), (Daylighting{GeneralSky{1, {}}, {2026, 6, 21, 10, 2.0}, {47.4, 8.5}, 10, 0.5}));
+  for (const char* entry :
+       {R"({"op": "sky", "when": "2026-06-21T09:00"})", R"({"op": "sky", "sky": "cie:1", "when": "2026-06-21T09:00"})",
+        R"({"op": "sky", "sky": "cie:16", "when": "2026-06-21T09:00", "where": [0, 0]})",
+        R"({"op": "sky", "sky": "cie:1", "when": "noon", "where": [0, 0]})",
+        R"({"op": "sky", "sky": "cie:1", "when": "2026-06-21T09:00", "where": [120, 0]})",
+        R"({"op": "sky", "sky": "cie:1", "when": "2026-06-21T09:00", "where": [0, 0], "ground": 2})",
+        R"({"op": "sky", "sky": "cie:1", "when": "2026-06-21T09:00", "where": [0, 0], "lat": 2})"})
+    EXPECT_THROW(parseEdits(std::string(R"({"edits": [)") + entry + "]}", "e.json", "."), InputError) << entry;
+}
+
 TEST(EditsFile, AddReadsTheFileBesideIt) {
   const TempFolder folder;
   folder.write("cup.rad", "void plastic blue 0 0 5 .1 .1 .5 0 0\nblue cylinder cup.side 0 0 7 0 0 0 0 0 1 .5\n");
@@ -143,8 +163,11 @@ TEST(Recording, ComesBackAndReplaysTheSame) {
     {"op": "light", "light": "lamp", "on": false}, {"op": "light", "light": "lamp", "translate": [0.1, 0, 0]},
     {"op": "material", "material": "grey", "reflectance": [0.3, 0.2, 0.1]}, {"op": "undo"}, {"op": "undo"}, {"op": "redo"},
     {"op": "remove", "object": "ball"})");
+  recording.daylight = Daylighting{GeneralSky{12, {}}, {2026, 6, 21, 9, 2.0}, {47.4, 8.5}, 10, 0.3};
+  recording.steps.emplace_back(Edit(SetDaylight{*recording.daylight}));
   saveRecording(folder / "r.json", recording);
   const Recording loaded = loadRecording(folder / "r.json");
+  EXPECT_EQ(loaded.daylight, recording.daylight);
   EXPECT_EQ(toJson(loaded), toJson(recording));
   EXPECT_EQ(loaded.settings.seed, recording.settings.seed);
   EXPECT_EQ(loaded.settings.diffuseOnly, true);

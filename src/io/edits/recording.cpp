@@ -52,6 +52,11 @@ io::Json entry(const SetMaterial& e) {
   if (e.roughness) json["roughness"] = *e.roughness;
   return json;
 }
+io::Json entry(const SetDaylight& e) {
+  io::Json json{{"op", "sky"}};
+  json.update(io::membersOf(e.daylight));
+  return json;
+}
 io::Json entry(const Restore&) {
   DELTALUX_CHECK(false, "a recording says undo or redo instead of what they restore");
   return {};
@@ -147,6 +152,7 @@ std::string toJson(const Recording& r) {
         {"by_light", r.settings.byLight},
         {"groups", std::move(groups)}}},
       {"edits", std::move(edits)}};
+  if (r.daylight) document["daylight"] = io::membersOf(*r.daylight);
   return document.dump(2, ' ', false, io::Json::error_handler_t::replace) + "\n";
 }
 
@@ -196,6 +202,11 @@ Recording loadRecording(const fs::path& path) {
   r.import.metresPerUnit = number(import, "metres_per_unit", 1e-12, 1e12, r.import.metresPerUnit);
   r.import.luminousEfficacy = number(import, "luminous_efficacy", 1e-6, 1e6, r.import.luminousEfficacy);
   r.settings = settingsOf(document);
+  if (const io::JsonView daylight = document.member("daylight"); daylight.present()) {
+    daylight.expectObject();
+    for (const char* key : {"sky", "when", "where"}) daylight.member(key).expectPresent("a daylight says it");
+    r.daylight = io::daylightOf(daylight, {});
+  }
   r.steps = io::readEdits(document, file, path.parent_path(), r.import);
   return r;
 }

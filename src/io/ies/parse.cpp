@@ -158,7 +158,7 @@ IesRecord parseIes(std::string_view file, const std::string& name, const std::fi
   const std::optional<Layout> layout = findTilt(text);
   if (!layout) {
     throw InputError(name, 0, "is not an IES LM-63 file: it has no line TILT=",
-                     "give a photometric file: LM-63, or EULUMDAT in a file named .ldt");
+                     "give a photometric file: LM-63, TM-33 in XML, or EULUMDAT in a file named .ldt");
   }
   IesRecord record;
   record.revision = revisionOf(text.substr(0, text.find('\n')));

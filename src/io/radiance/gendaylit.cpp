@@ -3,14 +3,20 @@
 
 #include "io/radiance/generators.hpp"
 #include "io/radiance/object_maker.hpp"
-#include "io/radiance/perez.hpp"
 #include "io/radiance/sky_pattern.hpp"
 #include "io/radiance/sky_time.hpp"
 #include "io/tuning.hpp"
+#include "scene/daylight/perez.hpp"
 
 namespace deltalux::io::radiance {
 
 namespace {
+
+using scene::conditionOf;
+using scene::Daylight;
+using scene::daylightOf;
+using scene::efficacies;
+using scene::SkyCondition;
 
 constexpr double kSunHalfAngle = 0.2665;  // degrees, as gendaylit takes it [defined]
 
@@ -25,14 +31,11 @@ struct DaylightRequest {
   double water = 2;  // precipitable, in the air [cm]
 };
 
-/// Irradiance beyond the atmosphere on that day. [Spencer71]
+/// Irradiance beyond the atmosphere on that day.
 double outsideOf(const SkyTime& when) {
-  if (when.angles) return kSolarConstant;
+  if (when.angles) return scene::kSolarConstant;
   constexpr std::array<int, 12> kBefore{0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};  // [defined]
-  const int day = kBefore[static_cast<std::size_t>(when.time.month - 1)] + when.time.day;
-  const double x = 2 * kPi * (day - 1) / 365;
-  return kSolarConstant * (1.00011 + 0.034221 * std::cos(x) + 0.00128 * std::sin(x) + 0.000719 * std::cos(2 * x) +
-                           0.000077 * std::sin(2 * x));
+  return scene::outsideIrradiance(kBefore[static_cast<std::size_t>(when.time.month - 1)] + when.time.day);
 }
 
 /// Sun and sky of global horizontal irradiance. [EKD82]
@@ -93,22 +96,6 @@ void readOptionOf(ObjectMaker& maker, const std::string& option, DaylightRequest
   }
 }
 
-/// Horizontal irradiance of a sky, by cosine-weighted quadrature.
-double horizontalIrradiance(const PerezSky& sky) {
-  DomeLight dome;
-  dome.distribution = sky;
-  const int rings = tuning::kSkyRings, sectors = 2 * rings;
-  double sum = 0;
-  for (int i = 0; i < rings; ++i) {
-    const double sine = std::sqrt((i + 0.5) / rings), cosine = std::sqrt(1 - sine * sine);
-    for (int k = 0; k < sectors; ++k) {
-      const double azimuth = 2 * kPi * (k + 0.5) / sectors;
-      sum += skyRadiance(dome, Vec3(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine)).r;
-    }
-  }
-  return kPi * sum / (rings * sectors);
-}
-
 /// What the request amounts to in the unit of the output, and the sky's condition.
 Daylight requested(const DaylightRequest& request, double sunZenith, double outside, SkyCondition& condition) {
   using Given = DaylightRequest::Given;
@@ -156,9 +143,11 @@ std::vector<RadObject> gendaylit(const GeneratorInput& input) {
   if (sun.z > 0) {
     SkyCondition condition;
     const Daylight light = requested(request, std::acos(sun.z), outsideOf(when), condition);
-    sky.coefficients = perezCoefficients(condition);
+    sky.coefficients = scene::perezCoefficients(condition);
     sky.diffuse = 1;
-    const double relative = horizontalIrradiance(sky);
+    DomeLight dome;
+    dome.distribution = sky;
+    const double relative = scene::horizontalIrradiance(dome);
     sky.diffuse = relative > 0 ? light.diffuse / relative : 0;
     const bool shines = request.withSun && light.directNormal > 0;
     sky.ground = request.groundReflectance * (light.diffuse + (request.withSun ? light.directNormal * sun.z : 0)) / kPi;

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "scene/daylight/sun.hpp"
+
 namespace deltalux::io::radiance {
 
 namespace {
@@ -26,27 +28,13 @@ SunState handbookSun(const SunTime& time, const Site& site) {
   return {declination, time.solar ? time.hour : time.hour + equationOfTime + zoneShift};
 }
 
-/// Days from noon of 1 January 2000, universal time.
-double daysSince2000(int year, int month, int day, double universalHour) {
-  // Fliegel & Van Flandern's count of days in the Gregorian calendar.
-  const int shift = (14 - month) / 12, y = year + 4800 - shift, m = month + 12 * shift - 3;
-  const int julianDay = day + (153 * m + 2) / 5 + 365 * y + y / 4 - y / 100 + y / 400 - 32045;
-  return julianDay - 2451545 + (universalHour - 12) / 24;
-}
-
 SunState almanacSun(const SunTime& time, const Site& site) {
   const double universalHour = time.hour + site.meridian * 12 / kPi;
-  const double n = daysSince2000(*time.year, time.month, time.day, universalHour);
-  const double meanLongitude = glm::radians(280.460 + 0.9856474 * n), anomaly = glm::radians(357.528 + 0.9856003 * n);
-  const double longitude =
-      meanLongitude + glm::radians(1.915) * std::sin(anomaly) + glm::radians(0.020) * std::sin(2 * anomaly);
-  const double obliquity = glm::radians(23.439 - 4e-7 * n);
-  const double declination = std::asin(std::sin(obliquity) * std::sin(longitude));
-  if (time.solar) return {declination, time.hour};
-  const double rightAscension = std::atan2(std::cos(obliquity) * std::sin(longitude), std::cos(longitude));
-  const double siderealHour = 6.697375 + 0.0657098242 * n + universalHour - site.longitude * 12 / kPi;
-  const double solarTime = std::fmod(siderealHour - rightAscension * 12 / kPi + 12, 24.0);
-  return {declination, solarTime < 0 ? solarTime + 24 : solarTime};
+  const double days = scene::daysSince2000(*time.year, time.month, time.day, universalHour);
+  const scene::SolarCoordinates sun = scene::solarCoordinates(days, universalHour);
+  if (time.solar) return {sun.declination, time.hour};
+  const double solarTime = std::fmod((sun.siderealTime - site.longitude - sun.rightAscension) * 12 / kPi + 12, 24.0);
+  return {sun.declination, solarTime < 0 ? solarTime + 24 : solarTime};
 }
 
 }  // namespace

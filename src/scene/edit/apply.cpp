@@ -131,8 +131,8 @@ void validateEdit(const Scene& scene, const Edit& edit) {
 }
 
 std::string editOperation(const Edit& edit) {
-  constexpr const char* names[] = {"transform", "add",   "remove", "light",    "light",
-                                   "light",     "light", "light",  "material", "restore"};
+  constexpr const char* names[] = {"transform", "add",   "remove",   "light", "light",  "light",
+                                   "light",     "light", "material", "sky",   "restore"};
   static_assert(std::size(names) == std::variant_size_v<Edit>);
   return names[edit.index()];
 }

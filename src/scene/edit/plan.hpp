@@ -22,6 +22,7 @@ Plan plan(const Scene&, const SwitchLight&);
 Plan plan(const Scene&, const AimLight&);
 Plan plan(const Scene&, const MoveLight&);
 Plan plan(const Scene&, const SetMaterial&);
+Plan plan(const Scene&, const SetDaylight&);
 Plan plan(const Scene&, const Restore&);
 
 /// Present states, as a Restore would have them.

@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include "io/radiance/memory_files.hpp"
-#include "io/radiance/perez.hpp"
 #include "io/radiance/sky_pattern.hpp"
+#include "scene/daylight/perez.hpp"
 
 namespace deltalux::io::radiance::test {
 namespace {
+
+using namespace scene;
 
 struct Made {
   DomeLight sky;

@@ -1,10 +1,12 @@
-#include "io/radiance/perez.hpp"
+#include "scene/daylight/perez.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <deltalux/math.hpp>
 
-namespace deltalux::io::radiance {
+#include "scene/tuning.hpp"
+
+namespace deltalux::scene {
 
 namespace {
 
@@ -85,6 +87,12 @@ double kappaOf(double sunZenith) { return kKappa * sunZenith * sunZenith * sunZe
 
 }  // namespace
 
+double outsideIrradiance(double dayOfYear) {
+  const double x = 2 * kPi * (dayOfYear - 1) / 365;
+  return kSolarConstant * (1.00011 + 0.034221 * std::cos(x) + 0.00128 * std::sin(x) + 0.000719 * std::cos(2 * x) +
+                           0.000077 * std::sin(2 * x));
+}
+
 double airMass(double sunZenith) {
   return 1 / (std::cos(sunZenith) + 0.15 * std::pow(93.885 - glm::degrees(sunZenith), -1.253));
 }
@@ -126,4 +134,18 @@ std::array<double, 5> perezCoefficients(const SkyCondition& sky) {
   return x;
 }
 
-}  // namespace deltalux::io::radiance
+double horizontalIrradiance(const DomeLight& dome) {
+  const Frame frame(dome.up);
+  const int rings = tuning::kSkyRings, sectors = 2 * rings;
+  double sum = 0;
+  for (int i = 0; i < rings; ++i) {
+    const double sine = std::sqrt((i + 0.5) / rings), cosine = std::sqrt(1 - sine * sine);
+    for (int k = 0; k < sectors; ++k) {
+      const double azimuth = 2 * kPi * (k + 0.5) / sectors;
+      sum += skyRadiance(dome, frame.toWorld({sine * std::cos(azimuth), sine * std::sin(azimuth), cosine})).g;
+    }
+  }
+  return kPi * sum / (rings * sectors);
+}
+
+}  // namespace deltalux::scene
