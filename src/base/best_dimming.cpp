@@ -54,7 +54,7 @@ class BoundedFit {
     while (const auto freed = steepest(spent)) {
       const double before = w_[*freed];
       free_[*freed] = 1;
-      while (!settleFree()) {
+      while (!solveFree()) {
       }
       if (free_[*freed] || w_[*freed] != before)
         std::ranges::fill(spent, 0);
@@ -79,7 +79,7 @@ class BoundedFit {
   }
 
   /// Goes from where it is towards the best of the free weights. False where some met a bound before: they stay there.
-  bool settleFree() {
+  bool solveFree() {
     std::vector<std::size_t> which;
     for (std::size_t j = 0; j < w_.size(); ++j)
       if (free_[j]) which.push_back(j);

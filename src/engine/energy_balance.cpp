@@ -197,7 +197,7 @@ double emittedPower(const Solution& s, const particles::ParticleTransfer& transf
          gray(surfacesOf(s).direct + specularLight(s, transfer).ofLights);
 }
 
-EnergyLedger energyBalance(const Solution& s, const particles::ParticleTransfer& transfer, const RgbSum& unsettled) {
+EnergyLedger energyBalance(const Solution& s, const particles::ParticleTransfer& transfer, const RgbSum& residual) {
   const Surfaces surfaces = surfacesOf(s);
   const Outcome diffuse = s.settings.method == SolveMethod::Lines ? lineLight(s) : diffuseLight(s);
   const Specular specular = specularLight(s, transfer);
@@ -207,7 +207,7 @@ EnergyLedger energyBalance(const Solution& s, const particles::ParticleTransfer&
   ledger.absorbedW =
       unit * gray(surfaces.absorbed - specular.passed + specular.absorbed + diffuse.panes + diffuse.gaps);
   ledger.escapedW = unit * gray(diffuse.escaped + specular.escaped);
-  ledger.unsettledW = unit * gray(unsettled);
+  ledger.unsettledW = unit * gray(residual);
   return ledger;
 }
 

@@ -19,7 +19,7 @@ namespace deltalux::engine {
 
 /// The first of the sums alone: without a ray [W].
 double emittedPower(const Solution&, const particles::ParticleTransfer&);
-/// Of a settled solution; `unsettled`: what its last iteration still changed [W].
-EnergyLedger energyBalance(const Solution&, const particles::ParticleTransfer&, const RgbSum& unsettled);
+/// Of a converged solution; `residual`: what its last iteration still changed [W].
+EnergyLedger energyBalance(const Solution&, const particles::ParticleTransfer&, const RgbSum& residual);
 
 }  // namespace deltalux::engine

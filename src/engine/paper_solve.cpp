@@ -118,28 +118,28 @@ caustics::SurfaceSides Engine::State::chooseTextures() {
 bool Engine::State::iterateOverLinks(bool well, Progress* progress) {
   Solution& s = *solution;
   const engine::Clock time;
-  const paper::Settled settled =
-      paper::settle({s.scene, *s.tracer, s.elements, s.links}, *transfer, well ? paper::kSettledWell : paper::kSettled,
-                    [&](const paper::Settled& now) {
-                      const double emitted = gray(now.emitted), left = gray(now.unsettled);
-                      if (progress) progress->report("gather", emitted / std::max(emitted + left, 1e-30));
-                      return !budget.up() || (well && left > paper::kSettled * emitted);
-                    });
+  const paper::IterationReport iterated =
+      paper::iterate({s.scene, *s.tracer, s.elements, s.links}, *transfer,
+                     well ? paper::kConvergedWell : paper::kConverged, [&](const paper::IterationReport& now) {
+                       const double emitted = gray(now.emitted), left = gray(now.residual);
+                       if (progress) progress->report("gather", emitted / std::max(emitted + left, 1e-30));
+                       return !budget.up() || (well && left > paper::kConverged * emitted);
+                     });
   lists.reset();
-  unsettled = settled.unsettled;
-  s.report.counts.iterations += settled.iterations;
+  residual = iterated.residual;
+  s.report.counts.iterations += iterated.iterations;
   s.report.times.gather += time.seconds();
-  return settled.whole;
+  return iterated.whole;
 }
 
 void Engine::State::iterateOverLists(std::span<const hierarchy::ElementId> changed) {
   Solution& s = *solution;
   const engine::Clock time;
-  const paper::Settled settled =
-      lists->settle({s.scene, *s.tracer, s.elements, s.links}, *transfer, changed, paper::kSettledWell);
+  const paper::IterationReport iterated =
+      lists->iterate({s.scene, *s.tracer, s.elements, s.links}, *transfer, changed, paper::kConvergedWell);
   DELTALUX_VALIDATED(lists->validate(s.elements, s.links));
-  unsettled = settled.unsettled;
-  s.report.counts.iterations += settled.iterations;
+  residual = iterated.residual;
+  s.report.counts.iterations += iterated.iterations;
   s.report.times.gather += time.seconds();
 }
 

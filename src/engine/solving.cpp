@@ -105,7 +105,7 @@ void Engine::State::solveAfresh(Progress* progress) {
 EnergyLedger Engine::State::balance() {
   Solution& s = *solution;
   if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
-  return engine::energyBalance(s, *transfer, unsettled);
+  return engine::energyBalance(s, *transfer, residual);
 }
 
 void Engine::State::countLight() {

@@ -50,7 +50,7 @@ struct Engine::State {
   std::optional<paper::IrradianceLists> lists;             // of light that has converged, once there are edits
   double nextError = 0;                                    // of the next round
   bool curtailed = false;                                  // fewer particles than the error asks for: there was no time
-  RgbSum unsettled{0.0};                                   // power that the last iteration changed
+  RgbSum residual{0.0};                                    // power that the last iteration changed
 
   /// Whether light is exchanged by lines: an update is then a solve of the edited scene.
   bool byLines() const { return solution->settings.method == SolveMethod::Lines; }

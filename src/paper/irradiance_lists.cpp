@@ -216,8 +216,8 @@ RgbSum IrradianceLists::pendingPower(const Elements& elements) const {
   return sum;
 }
 
-Settled IrradianceLists::settle(const Parts& x, const particles::ParticleTransfer& onMesh,
-                                std::span<const ElementId> changed, double unsettled) {
+IterationReport IrradianceLists::iterate(const Parts& x, const particles::ParticleTransfer& onMesh,
+                                         std::span<const ElementId> changed, double converged) {
   follow(x.elements);
   std::vector<char> marked(x.elements.size(), 0);
   for (const ElementId e : changed) marked[e.index()] = 1;
@@ -230,14 +230,14 @@ Settled IrradianceLists::settle(const Parts& x, const particles::ParticleTransfe
   const double area = receivingArea(x.elements);
   std::optional<Outgoing> outgoing;
   std::vector<ElementId> senders;
-  Settled s;
+  IterationReport s;
   while (s.iterations < kMaxIterations) {
     apply(x.elements, marked);
     placeParticles(x, onMesh, marked);
     for (const std::uint32_t i : translucent) marked[i] = 1;
     pushPull(x.elements, marked);
     s.emitted = directPower(x.elements);
-    const double threshold = area > 0 ? unsettled * gray(s.emitted) / area : 0.0;
+    const double threshold = area > 0 ? converged * gray(s.emitted) / area : 0.0;
     senders.clear();
     for (std::size_t i = 0; i < marked.size(); ++i)
       if ((marked[i] || s.iterations == 0) && differs(x.elements, i, threshold)) senders.emplace_back(i);
@@ -248,7 +248,7 @@ Settled IrradianceLists::settle(const Parts& x, const particles::ParticleTransfe
     propagate(x.elements, x.links, *outgoing, senders);
     std::fill(marked.begin(), marked.end(), 0);
   }
-  s.unsettled = pendingPower(x.elements);
+  s.residual = pendingPower(x.elements);
   return s;
 }
 

@@ -7,7 +7,7 @@
 // Every link has brought its receiver what its sender sent when that was last gathered; this is kept by sender, with
 // the centre that it was seen at, so that what is removed is what was added, to rounding. After each push-pull of the
 // marked parts, senders whose radiosity has come to differ from that by more than a threshold propagate it: the
-// difference is added over their links. The threshold is the mean radiosity that is unsettled in the end, so the power
+// difference is added over their links. The threshold is the mean residual radiosity in the end, so the power
 // that is pending is no more than a full solve leaves (solve.hpp).
 // Cost: some ten nanoseconds a link once, to list them by sender, and thirty for each that is gathered over; push-pull
 // of what is marked. Memory: 24 bytes an element, 108 a cluster.
@@ -35,8 +35,8 @@ class IrradianceLists {
 
   /// Push-pull with the lists, then gathering over the links of senders that have changed, until none has. `changed`:
   /// elements of other shape, reflectance or covers. Particles are placed in every iteration.
-  Settled settle(const Parts&, const particles::ParticleTransfer&, std::span<const hierarchy::ElementId> changed,
-                 double unsettled);
+  IterationReport iterate(const Parts&, const particles::ParticleTransfer&,
+                          std::span<const hierarchy::ElementId> changed, double converged);
 
   std::size_t memoryBytes() const;
   /// Recounts: every element has gathered, to rounding, what its links bring of what their senders last propagated. To

@@ -82,7 +82,7 @@ void LinkDescent::judgeBlock(const LinkJudge& judge, std::span<const Task> tasks
     const Verdict v = verdictOf(judge, task, {candidates, task.candidates.count, block.blockers});
     block.report.rays += v.rays;
     task.block = index;
-    if (!settle(task, v, block)) block.pending.push_back({task, v, block.next.size()});
+    if (!finish(task, v, block)) block.pending.push_back({task, v, block.next.size()});
   }
 }
 
@@ -113,12 +113,12 @@ std::uint32_t LinkDescent::raysOf(hierarchy::LinkId id) const {
 
 /// Takes a verdict that leaves the tree and its lists as they are; false when it does not. Nothing is written that
 /// other links of the level read.
-bool LinkDescent::settle(const Task& task, const Verdict& v, Block& block) {
+bool LinkDescent::finish(const Task& task, const Verdict& v, Block& block) {
   const hierarchy::Link& link = links_[task.link];
   const bool anew = task.mark > LinkMark::Path, interior = link.state == hierarchy::LinkState::Interior;
   const bool same = anew && sameTransfer(link, v.link);
   block.report.changed += anew && !same;
-  // A link collapses for what a move has changed, not for light that has settled since it was refined. One that shows
+  // A link collapses for what a move has changed, not for light that has converged since it was refined. One that shows
   // nothing any more stays refined for when what hides it moves on: until then that costs no more than its place.
   if (interior && (!anew || same || v.split != Split::None || !v.refined || v.link.unseen())) {
     if (anew && !same) links_.judged(task.link, v.link);

@@ -61,7 +61,7 @@ class LinkDescent {
   /// What becomes of some links of a level.
   struct Block {
     Blockers blockers;
-    std::vector<Task> next;        // below links that are settled
+    std::vector<Task> next;        // below links that are finished
     std::vector<Pending> pending;  // links that are not
     RefineReport report;
   };
@@ -70,7 +70,7 @@ class LinkDescent {
   Verdict verdictOf(const LinkJudge&, const Task&, const Candidates&) const;
   Verdict judged(const LinkJudge&, const hierarchy::Link&, const Task&, const Candidates&) const;
   std::uint32_t raysOf(hierarchy::LinkId) const;
-  bool settle(const Task&, const Verdict&, Block&);
+  bool finish(const Task&, const Verdict&, Block&);
   void commit(const Pending&, bool stopping, std::vector<Task>& next);
   void descend(const Task&, const Verdict&, std::vector<Task>& next, bool fresh) const;
 

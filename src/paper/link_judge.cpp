@@ -151,7 +151,7 @@ bool LinkJudge::splits(hierarchy::Link link) const {
   return link.receiver == link.sender || choose(link) != Split::None;
 }
 
-bool LinkJudge::unsettled(const hierarchy::Link& link) const {
+bool LinkJudge::unrefined(const hierarchy::Link& link) const {
   if (link.state != hierarchy::LinkState::Active || link.visibility == hierarchy::Visibility::Blocked) return false;
   const LinkError e = oracle_.judge(link);
   return e.total() > e.budget || wantedSamples(link, e) > link.samples;

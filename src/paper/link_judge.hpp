@@ -54,13 +54,13 @@ class LinkJudge {
 
   /// Whether the link, as it stands, would be split.
   bool splits(hierarchy::Link) const;
-  /// Whether an active link, as it stands, would be worth another look.
-  bool unsettled(const hierarchy::Link&) const;
+  /// Whether an active link, as it stands, errs by more than its budget or wants more samples.
+  bool unrefined(const hierarchy::Link&) const;
 
  private:
   class OwnBlockers;
 
-  /// Gives a link its kernel; false when that settles it: no light passes, or the ends overlap.
+  /// Gives a link its kernel; false when that is all: no light passes, or the ends overlap.
   bool couple(hierarchy::Link&, const Candidates&, Verdict&) const;
   /// Visibility by proof and by rays, `least` at least, and what follows from it.
   void see(hierarchy::Link&, int least, bool saw, const Candidates&, Verdict&) const;

@@ -43,12 +43,12 @@ RefineReport refine(hierarchy::Links& links, hierarchy::Elements& elements, cons
                     const tracing::RayTracer& tracer, const OracleSettings& settings,
                     const std::function<bool()>& stop) {
   makeRootLinks(links, elements);
-  std::vector<char> unsettled(links.size(), 0);
+  std::vector<char> unrefined(links.size(), 0);
   const LinkJudge judge(elements, scene, tracer, settings);
-  parallelFor(links.size(), 4096, [&](std::size_t i) { unsettled[i] = judge.unsettled(links.all[i]); });
+  parallelFor(links.size(), 4096, [&](std::size_t i) { unrefined[i] = judge.unrefined(links.all[i]); });
   LinkDescent::Marks marks(links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
-    if (!unsettled[i]) continue;
+    if (!unrefined[i]) continue;
     marks.at(i) = LinkMark::Path;
     markAbove(links, marks, hierarchy::LinkId(i), LinkMark::Path);
   }

@@ -26,18 +26,18 @@ OracleSettings judgedFor(double error) {
 
 double nextError(double error, double least) { return std::max(least, tuning::kRounds * error); }
 
-Settled settle(const Parts& parts, const particles::ParticleTransfer& onMesh, double unsettled,
-               const std::function<bool(const Settled&)>& goOn) {
+IterationReport iterate(const Parts& parts, const particles::ParticleTransfer& onMesh, double converged,
+                        const std::function<bool(const IterationReport&)>& goOn) {
   const GatherPlan plan(parts.links, parts.elements);
   plan.gatherDirect(parts.elements);
-  Settled s;
+  IterationReport s;
   while (s.iterations < kMaxIterations) {
     plan.gatherIndirect(parts.elements);
     onMesh.apply(parts.elements, scene::scalesOf(parts.scene));
-    s.unsettled = pushPull(parts.elements);
+    s.residual = pushPull(parts.elements);
     ++s.iterations;
     s.emitted = directPower(parts.elements);
-    s.whole = gray(s.unsettled) <= unsettled * gray(s.emitted);
+    s.whole = gray(s.residual) <= converged * gray(s.emitted);
     if (s.whole || !goOn(s)) break;
   }
   return s;

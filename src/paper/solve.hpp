@@ -1,10 +1,10 @@
 #pragma once
 // Hierarchical radiosity with clustering, of which links carry the light [GD01 2.1]: they are refined in rounds, each
-// to a smaller error than the one before, and light settles over them after each, so that the next judges them by the
+// to a smaller error than the one before, and light converges over them after each, so that the next judges them by the
 // light there is. The last round refines to what the error of irradiance that is asked for comes to for links.
 //
-// How errors map: docs/links.md. Cost: refinement, one kernel, one shaft and at most 16 rays a link; settling, some ten
-// nanoseconds a link and iteration. Nothing here depends on the number of threads.
+// How errors map: docs/links.md. Cost: refinement, one kernel, one shaft and at most 16 rays a link; iteration, some
+// ten nanoseconds a link and iteration. Nothing here depends on the number of threads.
 #include <functional>
 
 #include "base/tuning.hpp"
@@ -29,24 +29,24 @@ OracleSettings judgedFor(double error);
 /// The error of links in the round after one of `error`, of a solve that ends at `least`.
 double nextError(double error, double least);
 
-struct Settled {
-  RgbSum emitted{0.0};    // what arrives of lights [W, with the scene's unit squared as area]
-  RgbSum unsettled{0.0};  // that the last iteration changed, in the same unit
+struct IterationReport {
+  RgbSum emitted{0.0};   // what arrives of lights [W, with the scene's unit squared as area]
+  RgbSum residual{0.0};  // that the last iteration changed, in the same unit
   std::uint64_t iterations = 0;
-  bool whole = false;  // as little is unsettled as shall be
+  bool whole = false;  // the residual is as small as was asked for
 };
 
-constexpr int kMaxIterations = 1024;  // halls of white plaster settle in some fifty [limit]
-constexpr double kSettled =
-    deltalux::tuning::kNegligible;                     // unsettled power between rounds, over what arrives of lights
-constexpr double kSettledWell = tuning::kSettledWell;  // the same in the end: dark corners too shall be right
+constexpr int kMaxIterations = 1024;  // halls of white plaster converge in some fifty [limit]
+constexpr double kConverged =
+    deltalux::tuning::kNegligible;                         // residual power between rounds, over what arrives of lights
+constexpr double kConvergedWell = tuning::kConvergedWell;  // the same in the end: dark corners too shall be right
 
 /// What arrives of lights [W, with the scene's unit squared as area].
 RgbSum directPower(const hierarchy::Elements&);
 
 /// Gathers over all links, and from particles, until light no longer changes, from the light there is. `goOn` is asked
 /// after every iteration.
-Settled settle(const Parts&, const particles::ParticleTransfer&, double unsettled,
-               const std::function<bool(const Settled&)>& goOn);
+IterationReport iterate(const Parts&, const particles::ParticleTransfer&, double converged,
+                        const std::function<bool(const IterationReport&)>& goOn);
 
 }  // namespace deltalux::paper

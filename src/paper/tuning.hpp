@@ -10,8 +10,8 @@ namespace deltalux::paper::tuning {
 constexpr double kLinkError = 4;
 /// Error of links from round to round, relative. Smaller: refined by light that is not yet known. Larger: more rounds.
 constexpr double kRounds = 0.35;
-/// Power that is unsettled in the end, relative to what arrives of lights. Larger: dark corners are too dark.
-constexpr double kSettledWell = 1e-5;
+/// Residual power in the end, relative to what arrives of lights. Larger: dark corners are too dark.
+constexpr double kConvergedWell = 1e-5;
 /// Error of the mean over a sender's nodes, relative to their spread: a uniform sender is integrated, not sampled, and
 /// splitting it would only hide the receiver's error. More: links in the square.
 constexpr double kQuadrature = 0.1;

@@ -10,19 +10,19 @@ ClosestQuery::ClosestQuery(const Ray& ray)
   rtcInitIntersectContext(this);
 }
 
-double ClosestQuery::settled() const {
-  const double t = unsettled_->meet(Vec3(ray_->origin), Vec3(ray_->direction), static_cast<float>(nearest_));
+double ClosestQuery::refined() const {
+  const double t = approximate_->meet(Vec3(ray_->origin), Vec3(ray_->direction), static_cast<float>(nearest_));
   return t >= ray_->tNear && t <= ray_->tFar ? t : nearest_;
 }
 
 bool ClosestQuery::take(double t, const PrimitiveId* id) {
   const auto rounded = static_cast<float>(t);
   if (!(rounded >= ray_->tNear && rounded <= ray_->tFar)) return false;
-  if (unsettled_ && t + doubt(rounded) > nearest_) nearest_ = settled(), unsettled_ = nullptr;
+  if (approximate_ && t + doubt(rounded) > nearest_) nearest_ = refined(), approximate_ = nullptr;
   const auto best = static_cast<float>(nearest_);
   if (rounded > best) return false;
   if (rounded == best && holder_ && (*holder_ < *id || (*holder_ == *id && holder_ < id))) return false;
-  nearest_ = t, holder_ = id, unsettled_ = nullptr;
+  nearest_ = t, holder_ = id, approximate_ = nullptr;
   return true;
 }
 

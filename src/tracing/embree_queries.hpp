@@ -28,11 +28,11 @@ class ClosestQuery : public RTCIntersectContext {
 
   const Ray& ray() const { return *ray_; }
   /// The nearest hit, once Embree is done.
-  double exact() const { return unsettled_ ? settled() : nearest_; }
+  double exact() const { return approximate_ ? refined() : nearest_; }
   PrimitiveId primitive() const { return *holder_; }
 
  private:
-  double settled() const;
+  double refined() const;
   float doubt(float t) const { return kDoubt * (originSize_ + t); }
 
   static constexpr float kDoubt =
@@ -41,7 +41,7 @@ class ClosestQuery : public RTCIntersectContext {
   float originSize_;
   double nearest_ = std::numeric_limits<double>::infinity();
   const PrimitiveId* holder_ = nullptr;
-  const TriangleRecord* unsettled_ = nullptr;  // whose t is as Embree saw it
+  const TriangleRecord* approximate_ = nullptr;  // whose t is as Embree saw it
 };
 
 /// What an occlusion query knows besides its ray: panes on the way multiply `passed` instead of ending the query.
@@ -74,7 +74,7 @@ inline bool ClosestQuery::take(const TriangleRecord& record, float seen) {
   const float d = doubt(seen);
   const bool clear = seen - d > ray_->tNear && seen + d < ray_->tFar && seen + d < nearest_;
   if (!clear) return take(record.meet(Vec3(ray_->origin), Vec3(ray_->direction), seen), &record.primitive);
-  nearest_ = seen, holder_ = &record.primitive, unsettled_ = &record;
+  nearest_ = seen, holder_ = &record.primitive, approximate_ = &record;
   return true;
 }
 

@@ -33,7 +33,7 @@ struct Work {
     return E;
   }
   void gatherAll() {
-    paper::settle(parts(), transfer, paper::kSettledWell, [](const auto&) { return true; });
+    paper::iterate(parts(), transfer, paper::kConvergedWell, [](const auto&) { return true; });
   }
 };
 
@@ -53,8 +53,8 @@ void expectAsGathered(Work& w) {
 TEST(IrradianceLists, AConvergedSolutionStaysAsItIs) {
   Work w(test::furnishedRoom());
   const std::vector<float> before = w.light();
-  const paper::Settled settled = w.lists.settle(w.parts(), w.transfer, {}, paper::kSettledWell);
-  EXPECT_TRUE(settled.whole);
+  const paper::IterationReport iterated = w.lists.iterate(w.parts(), w.transfer, {}, paper::kConvergedWell);
+  EXPECT_TRUE(iterated.whole);
   EXPECT_LT(largestDifference(w.light(), before), 1e-4);
   EXPECT_NO_THROW(w.lists.validate(w.s.elements, w.s.links));
 }
@@ -66,7 +66,7 @@ TEST(IrradianceLists, ADimmedLampReachesItsReceivers) {
   for (hierarchy::ClusterLight& c : w.s.elements.clusters)
     if (&c == &w.s.elements.cluster(w.s.elements.lightRoot))
       for (Rgb& k : c.intensity.c) k *= 0.5f;
-  w.lists.settle(w.parts(), w.transfer, {}, paper::kSettledWell);
+  w.lists.iterate(w.parts(), w.transfer, {}, paper::kConvergedWell);
   EXPECT_NO_THROW(w.lists.validate(w.s.elements, w.s.links));
   expectAsGathered(w);
 }
@@ -85,8 +85,8 @@ TEST(IrradianceLists, AMotionIsFollowedByWhatItChanges) {
     std::vector<PrimitiveId> primitives;
     for (const auto& m : applied.change.moved) primitives.push_back(m.primitive);
     const std::vector<ElementId> moved = hierarchy::elementsOf(w.s.elements, primitives);
-    const paper::Settled settled = w.lists.settle(w.parts(), w.transfer, moved, paper::kSettledWell);
-    EXPECT_TRUE(settled.whole);
+    const paper::IterationReport iterated = w.lists.iterate(w.parts(), w.transfer, moved, paper::kConvergedWell);
+    EXPECT_TRUE(iterated.whole);
     ASSERT_NO_THROW(w.lists.validate(w.s.elements, w.s.links));
     Work copy = Work(test::furnishedRoom(), 0.5);
     copy.s = w.s, copy.transfer = w.transfer;

@@ -22,8 +22,8 @@ void members(auto& archive, Is<SolveSettings> auto& s) {
 }
 
 void members(auto& archive, Is<EnergyLedger> auto& e) {
-  auto& [emitted, absorbed, escaped, unsettled] = e;
-  transferAll(archive, emitted, absorbed, escaped, unsettled);
+  auto& [emitted, absorbed, escaped, residual] = e;
+  transferAll(archive, emitted, absorbed, escaped, residual);
 }
 void members(auto& archive, Is<ErrorEstimate> auto& e) {
   auto& [asked, median, p95] = e;

@@ -113,7 +113,7 @@ struct ReferenceIntegrator::Impl {
 
   template <class Estimate>
   RgbSum batchMean(std::uint64_t key, std::uint32_t size, const Estimate& estimate);
-  bool settled(const BatchMoments&) const;
+  bool converged(const BatchMoments&) const;
 
   ReferenceSettings settings;
   rendering::ReferenceScene scene;
@@ -172,7 +172,7 @@ RgbSum ReferenceIntegrator::Impl::batchMean(std::uint64_t key, std::uint32_t siz
   return sum / static_cast<double>(size);
 }
 
-bool ReferenceIntegrator::Impl::settled(const BatchMoments& m) const {
+bool ReferenceIntegrator::Impl::converged(const BatchMoments& m) const {
   if (settings.targetError <= 0 || m.count < 2 * rendering::tuning::kFewestEstimates) return false;
   return glm::all(glm::lessThanEqual(m.standardError(), settings.targetError * m.mean));
 }
@@ -212,7 +212,7 @@ std::vector<ProbeResult> ReferenceIntegrator::probe(std::span<const ProbePoint> 
     reporter.throwIfStopped();
     for (std::size_t task = 0; task < means.size(); ++task) moments[active[task / batches]].add(means[task]);
     schedule.done += batches;
-    std::erase_if(active, [&](std::size_t point) { return impl.settled(moments[point]); });
+    std::erase_if(active, [&](std::size_t point) { return impl.converged(moments[point]); });
   }
   std::vector<ProbeResult> results;
   for (const BatchMoments& m : moments) results.push_back({m.mean, m.standardError(), m.count * size});
@@ -240,7 +240,7 @@ Image ReferenceIntegrator::render(const View& view, int width, int height, Progr
     parallelBlocks(pixels, kBlock, [&](std::size_t begin, std::size_t end) {
       if (reporter.stopped()) return;
       for (std::size_t pixel = begin; pixel < end; ++pixel) {
-        if (impl.settled(moments[pixel])) continue;
+        if (impl.converged(moments[pixel])) continue;
         const double x = static_cast<double>(pixel % width), y = static_cast<double>(pixel / width);
         for (std::uint64_t b = schedule.done; b < schedule.done + batches; ++b) {
           const std::uint64_t key = combineKeys(combineKeys(~impl.settings.seed, pixel), b);

@@ -23,7 +23,7 @@ const Placement* placementOf(const Scene& scene, PrimitiveId primitive) {
 
 }  // namespace
 
-Mat4 settled(const Mat4& matrix, const Scene& scene) {
+Mat4 withoutRounding(const Mat4& matrix, const Scene& scene) {
   const Vec3 far = glm::abs(scene.origin);
   const double size = std::max({1.0, far.x, far.y, far.z});
   double deviation = 0;

@@ -37,7 +37,7 @@ bool isDark(const Light&);
 /// The rest shape under the state's map. Throws InputError where that is no shape of its kind.
 Shape shapeOf(const Scene&, const Restore::PrimitiveState&, const Shape& rest);
 /// `matrix`, or the identity when it is that within the rounding of coordinates in the scene's files.
-Mat4 settled(const Mat4& matrix, const Scene&);
+Mat4 withoutRounding(const Mat4& matrix, const Scene&);
 /// A map between coordinates of files as one between coordinates relative to `from` and `to`.
 Mat4 between(const Mat4& matrix, const Vec3& from, const Vec3& to);
 

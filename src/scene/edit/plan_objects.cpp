@@ -53,7 +53,7 @@ bool hasDirection(const Material& m) { return m.emission && isDirectional(*m.emi
 
 void planMove(Plan& plan, const Scene& scene, PrimitiveId primitive, const Mat4& matrix) {
   Restore::PrimitiveState state = stateOf(scene, primitive);
-  state.matrix = settled(matrix * state.matrix, scene);
+  state.matrix = withoutRounding(matrix * state.matrix, scene);
   const Material& material = scene.materialOf(primitive);
   if (hasDirection(material)) {
     // The direction is the material's, which others may share: the surface gets one of its own.
@@ -161,7 +161,7 @@ Plan plan(const Scene& scene, const AddObject& edit) {
   for (std::size_t i = 0; i < part.primitives.size(); ++i) {
     const Primitive& p = part.primitives[i];
     Restore::PrimitiveState state{PrimitiveId(first + i), MaterialId(firstMaterial + p.material.index()),
-                                  settled(matrix, scene), true};
+                                  withoutRounding(matrix, scene), true};
     if (hasDirection(part[p.material])) {
       result.materials.push_back(Material(result.materials[p.material.index()]));
       turn(*result.materials.back().emission, glm::dmat3(matrix));
