@@ -40,8 +40,8 @@ void addLanding(std::vector<hierarchy::SurfaceSide>& sides, const Solution& s,
 }  // namespace
 
 std::vector<hierarchy::ElementId> leavesBelow(const hierarchy::Elements& elements, const Growth& growth) {
-  std::vector<hierarchy::ElementId> tops = growth.woken, leaves;
-  tops.insert(tops.end(), growth.asleep.begin(), growth.asleep.end());
+  std::vector<hierarchy::ElementId> tops = growth.reactivated, leaves;
+  tops.insert(tops.end(), growth.inactive.begin(), growth.inactive.end());
   if (growth.root.valid()) tops.push_back(growth.root);
   for (const hierarchy::ElementId top : tops)
     hierarchy::forEachLeafBelow(elements, top, [&](hierarchy::ElementId leaf) { leaves.push_back(leaf); });
@@ -61,12 +61,12 @@ Growth growInLight(Solution& s, const SceneUpdate& edits, const particles::Parti
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (!known[i].valid())
       fresh.push_back(sides.uncovered[i]);
-    else if (std::binary_search(s.elements.asleep.begin(), s.elements.asleep.end(), known[i]))
-      growth.woken.push_back(known[i]);
+    else if (std::binary_search(s.elements.inactive.begin(), s.elements.inactive.end(), known[i]))
+      growth.reactivated.push_back(known[i]);
   }
-  growth.asleep = hierarchy::elementsOf(s.elements, sides.covered);
-  if (!growth.asleep.empty()) hierarchy::setAsleep(s.elements, s.scene, growth.asleep, true);
-  if (!growth.woken.empty()) hierarchy::setAsleep(s.elements, s.scene, growth.woken, false);
+  growth.inactive = hierarchy::elementsOf(s.elements, sides.covered);
+  if (!growth.inactive.empty()) hierarchy::setInactive(s.elements, s.scene, growth.inactive, true);
+  if (!growth.reactivated.empty()) hierarchy::setInactive(s.elements, s.scene, growth.reactivated, false);
   if (!fresh.empty()) growth.root = hierarchy::growElements(s.elements, s.scene, fresh);
   if (!growth.empty()) hierarchy::pull(s.elements);
   return growth;

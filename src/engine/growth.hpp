@@ -9,14 +9,14 @@
 namespace deltalux::engine {
 
 struct Growth {
-  hierarchy::ElementId root;                // of what has grown, or none; its links are still to be made
-  std::vector<hierarchy::ElementId> woken;  // and they, to be judged anew
-  std::vector<hierarchy::ElementId> asleep;
+  hierarchy::ElementId root;                      // of what has grown, or none; its links are still to be made
+  std::vector<hierarchy::ElementId> reactivated;  // and they, to be judged anew
+  std::vector<hierarchy::ElementId> inactive;
 
-  bool empty() const { return !root.valid() && woken.empty() && asleep.empty(); }
+  bool empty() const { return !root.valid() && reactivated.empty() && inactive.empty(); }
 };
 
-/// Leaf patches of what has grown, woken or fallen asleep.
+/// Leaf patches of what has grown, been reactivated or become inactive.
 std::vector<hierarchy::ElementId> leavesBelow(const hierarchy::Elements&, const Growth&);
 
 /// Scene, tracer and particles are those after the edits.

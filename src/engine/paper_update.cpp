@@ -32,7 +32,7 @@ void Engine::State::paperUpdate(const engine::SceneUpdate& edits, double share, 
   subdivideWhereParticlesLanded(followed);
   step.times.particles += splitting.seconds();
   engine::Growth growth = grow(edits, followed, step);
-  growth.woken.insert(growth.woken.end(), reflecting.begin(), reflecting.end());
+  growth.reactivated.insert(growth.reactivated.end(), reflecting.begin(), reflecting.end());
   judgeAnew(std::move(marks), growth, step);
 
   std::vector<hierarchy::ElementId> changed = engine::leavesBelow(s.elements, growth);
@@ -133,7 +133,7 @@ void Engine::State::judgeAnew(paper::LinkMarks marks, const engine::Growth& grow
   Solution& s = *solution;
   const paper::Parts parts{s.scene, *s.tracer, s.elements, s.links};
   const engine::Clock time;
-  paper::arrive(parts, marks, {growth.root, growth.woken, growth.asleep});
+  paper::arrive(parts, marks, {growth.root, growth.reactivated, growth.inactive});
   step.linksVisited = marks.visited;
   step.times.visibility += time.seconds();
   const engine::Clock refining;

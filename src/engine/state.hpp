@@ -128,7 +128,7 @@ struct Engine::State {
   void subdivideWhereParticlesLanded(const particles::ParticleUpdate& landed);
   /// Elements for what the edits brought into the light.
   engine::Growth grow(const engine::SceneUpdate& edits, const particles::ParticleUpdate& newPaths, StepReport& step);
-  /// Links of what has moved, grown and woken.
+  /// Links of what has moved, grown or been reactivated.
   void judgeAnew(paper::LinkMarks marks, const engine::Growth& growth, StepReport& step);
   /// On the mesh as it is now, of which these patches reflect otherwise, or are others.
   void placeParticles(const particles::ParticleUpdate& newPaths, std::span<const hierarchy::ElementId> changed);

@@ -46,7 +46,7 @@ void forEachSide(const Scene& scene, PrimitiveId primitive, const Visit& visit) 
 /// `orders`: those by which patches of many faces are among the sides.
 Elements buildElements(const Scene&, const std::vector<SurfaceSide>& reachable, std::vector<FaceOrder> orders = {});
 
-/// Their elements, asleep or not; none where there are none.
+/// Their elements, inactive or not; none where there are none.
 std::vector<ElementId> elementsOf(const Elements&, std::span<const SurfaceSide>);
 /// Gives sides that have none yet elements, below a root of their own, which is returned: what edits uncover or add. In
 /// the order of surfaceSides(), at least one.

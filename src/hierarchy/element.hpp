@@ -113,12 +113,12 @@ class Elements {
   std::vector<PlaneFrame> frames;
   std::vector<FaceOrder> faceOrders;  // of fine meshes, where patches hold many of their faces
 
-  ElementId sceneRoot;             // receivers and reflecting senders; invalid in an empty scene
-  std::vector<ElementId> grown;    // more such roots, of sides that edits brought into the light
-  ElementId lightRoot;             // area emitters and points; invalid when there are none
-  std::vector<ElementId> distant;  // suns and dome roots
-  std::vector<ElementId> asleep;   // input-level patches that edits have left in the dark: blockers for now; ascending
-  Box sceneBox;                    // of all surfaces; the far boxes of distant elements are measured from it
+  ElementId sceneRoot;              // receivers and reflecting senders; invalid in an empty scene
+  std::vector<ElementId> grown;     // more such roots, of sides that edits brought into the light
+  ElementId lightRoot;              // area emitters and points; invalid when there are none
+  std::vector<ElementId> distant;   // suns and dome roots
+  std::vector<ElementId> inactive;  // input-level patches that edits have left in the dark: blockers for now; ascending
+  Box sceneBox;                     // of all surfaces; the far boxes of distant elements are measured from it
   // These follow from the others:
   std::vector<ElementId> inputs;  // all of the input level: patches, points and distant roots
   SideTable<ElementId> sides;     // the lowest patch of a scene tree that holds all of a side

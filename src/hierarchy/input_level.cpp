@@ -83,22 +83,22 @@ void addPlane(Elements& elements, const Scene& scene, ElementId e) {
 
 void setReflectance(Elements& elements, const Scene& scene, ElementId input) {
   const Material& material = scene.materialOf(elements.domain[input.index()].primitive);
-  const bool asleep = std::binary_search(elements.asleep.begin(), elements.asleep.end(), input);
-  const bool blocker = asleep || isClear(material) || isGone(scene, elements.domain[input.index()].primitive);
+  const bool inactive = std::binary_search(elements.inactive.begin(), elements.inactive.end(), input);
+  const bool blocker = inactive || isClear(material) || isGone(scene, elements.domain[input.index()].primitive);
   forSubtree(elements, input, [&](ElementId e) {
     elements.topology[e.index()].blocker = blocker;
-    if (asleep) return darken(elements, e);
+    if (inactive) return darken(elements, e);
     elements.radiometry[e.index()].rho = diffuseReflectance(material, elements.at(e).front);
     elements.radiometry[e.index()].tau = diffuseTransmittance(material);
   });
 }
 
-void setAsleep(Elements& elements, const Scene& scene, std::span<const ElementId> inputs, bool asleep) {
+void setInactive(Elements& elements, const Scene& scene, std::span<const ElementId> inputs, bool inactive) {
   for (const ElementId e : inputs) {
-    const auto at = std::lower_bound(elements.asleep.begin(), elements.asleep.end(), e);
-    const bool is = at != elements.asleep.end() && *at == e;
-    if (asleep && !is) elements.asleep.insert(at, e);
-    if (!asleep && is) elements.asleep.erase(at);
+    const auto at = std::lower_bound(elements.inactive.begin(), elements.inactive.end(), e);
+    const bool is = at != elements.inactive.end() && *at == e;
+    if (inactive && !is) elements.inactive.insert(at, e);
+    if (!inactive && is) elements.inactive.erase(at);
     setReflectance(elements, scene, e);
   }
   shapeAbove(elements, inputs);

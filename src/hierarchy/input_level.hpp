@@ -11,8 +11,8 @@ std::optional<PlaneFrame> planeOf(const Shape&, std::uint32_t triangle);
 void addPlane(Elements&, const Scene&, ElementId input);
 /// rho, tau and whether it only blocks, from the material, of an input-level patch and all below it.
 void setReflectance(Elements&, const Scene&, ElementId input);
-/// Puts patches of sides that light no longer reaches to sleep, as if they had no elements, or wakes them.
-void setAsleep(Elements&, const Scene&, std::span<const ElementId> inputs, bool asleep);
+/// Makes patches of sides that light no longer reaches inactive, as if they had no elements, or active again.
+void setInactive(Elements&, const Scene&, std::span<const ElementId> inputs, bool inactive);
 /// B of an emitter patch and all below it, of a point or of a distant element, from the light's present emission.
 void setEmission(Elements&, const Scene&, ElementId emitter);
 void shapePointLight(Elements&, const Scene&, ElementId point);

@@ -149,9 +149,9 @@ class Search {
   hierarchy::Side sideOf(const tracing::Hit& hit) const { return deltalux::paper::sideOf(scene_, hit); }
   bool moves(PrimitiveId primitive) const { return std::binary_search(moved_.begin(), moved_.end(), primitive); }
   bool isAwake(hierarchy::ElementId e) const {
-    return elements_.shape(e).area > 0 && !std::binary_search(elements_.asleep.begin(), elements_.asleep.end(), e);
+    return elements_.shape(e).area > 0 && !std::binary_search(elements_.inactive.begin(), elements_.inactive.end(), e);
   }
-  /// It has elements that are awake.
+  /// It has elements that are active.
   bool isLit(const hierarchy::Side& s) const {
     const hierarchy::ElementId e = elements_.sides.at(s);
     return e.valid() && isAwake(e);

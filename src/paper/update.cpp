@@ -27,10 +27,10 @@ LinkMarks leave(const Parts& x, std::span<const SceneChange::Moved> moved, std::
 }
 
 void arrive(const Parts& x, LinkMarks& marks, const Newcomers& newcomers) {
-  if (!newcomers.woken.empty()) {
-    SpaceChange woken;
-    woken.addMoved(newcomers.woken, x.elements);
-    add(LineSpace(x.links, x.elements, x.scene, woken, {}, {}).visit(), marks);
+  if (!newcomers.reactivated.empty()) {
+    SpaceChange reactivated;
+    reactivated.addMoved(newcomers.reactivated, x.elements);
+    add(LineSpace(x.links, x.elements, x.scene, reactivated, {}, {}).visit(), marks);
   }
   if (!newcomers.inactive.empty()) {
     SpaceChange inactive;

@@ -18,7 +18,7 @@ LinkMarks leave(const Parts&, std::span<const SceneChange::Moved>, std::span<con
 /// What has come into the light since: elements of their own (a root, or none), and others that slept or were black.
 struct Newcomers {
   hierarchy::ElementId root;
-  std::span<const hierarchy::ElementId> woken;
+  std::span<const hierarchy::ElementId> reactivated;
   std::span<const hierarchy::ElementId> inactive;  // and what has left it
 };
 

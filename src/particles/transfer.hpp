@@ -24,8 +24,8 @@ class ParticleTransfer {
   /// Finds where the particles start and land on today's mesh.
   ParticleTransfer(const Particles&, const hierarchy::Elements&, const Scene&);
 
-  /// Takes in what was traced anew, and that elements were split, woken, put to sleep or added. Not for updates of all
-  /// particles, or compacted ones: then make a new one.
+  /// Takes in what was traced again, and that elements were split, reactivated, made inactive or added. Not for updates
+  /// of all particles, or compacted ones: then make a new one.
   void follow(const Particles&, const ParticleUpdate&, const hierarchy::Elements&, const Scene&);
 
   /// Takes in that these patches reflect otherwise or are covered otherwise: particles on them may lie otherwise.

@@ -50,7 +50,7 @@ Edit move(const char* object, const Vec3& by) {
 }
 
 /// Elements of the front of a primitive that take light.
-std::size_t awake(const Engine& engine, std::size_t primitive) {
+std::size_t active(const Engine& engine, std::size_t primitive) {
   const hierarchy::Elements& e = engine.solution().get().elements;
   std::size_t count = 0;
   for (std::size_t i = 0; i < e.size(); ++i)
@@ -78,12 +78,12 @@ void expectAsSolved(const Engine& engine, std::initializer_list<std::size_t> pri
 
 TEST(Growth, WhatALiftedBoxUncoversIsLit) {
   Engine engine = test::solved(roomWithStandingBox(), 0.05, SolveMethod::Paper);
-  EXPECT_EQ(awake(engine, kBox), 0u);  // its bottom
-  EXPECT_EQ(awake(engine, kTile), 0u);
+  EXPECT_EQ(active(engine, kBox), 0u);  // its bottom
+  EXPECT_EQ(active(engine, kTile), 0u);
   engine.apply(move("box", {0, 0, 0.4}));
   engine.update();
-  EXPECT_EQ(awake(engine, kBox), 1u);
-  EXPECT_EQ(awake(engine, kTile), 1u);
+  EXPECT_EQ(active(engine, kBox), 1u);
+  EXPECT_EQ(active(engine, kTile), 1u);
   expectAsSolved(engine, {kTile, kBox}, 0.04);
   expectAsSolved(engine, {kRoom, kRoom + 1, kRoom + 2, kRoom + 3, kRoom + 4, kRoom + 5}, 0.01);
 }
@@ -111,15 +111,15 @@ TEST(Growth, WhatIsSetDownAgainSleeps) {
   engine.update();
   engine.apply(move("box", {-0.2, -0.1, -0.4}));
   engine.update();
-  EXPECT_EQ(awake(engine, kBox), 0u);
-  EXPECT_EQ(awake(engine, kTile), 0u);
+  EXPECT_EQ(active(engine, kBox), 0u);
+  EXPECT_EQ(active(engine, kTile), 0u);
   expectAsSolved(engine, {kRoom, kRoom + 1, kRoom + 2, kRoom + 3, kRoom + 4, kRoom + 5, kBox + 1}, 0.01);
   EXPECT_NEAR(test::meshMean(engine, PrimitiveId(kRoom)) / floorBefore, 1.0, 0.01);
   // And once more, from sleep.
   engine.apply(move("box", {0, 0, 0.4}));
   engine.update();
-  EXPECT_EQ(awake(engine, kBox), 1u);
-  EXPECT_TRUE(engine.solution().get().elements.asleep.empty());
+  EXPECT_EQ(active(engine, kBox), 1u);
+  EXPECT_TRUE(engine.solution().get().elements.inactive.empty());
   EXPECT_EQ(engine.solution().get().elements.grown.size(), 1u);
   expectAsSolved(engine, {kTile, kBox}, 0.04);
 }
@@ -136,7 +136,7 @@ TEST(Growth, AnAddedThingIsLitWithoutSolvingAfresh) {
   const Restore back = engine.apply(add);
   engine.update();
   EXPECT_EQ(engine.solution().get().elements.grown.size(), 1u);
-  for (std::size_t face = 7; face < 13; ++face) EXPECT_EQ(awake(engine, face), 1u);
+  for (std::size_t face = 7; face < 13; ++face) EXPECT_EQ(active(engine, face), 1u);
   expectAsSolved(engine, {7, 8, 9, 10, 11, 12}, 0.04);
   expectAsSolved(engine, {0, 1, 2, 3, 4, 5}, 0.01);
 
@@ -156,10 +156,10 @@ TEST(Growth, AClosetBehindADoorIsLitWhenItOpens) {
   scene.primitives[8].object = internObject(scene, "door", '.');  // its side towards the room
   addLamp(scene);
   Engine engine = test::solved(scene, 0.05, SolveMethod::Paper);
-  EXPECT_EQ(awake(engine, 6), 0u);
+  EXPECT_EQ(active(engine, 6), 0u);
   engine.apply(move("door", {1.0, 0, 0}));
   engine.update();
-  for (const std::size_t face : {6, 7, 9, 10, 11}) EXPECT_EQ(awake(engine, face), 1u) << face;
+  for (const std::size_t face : {6, 7, 9, 10, 11}) EXPECT_EQ(active(engine, face), 1u) << face;
   // Of one that is fine enough: at 0.05, two of them differ by as much in so dark a corner.
   expectAsSolved(engine, {6, 7, 9, 10, 11}, 0.05, 0.01);
 }
@@ -208,15 +208,15 @@ TEST(Growth, IsKeptInSolutionFiles) {
   EXPECT_EQ(loaded.solution().get().elements.grown, engine.solution().get().elements.grown);
   loaded.apply(back);
   loaded.update();
-  EXPECT_EQ(awake(loaded, kBox), 1u);
+  EXPECT_EQ(active(loaded, kBox), 1u);
   loaded.apply(move("box", {0, 0, -0.4}));
   loaded.update();
-  EXPECT_EQ(awake(loaded, kBox), 0u);
-  saveSolution(folder / "asleep.dlx", loaded.solution());
-  Engine again(loadSolution(folder / "asleep.dlx"));
+  EXPECT_EQ(active(loaded, kBox), 0u);
+  saveSolution(folder / "inactive.dlx", loaded.solution());
+  Engine again(loadSolution(folder / "inactive.dlx"));
   again.apply(move("box", {0, 0, 0.4}));
   again.update();
-  EXPECT_EQ(awake(again, kBox), 1u);
+  EXPECT_EQ(active(again, kBox), 1u);
   expectValid(again);
 }
 

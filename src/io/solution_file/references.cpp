@@ -88,7 +88,7 @@ void checkElements(const hierarchy::Elements& e, const Scene& scene) {
   for (const hierarchy::ElementId root : {e.sceneRoot, e.lightRoot})
     require(!root.valid() || root.index() < n, "root element");
   for (const hierarchy::ElementId root : e.grown) require(root.index() < n && e.isCluster(root), "root element");
-  for (const hierarchy::ElementId a : e.asleep) require(a.index() < n && e.isInputLevel(a), "sleeping element");
+  for (const hierarchy::ElementId a : e.inactive) require(a.index() < n && e.isInputLevel(a), "inactive element");
   for (const hierarchy::ElementId d : e.distant) require(d.index() < n, "distant sender");
 }
 

@@ -36,10 +36,10 @@ void members(auto& archive, Is<SolveReport> auto& r) {
 
 void members(auto& archive, Is<hierarchy::Elements> auto& e) {
   auto& [topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines, frames,
-         faceOrders, sceneRoot, grown, lightRoot, distant, asleep, sceneBox, inputs, sides, contacts] =
+         faceOrders, sceneRoot, grown, lightRoot, distant, inactive, sceneBox, inputs, sides, contacts] =
       e;  // orders and the last three follow from the others
   transferAll(archive, topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines,
-              frames, sceneRoot, grown, lightRoot, distant, asleep, sceneBox);
+              frames, sceneRoot, grown, lightRoot, distant, inactive, sceneBox);
 }
 void members(auto& archive, Is<hierarchy::Links> auto& l) {
   auto& [all, roots, free] = l;  // the last follows from the first
