@@ -70,7 +70,7 @@ void Engine::select(const std::string& object) { state_->select(object); }
 
 void Engine::forget() {
   state_->solution->memory.reset(), state_->lineMotion.reset();
-  state_->transfer.reset(), state_->upkeep.reset(), state_->incremental.reset(), state_->tracing.reset();
+  state_->transfer.reset(), state_->textureUpdate.reset(), state_->incremental.reset(), state_->tracing.reset();
   state_->lists.reset();
 }
 

@@ -69,13 +69,13 @@ void Engine::State::makeTextures() {
 
 void Engine::State::followTextures(StepReport& step) {
   Solution& s = *solution;
-  if (!upkeep || !newPaths) {
+  if (!textureUpdate || !newPaths) {
     makeTextures();
     step.texturesRebuilt = s.caustics.count();
     return;
   }
   const engine::Clock time;
-  step.texturesRebuilt = upkeep->follow(*std::exchange(newPaths, {}), *transfer, s.caustics).rebuilt;
+  step.texturesRebuilt = textureUpdate->follow(*std::exchange(newPaths, {}), *transfer, s.caustics).rebuilt;
   DELTALUX_VALIDATED(validate(s.caustics));
   s.report.times.textures += time.seconds();
   countTextures();
@@ -85,7 +85,7 @@ void Engine::State::countTextures() {
   Solution& s = *solution;
   s.report.counts.causticTextures = s.caustics.count();
   s.report.counts.causticTextureMeanSize = s.caustics.meanSize();
-  s.report.memory.textures = s.caustics.memoryBytes() + (upkeep ? upkeep->memoryBytes() : 0);
+  s.report.memory.textures = s.caustics.memoryBytes() + (textureUpdate ? textureUpdate->memoryBytes() : 0);
 }
 
 void Engine::State::solveAfresh(Progress* progress) {
@@ -93,7 +93,7 @@ void Engine::State::solveAfresh(Progress* progress) {
   if (!known) s.tracer = tracing::makeEmbreeTracer(s.scene), s.memory.reset();
   transfer.reset();
   if (!known) incremental.reset(), tracing.reset(), newPaths.reset(), groups = {}, s.particles = {};
-  if (!newPaths) upkeep.reset(), s.caustics = {};
+  if (!newPaths) textureUpdate.reset(), s.caustics = {};
   lists.reset();
   s.elements = {}, s.links = {}, s.lines = {}, s.columns = {}, s.deviation.clear(), lineSolve.reset();
   s.report = {};

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "caustics/texture_upkeep.hpp"
+#include "caustics/texture_update.hpp"
 #include "engine/clock.hpp"
 #include "engine/growth.hpp"
 #include "engine/line_motion.hpp"
@@ -31,15 +31,15 @@ struct Engine::State {
   bool previewed = false;  // the first round is to be a coarse one
   engine::Clock clock;
   engine::TimeBudget budget{0};
-  engine::SceneUpdate pending;                          // edits since the last update or frame
-  engine::SceneUpdate waiting;                          // edits that frames have seen, and no update yet
-  std::optional<particles::ParticleTracing> tracing;    // knows the scene that the particles are of
-  std::optional<particles::ParticleTransfer> transfer;  // of the particles, on the mesh
-  std::optional<caustics::TextureUpkeep> upkeep;        // of the textures, once there are edits
-  std::optional<particles::ParticleUpdate> newPaths;    // paths that the last edits have led elsewhere
-  engine::MovingGroups groups;                          // of the tracer
-  bool counted = true;                                  // the report is of the solution as it is
-  bool updated = false;                                 // since it was solved: its balance waits until it is asked for
+  engine::SceneUpdate pending;                           // edits since the last update or frame
+  engine::SceneUpdate waiting;                           // edits that frames have seen, and no update yet
+  std::optional<particles::ParticleTracing> tracing;     // knows the scene that the particles are of
+  std::optional<particles::ParticleTransfer> transfer;   // of the particles, on the mesh
+  std::optional<caustics::TextureUpdate> textureUpdate;  // of the textures, once there are edits
+  std::optional<particles::ParticleUpdate> newPaths;     // paths that the last edits have led elsewhere
+  engine::MovingGroups groups;                           // of the tracer
+  bool counted = true;                                   // the report is of the solution as it is
+  bool updated = false;                                  // since it was solved: its balance waits until it is asked for
   // Over lines.
   std::unique_ptr<engine::LineSolve> lineSolve;  // between rounds of a solve
   std::optional<engine::LineMotion> lineMotion;  // since the last solve

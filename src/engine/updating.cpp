@@ -31,8 +31,9 @@ void Engine::State::prepareToFollow() {
   if (!transfer) transfer.emplace(s.particles, s.elements, s.scene);
   if (s.settings.diffuseOnly) return;
   if (!tracing) tracing.emplace(s.scene, *s.tracer, engine::particleSettings(s.settings));
-  if (byLines() && !upkeep && s.settings.causticTextures)
-    upkeep.emplace(caustics::TextureUpkeep::Parts{s.scene, s.elements, s.particles}, *transfer, s.settings.error);
+  if (byLines() && !textureUpdate && s.settings.causticTextures)
+    textureUpdate.emplace(caustics::TextureUpdate::Parts{s.scene, s.elements, s.particles}, *transfer,
+                          s.settings.error);
 }
 
 StepReport Engine::State::update(Progress* progress) {
@@ -160,7 +161,7 @@ bool Engine::State::gapsAreMany() const {
 
 void Engine::State::closeGaps() {
   solution->particles.compact();
-  transfer.reset(), upkeep.reset();
+  transfer.reset(), textureUpdate.reset();
 }
 
 }  // namespace deltalux

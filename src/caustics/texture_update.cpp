@@ -1,4 +1,4 @@
-#include "caustics/texture_upkeep.hpp"
+#include "caustics/texture_update.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -35,7 +35,7 @@ void inParts(std::size_t count, const Body& body) {
 }  // namespace
 
 /// Tiles of twice the size.
-std::vector<TextureUpkeep::Tile> TextureUpkeep::halved(const std::vector<Tile>& tiles, std::uint32_t across) {
+std::vector<TextureUpdate::Tile> TextureUpdate::halved(const std::vector<Tile>& tiles, std::uint32_t across) {
   std::vector<Tile> result(tiles.size() / 4);
   for (std::uint32_t y = 0; y < across; ++y)
     for (std::uint32_t x = 0; x < across; ++x) {
@@ -46,7 +46,7 @@ std::vector<TextureUpkeep::Tile> TextureUpkeep::halved(const std::vector<Tile>& 
   return result;
 }
 
-TextureUpkeep::TextureUpkeep(const Parts& parts, const particles::ParticleTransfer& transfer, double error)
+TextureUpdate::TextureUpdate(const Parts& parts, const particles::ParticleTransfer& transfer, double error)
     : parts_(parts), error_(error), tiles_(parts.scene, parts.particles) {
   const particles::Particles& p = parts_.particles;
   tileOf_.assign(p.impactSlots(), kNone);
@@ -58,7 +58,7 @@ TextureUpkeep::TextureUpkeep(const Parts& parts, const particles::ParticleTransf
   remember(std::vector<char>(looks_.size(), 1), meanOtherLight(parts_.scene, parts_.elements));
 }
 
-TextureUpkeep::Report TextureUpkeep::follow(const particles::ParticleUpdate& update,
+TextureUpdate::Report TextureUpdate::follow(const particles::ParticleUpdate& update,
                                             const particles::ParticleTransfer& transfer, Caustics& caustics) {
   DELTALUX_CHECK(!update.all, "the particles of before");
   takeIn(update);
@@ -81,7 +81,7 @@ TextureUpkeep::Report TextureUpkeep::follow(const particles::ParticleUpdate& upd
 
 /// Impacts that came out where they were keep what is known of them; the others' light was taken away, or is new. What
 /// moved by a part of a texel is so in part.
-void TextureUpkeep::takeIn(const particles::ParticleUpdate& update) {
+void TextureUpdate::takeIn(const particles::ParticleUpdate& update) {
   const particles::Particles& p = parts_.particles;
   tileOf_.resize(p.impactSlots(), kNone), then_.resize(p.impactSlots(), 0.0f), now_.resize(p.impactSlots(), 0.0f);
   for (const particles::RetracedPath& r : update.paths) {
@@ -97,7 +97,7 @@ void TextureUpkeep::takeIn(const particles::ParticleUpdate& update) {
 }
 
 /// Today's flux of every impact and tile. What every path carries.
-LargeArray<Rgb> TextureUpkeep::weigh(const particles::ParticleTransfer& transfer) {
+LargeArray<Rgb> TextureUpdate::weigh(const particles::ParticleTransfer& transfer) {
   const particles::Particles& p = parts_.particles;
   now_.resize(p.impactSlots(), 0.0f);
   LargeArray<Rgb> powers(p.paths());
@@ -121,7 +121,7 @@ LargeArray<Rgb> TextureUpkeep::weigh(const particles::ParticleTransfer& transfer
   return powers;
 }
 
-RgbSum TextureUpkeep::fluxOf(std::size_t side) const {
+RgbSum TextureUpdate::fluxOf(std::size_t side) const {
   const SurfaceTiles::Side& s = tiles_.sides()[side];
   RgbSum sum(0.0);
   for (std::uint32_t t = s.first; t < s.first + s.count(); ++t) sum += tile_[t].now;
@@ -129,7 +129,7 @@ RgbSum TextureUpkeep::fluxOf(std::size_t side) const {
 }
 
 /// Today's light against that of then, times the common factor of each side.
-void TextureUpkeep::compare() {
+void TextureUpdate::compare() {
   std::vector<float> factor(tiles_.size(), 1.0f);
   for (std::size_t side = 0; side < looks_.size(); ++side) {
     const SurfaceTiles::Side& s = tiles_.sides()[side];
@@ -152,14 +152,14 @@ void TextureUpkeep::compare() {
     for (const auto& part : sums) tile_[t].difference += part[t].difference, tile_[t].squares += part[t].squares;
 }
 
-bool TextureUpkeep::fewParticles(const SurfaceTiles::Side& side) const {
+bool TextureUpdate::fewParticles(const SurfaceTiles::Side& side) const {
   double flux = 0, squares = 0;
   for (std::uint32_t t = side.first; t < side.first + side.count(); ++t)
     flux += gray(tile_[t].now), squares += tile_[t].squares;
   return tooFew(flux, squares);
 }
 
-bool TextureUpkeep::changed(std::size_t side, double background, bool textured) const {
+bool TextureUpdate::changed(std::size_t side, double background, bool textured) const {
   const SurfaceTiles::Side& s = tiles_.sides()[side];
   if (s.across == 0 || (!textured && fewParticles(s))) return false;
   const double error = (textured ? particles::tuning::kChangeMatters : tuning::kMatters) * error_;
@@ -184,7 +184,7 @@ bool TextureUpkeep::changed(std::size_t side, double background, bool textured) 
 }
 
 /// By side; on each in the order of the particles.
-std::vector<particles::Impact> TextureUpkeep::landedOn(const std::vector<char>& sides,
+std::vector<particles::Impact> TextureUpdate::landedOn(const std::vector<char>& sides,
                                                        const LargeArray<Rgb>& powers) const {
   const particles::Particles& p = parts_.particles;
   std::vector<std::vector<std::uint32_t>> places(kParts, std::vector<std::uint32_t>(sides.size(), 0));
@@ -207,7 +207,7 @@ std::vector<particles::Impact> TextureUpkeep::landedOn(const std::vector<char>& 
   return all;
 }
 
-void TextureUpkeep::remember(const std::vector<char>& sides, const std::vector<double>& background) {
+void TextureUpdate::remember(const std::vector<char>& sides, const std::vector<double>& background) {
   std::vector<char> tiles(tiles_.size(), 0);
   for (std::size_t side = 0; side < sides.size(); ++side) {
     if (!sides[side]) continue;
@@ -220,7 +220,7 @@ void TextureUpkeep::remember(const std::vector<char>& sides, const std::vector<d
   });
 }
 
-std::size_t TextureUpkeep::memoryBytes() const {
+std::size_t TextureUpdate::memoryBytes() const {
   return tileOf_.capacity() * sizeof tileOf_[0] + (then_.capacity() + now_.capacity()) * sizeof(float) +
          looks_.capacity() * sizeof(Look) + tile_.capacity() * sizeof(Tile) +
          tiles_.sides().capacity() * sizeof(SurfaceTiles::Side);

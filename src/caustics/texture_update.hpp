@@ -22,7 +22,7 @@
 
 namespace deltalux::caustics {
 
-class TextureUpkeep {
+class TextureUpdate {
  public:
   struct Parts {
     const Scene& scene;
@@ -37,10 +37,10 @@ class TextureUpkeep {
 
   /// Of textures that show the particles as they are now, sent with the light that there is now. The parts must outlive
   /// this.
-  TextureUpkeep(const Parts&, const particles::ParticleTransfer&, double error);
+  TextureUpdate(const Parts&, const particles::ParticleTransfer&, double error);
 
   /// Brings the textures up to what was traced anew, and to today's light. `transfer` has taken it in. Not for updates
-  /// of all particles, or compacted ones: then make new textures, and a new upkeep.
+  /// of all particles, or compacted ones: then make new textures, and a new one of these.
   Report follow(const particles::ParticleUpdate&, const particles::ParticleTransfer&, Caustics&);
 
   std::size_t memoryBytes() const;
