@@ -98,7 +98,7 @@ bool holdShadowRays(const MovedSpace& space, const direct::DirectSampler& sample
 
 bool holdSkyRays(const MovedSpace& space, const hierarchy::Elements& elements, hierarchy::ElementId patch,
                  std::span<const lines::LineCode> codes, std::span<direct::SkyRay> rays) {
-  using Fate = direct::SkyRay::Fate;
+  using Visibility = direct::SkyRay::Visibility;
   const BoxF box = boxOf(elements.shape(patch));
   if (space.touches(box)) return false;
   std::array<char, direct::tuning::kManyRays> near{};
@@ -112,9 +112,9 @@ bool holdSkyRays(const MovedSpace& space, const hierarchy::Elements& elements, h
     }
     const float length = lines::lengthOf(codes[k]);
     if (length < direct::SkyRay::kDimmed)
-      rays[k].known = Fate::Stopped;
+      rays[k].known = Visibility::Stopped;
     else if (length >= lines::kEndless)
-      rays[k].known = Fate::Open;
+      rays[k].known = Visibility::Open;
   }
   return all;
 }

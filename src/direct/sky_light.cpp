@@ -151,7 +151,7 @@ SkyKey skyKey(const Skies& skies, const SkyVisibility& visibility, const SkyLeaf
 
 SkyAtLeaf skyLight(const Skies& skies, const SkyVisibility& visibility, const hierarchy::Elements& elements,
                    const Scene& scene, const tracing::RayTracer& tracer, const SkyLeaf& s, std::span<SkyRay> all) {
-  using Fate = SkyRay::Fate;
+  using Visibility = SkyRay::Visibility;
   SkyAtLeaf result;
   const hierarchy::ElementGeometry& g = elements.shape(s.element);
   const bool flat = g.normalCone > 0.999f;
@@ -192,14 +192,14 @@ SkyAtLeaf skyLight(const Skies& skies, const SkyVisibility& visibility, const hi
       const Vec3f w = SkyCells::direction(cell, place.x, place.y);
       SkyRay& ray = all[k];
       if (ray.cell != cell) ray = {static_cast<std::uint8_t>(cell)};
-      if (ray.known == Fate::Stopped) continue;
+      if (ray.known == Visibility::Stopped) continue;
       const hierarchy::PatchPoint x = sequence.point(s.points[k]);
       const float cosine = glm::dot(w, x.normal);
       if (!(cosine > 0)) continue;
       const Rgb L = skies.radiance(w);
       if (isBlack(L)) continue;
       Rgb V(1.0f);
-      if (ray.known == Fate::Unknown) {
+      if (ray.known == Visibility::Unknown) {
         tracing::Ray way;
         way.origin = tracing::offsetOrigin(x.position, x.normal, w), way.direction = w;
         ++result.rays;

@@ -118,12 +118,12 @@ struct SkyLeaf {
 
 /// Where a shadow ray runs: as far as what stops light there. Rays of one leaf, point and cell run the same way.
 struct SkyRay {
-  enum class Fate : std::uint8_t { Unknown, Stopped, Open };
+  enum class Visibility : std::uint8_t { Unknown, Stopped, Open };
   static constexpr float kDimmed = 1e38f;  // length of those that pass panes [sentinel]
   static_assert(SkyCells::kCount <= 256);
 
   std::uint8_t cell = 0;
-  Fate known = Fate::Unknown;  // before it is traced
+  Visibility known = Visibility::Unknown;  // before it is traced
   Vec3f direction{0.0f};
   float length = 0;  // 0: it was not traced
 

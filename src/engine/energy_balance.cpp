@@ -160,7 +160,7 @@ Outcome lineLight(const Solution& s) {
         const lines::LineEnd end = tracer.follow(x.position, x.normal, lines::LineDirections(points.key())(k, x.normal),
                                                  lines::LineDirections::random(points.key(), k));
         outcome.panes = flux * RgbSum(end.absorbed);
-        if (end.fate == lines::LineFate::Escaped) outcome.escaped = flux * RgbSum(end.weight);
+        if (end.termination == lines::LineTermination::Escaped) outcome.escaped = flux * RgbSum(end.weight);
         return outcome;
       });
 }
@@ -177,7 +177,7 @@ Specular specularLight(const Solution& s, const particles::ParticleTransfer& tra
   const particles::Particles& p = s.particles;
   return parallelSum<Specular>(p.paths(), kBlock, [&](std::size_t path) {
     Specular sum;
-    if (!(p.fate[path] & particles::kArrived)) return sum;
+    if (!(p.termination[path] & particles::kArrived)) return sum;
     const particles::SenderCell& cell = p.senderCells[p.sender[path]];
     const RgbSum power = double(p.links[p.link[path]].scale) * RgbSum(transfer.power(path, s.elements, s.scene));
     if (cell.kind != particles::SenderKind::Side) sum.ofLights = power * RgbSum(p.account[path].entered.value());
@@ -185,7 +185,7 @@ Specular specularLight(const Solution& s, const particles::ParticleTransfer& tra
     sum.absorbed = power * RgbSum(p.account[path].absorbed.value());
     for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i)
       if (!transfer.placed(i)) sum.absorbed += power * RgbSum(p.throughput[i]);
-    if (!(p.fate[path] & particles::kCut)) sum.escaped = power * RgbSum(p.account[path].left.value());
+    if (!(p.termination[path] & particles::kCut)) sum.escaped = power * RgbSum(p.account[path].left.value());
     return sum;
   });
 }

@@ -84,7 +84,7 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
       cells[k] = own[k].cell;
       if (own[k].traced())
         codes[k] = lines::lineCode(own[k].direction, own[k].length);
-      else if (own[k].known != direct::SkyRay::Fate::Unknown)
+      else if (own[k].known != direct::SkyRay::Visibility::Unknown)
         codes[k] = x.known->skyRays(old)[k];
     }
     return std::uint64_t(sky.at[i].rays);

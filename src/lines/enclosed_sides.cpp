@@ -66,8 +66,8 @@ class LightSearch {
         const Vec3f w(cosineDirection(Frame(Vec3(x.normal)), u, v));
         const LineEnd end = tracer_.follow(x.position, x.normal, w, Rng(random.bits()), &walks.steps);
         ++rays;
-        if (end.fate == LineFate::Escaped && outside_) return false;
-        if (end.fate != LineFate::Ended) break;
+        if (end.termination == LineTermination::Escaped && outside_) return false;
+        if (end.termination != LineTermination::Ended) break;
         length += end.turned ? 0 : end.distance, ++steps;
         if (steps >= tuning::kFirstSteps && !(length < hollow * steps)) return false;
         const Material& material = scene_.materialOf(end.side.primitive);

@@ -24,7 +24,7 @@ LineEnd LineTracer::follow(tracing::Ray ray, tracing::Hit hit, Rng random, std::
     if (segment > 0) hit = tracer_.closestHit(ray);
     if (way) way->push_back({ray.origin, ray.direction, hit ? hit.t : std::numeric_limits<float>::infinity()});
     if (!hit) {
-      end.fate = LineFate::Escaped;
+      end.termination = LineTermination::Escaped;
       return end;
     }
     const SurfaceResponse& surface = responses_.at(hit.primitive, hit.front);
@@ -55,7 +55,7 @@ LineEnd LineTracer::follow(tracing::Ray ray, tracing::Hit hit, Rng random, std::
     const double choice = surface.ends >= 1 ? 0.0 : random.uniform();
     if (choice < surface.ends) {
       if (!end.turned) end.distance = passed + hit.t;
-      end.fate = LineFate::Ended;
+      end.termination = LineTermination::Ended;
       end.side = {hit.primitive, hit.triangle, hit.front}, end.position = hit.position, end.normal = Vec3f(outward);
       return end;
     }

@@ -10,14 +10,14 @@
 
 namespace deltalux::lines {
 
-enum class LineFate : std::uint8_t {
+enum class LineTermination : std::uint8_t {
   Ended,    // on a diffuse side
   Escaped,  // out of the scene
   Lost,     // absorbed, or at its last event
 };
 
 struct LineEnd {
-  LineFate fate = LineFate::Lost;
+  LineTermination fate = LineTermination::Lost;
   bool turned = false;                 // it has gone on over something else than straight passages
   bool rough = false;                  // some of that were rough lobes: the way back has another chance
   bool dimmed = false;                 // weight is not 1

@@ -50,8 +50,9 @@ LeafScale ScaleMeter::measure(hierarchy::ElementId patch, FirstLines& first) con
     scale.rays += static_cast<std::uint32_t>(live);
     for (std::size_t k = 0; k < live; ++k) {
       const LineEnd end = tracer_.follow(rays[k], hits[k], LineDirections::random(points.key(), which[k]));
-      const hierarchy::ElementId side =
-          end.fate == LineFate::Ended && !end.turned ? elements_.sides.at(end.side) : hierarchy::ElementId();
+      const hierarchy::ElementId side = end.termination == LineTermination::Ended && !end.turned
+                                            ? elements_.sides.at(end.side)
+                                            : hierarchy::ElementId();
       const bool covered = side.valid() && enclosed_[hierarchy::surfaceOf(elements_, side).index()];
       if (which[k] < kBatch)
         first.line[which[k]] = firstLine(end, rays[k].direction, covered);

@@ -161,13 +161,13 @@ class LeafTracing {
   std::uint32_t take(const LineEnd& end, std::uint32_t leaf, std::uint64_t line, const Vec3f& w, float cosine,
                      Found& found) const {
     const std::uint32_t lost = end.met ? kLostBeyond : kLost;
-    if (end.fate == LineFate::Escaped) {
+    if (end.termination == LineTermination::Escaped) {
       // What escapes over mirrors and gloss, particles bring from the other end.
       if (end.turned) return lost;
       found.escaped.push_back({leaf, w, cosine, end.weight, end.chance});
       return kEscaped;
     }
-    if (end.fate != LineFate::Ended) return lost;
+    if (end.termination != LineTermination::Ended) return lost;
     const hierarchy::ElementId side = s_.elements.sides.at(end.side);
     if (side.valid() && s_.enclosed[hierarchy::surfaceOf(s_.elements, side).index()])
       return end.turned ? lost : std::uint32_t(kCovered);

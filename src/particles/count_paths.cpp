@@ -47,7 +47,7 @@ void countPaths(const DsLinks& links, double target, Particles& p) {
   p.originTriangle.resize(total);
   p.range.resize(total);
   p.account.resize(total);
-  p.fate.assign(total, 0);
+  p.termination.assign(total, 0);
   for (std::size_t l = 0; l < p.links.size(); ++l)
     std::fill_n(p.link.begin() + p.links[l].firstPath, p.links[l].paths, static_cast<std::uint32_t>(l));
 }

@@ -69,7 +69,7 @@ class Motions {
     // What was never begun may be possible now.
     if (v.empty()) return receiver != Motion::None;
     const PrimitiveId* met = particles_.metBy(path).data();
-    const bool blocked = particles_.fate[path] == 0 && met[1].valid();
+    const bool blocked = particles_.termination[path] == 0 && met[1].valid();
     if (blocked) return moved_[met[1].index()] || (receiver != Motion::None && (before_ && before_->holds(v[1])));
     for (std::size_t i = 1; i < v.size(); ++i)
       if (met[i].valid() && moved_[met[i].index()]) return true;
@@ -234,13 +234,13 @@ ParticleUpdate ParticleTracing::retrace(Particles& p, const std::vector<std::uin
   std::vector<std::uint8_t> arrived;
   for (const std::uint32_t path : paths) {
     update.paths.push_back({path, p.sender[path], p.originTriangle[path], p.range[path]});
-    arrived.push_back(p.fate[path] & kArrived);
+    arrived.push_back(p.termination[path] & kArrived);
   }
   const std::uint64_t before = p.rays;
   retracePaths(scene_, tracer_, ends_->emission, settings_.maxDepth, p, paths);
   update.rays = p.rays - before;
   for (std::size_t i = 0; i < paths.size(); ++i)
-    if (arrived[i] || (p.fate[paths[i]] & kArrived)) ++update.particles;
+    if (arrived[i] || (p.termination[paths[i]] & kArrived)) ++update.particles;
   if (watch_) watch_->renew(p, paths);
   return update;
 }

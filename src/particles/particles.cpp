@@ -27,18 +27,20 @@ ParticleLedger Particles::ledger() const {
     const PathAccount& a = account[p];
     l.entered += w * gray(a.entered.value()), l.passed += w * gray(a.passed.value());
     l.absorbed += w * gray(a.absorbed.value());
-    (fate[p] & kCut ? l.cut : l.escaped) += w * gray(a.left.value());
+    (termination[p] & kCut ? l.cut : l.escaped) += w * gray(a.left.value());
     for (std::uint32_t i = firstImpact(p); i < endImpact(p); ++i) l.landed += w * gray(throughput[i]);
   }
   return l;
 }
 
 std::uint64_t Particles::arrived() const {
-  return static_cast<std::uint64_t>(std::count_if(fate.begin(), fate.end(), [](auto f) { return f & kArrived; }));
+  return static_cast<std::uint64_t>(
+      std::count_if(termination.begin(), termination.end(), [](auto f) { return f & kArrived; }));
 }
 
 std::uint64_t Particles::cut() const {
-  return static_cast<std::uint64_t>(std::count_if(fate.begin(), fate.end(), [](auto f) { return f & kCut; }));
+  return static_cast<std::uint64_t>(
+      std::count_if(termination.begin(), termination.end(), [](auto f) { return f & kCut; }));
 }
 
 std::uint64_t Particles::landed() const {
@@ -91,8 +93,8 @@ void Particles::compact() {
 std::size_t Particles::memoryBytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(senderCells) + bytes(links) + bytes(link) + bytes(sender) + bytes(originTriangle) + bytes(range) +
-         bytes(account) + bytes(fate) + bytes(vertices) + bytes(met) + bytes(primitive) + bytes(triangleAndSide) +
-         bytes(uv) + bytes(throughput);
+         bytes(account) + bytes(termination) + bytes(vertices) + bytes(met) + bytes(primitive) +
+         bytes(triangleAndSide) + bytes(uv) + bytes(throughput);
 }
 
 std::uint64_t Particles::hash() const {
@@ -131,7 +133,7 @@ void checkSenders(const Particles& p, const Scene& scene) {
 void checkPaths(const Particles& p, const Scene& scene) {
   const std::size_t n = p.paths();
   require(p.sender.size() == n && p.originTriangle.size() == n, n, "arrays of one length");
-  require(p.range.size() == n && p.account.size() == n && p.fate.size() == n, n, "ranges and accounts are kept");
+  require(p.range.size() == n && p.account.size() == n && p.termination.size() == n, n, "ranges and accounts are kept");
   std::size_t next = 0;
   for (std::size_t l = 0; l < p.links.size(); ++l) {
     const ParticleLink& link = p.links[l];

@@ -61,7 +61,7 @@ struct Particles {
   LargeArray<std::uint32_t> originTriangle;  // of a mesh
   LargeArray<PathRange> range;
   LargeArray<PathAccount> account;
-  LargeArray<std::uint8_t> fate;
+  LargeArray<std::uint8_t> termination;
 
   // Ranges may leave gaps where paths were traced anew.
 

@@ -45,7 +45,7 @@ struct PathAccount {
 };
 
 /// What befell a path.
-enum PathFate : std::uint8_t {
+enum PathTermination : std::uint8_t {
   kArrived = 1,   // at a receiver of its link
   kFirstEnd = 2,  // its first segment ends on what it met first
   kCut = 4,       // by the depth limit

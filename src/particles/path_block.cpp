@@ -29,8 +29,8 @@ void append(const PathBlock& block, std::size_t begin, std::span<const std::uint
     nextVertex[k] = v, nextImpact[k] = i;
     p.range[path] = {v, i, static_cast<std::uint16_t>(block.vertexCount[k]),
                      static_cast<std::uint16_t>(block.landingCount[k])};
-    p.fate[path] = block.fate[k];
-    p.account[path] = block.fate[k] & kArrived ? closed(block.accounts[k], path) : PathAccount{};
+    p.termination[path] = block.termination[k];
+    p.account[path] = block.termination[k] & kArrived ? closed(block.accounts[k], path) : PathAccount{};
     v += block.vertexCount[k], i += block.landingCount[k];
   }
   for (const PathBlock::Vertex& from : block.vertices) {

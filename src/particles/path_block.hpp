@@ -34,7 +34,7 @@ struct PathBlock {
   // Per path.
   std::vector<std::uint32_t> vertexCount, landingCount;
   std::vector<Account> accounts;
-  std::vector<std::uint8_t> fate;
+  std::vector<std::uint8_t> termination;
   std::uint64_t rays = 0;
 
   /// Empty again, for so many paths; what was allocated stays.
@@ -43,7 +43,7 @@ struct PathBlock {
     vertices.clear(), vertices.reserve(kUsual * paths);
     landings.clear(), landings.reserve(paths);
     vertexCount.assign(paths, 0), landingCount.assign(paths, 0);
-    accounts.assign(paths, {}), fate.assign(paths, 0);
+    accounts.assign(paths, {}), termination.assign(paths, 0);
     rays = 0;
   }
   void addVertex(std::uint32_t path, const Vec3f& p, PrimitiveId there) {

@@ -126,7 +126,7 @@ class Tracing {
       const FirstHit& a = arrivals[i];
       r.addVertex(path, s.origin, {});
       if (!a.primitive.valid()) {
-        if (s.kind == FirstSegment::Kind::Open) r.fate[path] = kFirstEnd;
+        if (s.kind == FirstSegment::Kind::Open) r.termination[path] = kFirstEnd;
         r.addVertex(path,
                     s.kind == FirstSegment::Kind::Target ? Vec3f(s.target)
                     : std::isfinite(a.distance)          ? a.position
@@ -135,7 +135,7 @@ class Tracing {
         continue;
       }
       r.addVertex(path, a.position, a.primitive);
-      r.fate[path] = kArrived | kFirstEnd;
+      r.termination[path] = kArrived | kFirstEnd;
       start(walkers.emplace_back(), pathAt(begin + i), path, a, r);
     }
   }
@@ -177,7 +177,7 @@ class Tracing {
     }
     if (!(w.first > 0)) return false;
     if (++w.depth > maxDepth_) {
-      r.fate[w.path] |= kCut;
+      r.termination[w.path] |= kCut;
       r.accounts[w.path].left += w.throughput;
       return false;
     }

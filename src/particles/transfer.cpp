@@ -59,7 +59,7 @@ std::uint32_t ParticleTransfer::locateSender(const Particles& p, std::size_t pat
 
 void ParticleTransfer::locate(const Particles& p, std::size_t path, const hierarchy::SideLocator& locator,
                               const Scene& scene) {
-  if (!(p.fate[path] & kArrived)) return;
+  if (!(p.termination[path] & kArrived)) return;
   senderOf_[path] = locateSender(p, path, locator, scene);
   for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
     const hierarchy::ElementId side =

@@ -16,7 +16,7 @@ Rgb LineGather::follow(const Vec3f& p, const Vec3f& normal, lines::LineDirection
                        std::uint32_t i, hierarchy::ElementId& leaf) const {
   leaf = {};
   const lines::LineEnd end = tracer_.follow(p, normal, directions(i, normal), lines::LineDirections::random(key, i));
-  if (end.fate != lines::LineFate::Ended || (end.turned && !responses_.speculars())) return Rgb(0.0f);
+  if (end.termination != lines::LineTermination::Ended || (end.turned && !responses_.speculars())) return Rgb(0.0f);
   const std::uint32_t number = locator_.at(end.side, end.position);
   const float ends = responses_.at(end.side.primitive, end.side.front).ends;
   if (number == hierarchy::LeafTable::kNone || !(ends > 0)) return Rgb(0.0f);

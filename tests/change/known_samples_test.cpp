@@ -121,7 +121,7 @@ TEST_P(MarkedLinesOfAThing, AreAllThatStartThereEndThereOrPassByIt) {
       std::vector<lines::LineSegment> way;
       const lines::LineEnd to = x.before.tracer.follow(p.position, p.normal, directions(k, p.normal),
                                                        lines::LineDirections::random(points.key(), k), &way);
-      if (to.fate == lines::LineFate::Ended && x.space.moved(to.side.primitive)) {
+      if (to.termination == lines::LineTermination::Ended && x.space.moved(to.side.primitive)) {
         ++end;
         EXPECT_TRUE(marked);
       }

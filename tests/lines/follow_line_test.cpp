@@ -11,7 +11,7 @@ namespace deltalux {
 namespace {
 
 using namespace test;
-using lines::LineFate;
+using lines::LineTermination;
 
 struct Tally {
   double ended = 0, escaped = 0, absorbed = 0;  // of a unit that is sent, gray
@@ -27,9 +27,9 @@ Tally sentUp(const Scene& scene, int count) {
     const UnitPair u = scrambledSobol(static_cast<std::uint32_t>(i), 1);
     const Vec3f w(cosineDirection(Frame(Vec3(0, 0, 1)), u.x, u.y));
     const lines::LineEnd end = lines.follow(Vec3f(0, 0, 0), {0, 0, 1}, w, Rng(7, static_cast<std::uint64_t>(i)));
-    if (end.fate == LineFate::Ended)
+    if (end.termination == LineTermination::Ended)
       t.ended += gray(end.weight) / responses.at(end.side.primitive, end.side.front).ends;
-    if (end.fate == LineFate::Escaped) t.escaped += gray(end.weight);
+    if (end.termination == LineTermination::Escaped) t.escaped += gray(end.weight);
     t.absorbed += gray(end.absorbed);
   }
   t.ended /= count, t.escaped /= count, t.absorbed /= count;

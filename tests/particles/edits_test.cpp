@@ -175,7 +175,7 @@ std::size_t arrivedFromTheSun(const World& w) {
   const Particles& p = w.particles;
   std::size_t count = 0;
   for (std::size_t path = 0; path < p.paths(); ++path)
-    count += p.senderCells[p.sender[path]].kind == SenderKind::Sun && (p.fate[path] & kArrived);
+    count += p.senderCells[p.sender[path]].kind == SenderKind::Sun && (p.termination[path] & kArrived);
   return count;
 }
 

@@ -60,10 +60,10 @@ void members(auto& archive, Is<lines::Lines> auto& l) {
 }
 
 void members(auto& archive, Is<particles::Particles> auto& p) {
-  auto& [senderCells, nominal, links, link, sender, originTriangle, range, account, fate, vertices, met, primitive,
-         triangleAndSide, uv, throughput, quantum, rays, looks] = p;
-  transferAll(archive, senderCells, nominal, links, link, sender, originTriangle, range, account, fate, vertices, met,
-              primitive, triangleAndSide, uv, throughput, quantum, rays, looks);
+  auto& [senderCells, nominal, links, link, sender, originTriangle, range, account, termination, vertices, met,
+         primitive, triangleAndSide, uv, throughput, quantum, rays, looks] = p;
+  transferAll(archive, senderCells, nominal, links, link, sender, originTriangle, range, account, termination, vertices,
+              met, primitive, triangleAndSide, uv, throughput, quantum, rays, looks);
 }
 
 }  // namespace deltalux::io
