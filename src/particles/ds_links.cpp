@@ -5,14 +5,14 @@
 
 #include "base/parallel.hpp"
 #include "base/tuning.hpp"
-#include "particles/lookout.hpp"
+#include "particles/flux_estimate.hpp"
 #include "particles/tuning.hpp"
 
 namespace deltalux::particles {
 
 namespace {
 
-/// What the looks at a link are for: whether it is to be refined, and which end.
+/// What the pilots at a link are for: whether it is to be refined, and which end.
 class Judge {
  public:
   Judge(const Senders& senders, const Receivers& receivers) : senders_(senders), receivers_(receivers) {}
@@ -55,36 +55,36 @@ struct Verdict {
   bool split = false;
 };
 
-/// Looks at a link until it is clear whether it is to be refined, and about what passes.
-Verdict judged(const LinkEnds& ends, std::uint64_t key, double threshold, const Judge& judge, const Lookout& lookout,
-               Lookout::Workspace& workspace) {
+/// PilotSamples at a link until it is clear whether it is to be refined, and about what passes.
+Verdict judged(const LinkEnds& ends, std::uint64_t key, double threshold, const Judge& judge,
+               const FluxEstimate& estimate, FluxEstimate::Workspace& workspace) {
   Verdict v;
   v.link.ends = ends, v.link.key = key;
   const bool near = judge.near(ends), divisible = judge.divisible(ends);
-  const double most = lookout.most(ends);
-  Looks looks;
+  const double most = estimate.most(ends);
+  PilotSamples pilots;
   const auto splits = [&] {
-    const double flux = looks.flux(most);
-    return divisible && flux > threshold && (near || (looks.uneven() && flux > tuning::kMuch * threshold));
+    const double flux = pilots.flux(most);
+    return divisible && flux > threshold && (near || (pilots.uneven() && flux > tuning::kMuch * threshold));
   };
-  lookout.look(ends, key, tuning::kLooks, looks, workspace);
+  estimate.sample(ends, key, tuning::kLooks, pilots, workspace);
   v.split = splits();
   // Of ends close to each other few pairs of places may carry most.
   if (!v.split && near && divisible && most > threshold) {
-    lookout.look(ends, key, deltalux::tuning::kPilots, looks, workspace);
+    estimate.sample(ends, key, deltalux::tuning::kPilots, pilots, workspace);
     v.split = splits();
   }
   // Most links of which nothing was seen to arrive are blocked: hope is worth a closer look before it gets particles.
   // The more it might carry, the closer.
-  const double bound = std::min(looks.bound(), most);
-  if (!v.split && (!looks.arrived() || bound > tuning::kLooks * threshold)) {
+  const double bound = std::min(pilots.bound(), most);
+  if (!v.split && (!pilots.arrived() || bound > tuning::kLooks * threshold)) {
     const int enough =
         static_cast<int>(std::clamp(bound / threshold, double(tuning::kLooks), double(tuning::kMostLooks)));
-    lookout.look(ends, key, enough, looks, workspace);
+    estimate.sample(ends, key, enough, pilots, workspace);
     v.split = splits();
   }
-  v.link.flux = static_cast<float>(std::max(looks.flux(most), deltalux::tuning::kNegligible * threshold));
-  v.link.passing = static_cast<float>(looks.passing());
+  v.link.flux = static_cast<float>(std::max(pilots.flux(most), deltalux::tuning::kNegligible * threshold));
+  v.link.passing = static_cast<float>(pilots.passing());
   return v;
 }
 
@@ -96,17 +96,17 @@ DsLinks refineDsLinks(const Scene& scene, const tracing::RayTracer& tracer, cons
   DsLinks links;
   if (receivers.empty()) return links;
   const Judge judge(senders, receivers);
-  const Lookout lookout(scene, tracer, emission, senders, receivers, exitance);
+  const FluxEstimate estimate(scene, tracer, emission, senders, receivers, exitance);
   std::vector<LinkEnds> level;
   for (const std::uint32_t root : senderRoots) level.push_back({root, receivers.root()});
 
   std::vector<double> first(level.size(), 0.0);
   std::vector<std::uint64_t> rays(level.size(), 0);
   parallelFor(level.size(), 1, [&](std::size_t i) {
-    Lookout::Workspace workspace;
-    Looks looks;
-    lookout.look(level[i], judge.key(level[i], settings.seed), tuning::kMostLooks, looks, workspace);
-    first[i] = looks.flux(lookout.most(level[i])), rays[i] = workspace.traced;
+    FluxEstimate::Workspace workspace;
+    PilotSamples pilots;
+    estimate.sample(level[i], judge.key(level[i], settings.seed), tuning::kMostLooks, pilots, workspace);
+    first[i] = pilots.flux(estimate.most(level[i])), rays[i] = workspace.traced;
   });
   double total = settings.otherFlux;
   for (std::size_t i = 0; i < level.size(); ++i) total += first[i], links.rays += rays[i];
@@ -118,16 +118,16 @@ DsLinks refineDsLinks(const Scene& scene, const tracing::RayTracer& tracer, cons
     std::vector<Verdict> verdicts(level.size());
     rays.assign((level.size() + kBlock - 1) / kBlock, 0);
     parallelBlocks(level.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-      Lookout::Workspace workspace;
+      FluxEstimate::Workspace workspace;
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint64_t key = judge.key(level[i], settings.seed);
         // Averted: nothing passes, as long as neither end moves.
         verdicts[i] =
             emission.averted(level[i])
                 ? Verdict{{level[i], key, static_cast<float>(deltalux::tuning::kNegligible * threshold), 0}, false}
-                : judged(level[i], key, threshold, judge, lookout, workspace);
+                : judged(level[i], key, threshold, judge, estimate, workspace);
         verdicts[i].link.albedo =
-            static_cast<float>(std::max<double>(lookout.albedo(level[i]), deltalux::tuning::kNegligible));
+            static_cast<float>(std::max<double>(estimate.albedo(level[i]), deltalux::tuning::kNegligible));
       }
       rays[begin / kBlock] = workspace.traced;
     });

@@ -7,8 +7,8 @@
 // A link's flux is estimated by a few first segments of its own, followed over one event (other numbers than the
 // particles': deciding and measuring by the same would lose the links that they happen to underrate), its senders'
 // exitance by coarse_exitance. Refinement does not know how many particles are asked for, so more of them contain the
-// fewer. Cost: 8 looks a node of the link tree, 24 where the ends are near, up to 2048 where much may be hidden
-// (lookout.hpp); 0.4 microseconds each.
+// fewer. Cost: 8 pilots a node of the link tree, 24 where the ends are near, up to 2048 where much may be hidden
+// (flux_estimate.hpp); 0.4 microseconds each.
 #include "particles/coarse_exitance.hpp"
 #include "particles/emission.hpp"
 

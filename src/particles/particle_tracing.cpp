@@ -251,7 +251,7 @@ ParticleUpdate ParticleTracing::traceAnew(Particles& p) {
   watch_.reset();
   p = trace();
   ParticleUpdate update;
-  update.all = true, update.rays = p.rays + p.looks, update.particles = p.arrived();
+  update.all = true, update.rays = p.rays + p.pilots, update.particles = p.arrived();
   return update;
 }
 

@@ -68,7 +68,7 @@ class ParticleTracing {
   /// By how much paths may be off what they join [scene units].
   double margin() const;
 
-  /// Looks for the paths that motion from here can touch, so that follow() need not.
+  /// PilotSamples for the paths that motion from here can touch, so that follow() need not.
   void expectMotion(const Particles&, const Box& ofObject);
   /// Of what knows the paths near the motion: the place of the paper's octree.
   std::size_t watchBytes() const { return watch_ ? watch_->memoryBytes() : 0; }

@@ -75,9 +75,9 @@ struct Particles {
   LargeArray<glm::vec2> uv;
   LargeArray<Rgb> throughput;  // of its path alone; the link's scale comes on top
 
-  double quantum = 0;       // flux that one particle stands for, by the estimate [W]
-  std::uint64_t rays = 0;   // of the particles
-  std::uint64_t looks = 0;  // rays that decided about links and counts
+  double quantum = 0;        // flux that one particle stands for, by the estimate [W]
+  std::uint64_t rays = 0;    // of the particles
+  std::uint64_t pilots = 0;  // rays that decided about links and counts
 
   std::size_t paths() const { return link.size(); }
   std::uint32_t firstImpact(std::size_t path) const { return range[path].impact; }

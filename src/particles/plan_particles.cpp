@@ -56,7 +56,7 @@ ParticlePlan plan(const Scene& scene, const tracing::RayTracer& tracer, const Pa
   if (!settings.ofSurfaces) {
     links = refine(senders.lightRoots());
     nameSenders(senders, exitance, result.empty);
-    result.empty.looks = links.rays;
+    result.empty.pilots = links.rays;
     return result;
   }
   // The light of lights first: surfaces that it reaches over mirrors and glass send on more than shadow rays know of.
@@ -72,7 +72,7 @@ ParticlePlan plan(const Scene& scene, const tracing::RayTracer& tracer, const Pa
   appendLinks(links, refine(senders.surfaceRoots()));
 
   nameSenders(senders, exitance, result.empty);
-  result.empty.looks = exitance.rays + links.rays + pilots.rays;
+  result.empty.pilots = exitance.rays + links.rays + pilots.rays;
   return result;
 }
 

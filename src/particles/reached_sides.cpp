@@ -33,7 +33,7 @@ struct Landed {
   std::vector<std::uint32_t> paths;  // some of them
 };
 
-/// Looks round from points of surfaces for light.
+/// PilotSamples round from points of surfaces for light.
 class LampSight {
  public:
   LampSight(const Scene& scene, const tracing::RayTracer& tracer, const IsLit& lit)

@@ -8,16 +8,16 @@ namespace deltalux::particles::tuning {
 /// Radii beyond which something is far: drawn by its area alone, and linked without another look. Less: noise where
 /// things are close. More: work for what is alike.
 constexpr double kFar = 3;
-/// Looks at a link, points of a cell, and paths of a triangle, of which there are many, that give a first idea of
-/// light. Fewer: refined by chance.
+/// PilotSamples at a link, points of a cell, and paths of a triangle, of which there are many, that give a first idea
+/// of light. Fewer: refined by chance.
 constexpr int kLooks = 8;
-/// Looks at a link that might carry much although nothing arrived, at each root for the sum of all, and along lines
-/// through a box that something has left. Fewer: light through small gaps is overlooked. More: time at walls.
+/// PilotSamples at a link that might carry much although nothing arrived, at each root for the sum of all, and along
+/// lines through a box that something has left. Fewer: light through small gaps is overlooked. More: time at walls.
 constexpr int kMostLooks = 1024;
 /// Shares of the flux of a link that is not refined, from which unevenness counts. More: few particles where caustics
 /// are sharp. Less: many links.
 constexpr double kMuch = 8;
-/// Spread of looks, relative to their mean, that is worth a refinement. Less, more: as above.
+/// Spread of pilots, relative to their mean, that is worth a refinement. Less, more: as above.
 constexpr double kUneven = 0.5;
 /// Lights that are sampled at a point of a cell. Fewer: cells that one of many lamps lights are overlooked.
 constexpr std::size_t kMostLights = 64;

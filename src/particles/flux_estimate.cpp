@@ -1,4 +1,4 @@
-#include "particles/lookout.hpp"
+#include "particles/flux_estimate.hpp"
 
 namespace deltalux::particles {
 
@@ -6,8 +6,8 @@ namespace {
 constexpr std::uint64_t kLookSeed = 0x6c6f6f6b7a7a7a7aull;  // [key]
 }
 
-Lookout::Lookout(const Scene& scene, const tracing::RayTracer& tracer, const ParticleEmission& emission,
-                 const Senders& senders, const Receivers& receivers, const CoarseExitance& exitance)
+FluxEstimate::FluxEstimate(const Scene& scene, const tracing::RayTracer& tracer, const ParticleEmission& emission,
+                           const Senders& senders, const Receivers& receivers, const CoarseExitance& exitance)
     : tracer_(tracer),
       emission_(emission),
       senders_(senders),
@@ -34,15 +34,16 @@ Lookout::Lookout(const Scene& scene, const tracing::RayTracer& tracer, const Par
   }
 }
 
-double Lookout::most(const LinkEnds& ends) const {
+double FluxEstimate::most(const LinkEnds& ends) const {
   if (kindOf(ends.sender) != SenderKind::Side) return kInfinity;
   // All that is sent (glass reflects more at grazing angles), and all that is taken of the brightest light.
   return std::min(senders_.weightOf(senders_.nodes()[ends.sender]) * std::min(1.0, 2 * albedo_[ends.receiver]),
                   brightest_[ends.sender] * takes_[ends.receiver]);
 }
 
-void Lookout::look(const LinkEnds& ends, std::uint64_t key, int count, Looks& looks, Workspace& w) const {
-  const int first = looks.count(), more = count - first;
+void FluxEstimate::sample(const LinkEnds& ends, std::uint64_t key, int count, PilotSamples& pilots,
+                          Workspace& w) const {
+  const int first = pilots.count(), more = count - first;
   if (more <= 0) return;
   w.segments.resize(more), w.arrivals.resize(more), w.links.assign(more, ends);
   const std::uint64_t own = combineKeys(key, kLookSeed);
@@ -56,24 +57,24 @@ void Lookout::look(const LinkEnds& ends, std::uint64_t key, int count, Looks& lo
               std::span(some).first(std::min(some.size(), static_cast<std::size_t>(more - i))));
     emission_.sample(ends, some[at], w.segments[i]);
     const FirstSegment& s = w.segments[i];
-    looks.expect(exitanceOf(s.senderCell) * s.bound * albedoOf(s, ends));
+    pilots.expect(exitanceOf(s.senderCell) * s.bound * albedoOf(s, ends));
   }
   emission_.arrive(w.links, w.segments, w.arrivals, w.rays, w.traced);
   for (int i = 0; i < more; ++i) {
     const FirstHit& a = w.arrivals[i];
     if (!a.primitive.valid()) continue;
-    looks.see(exitanceOf(w.segments[i].senderCell) *
-              passedOn(a, events(static_cast<std::uint32_t>(first + i)), w.traced));
+    pilots.see(exitanceOf(w.segments[i].senderCell) *
+               passedOn(a, events(static_cast<std::uint32_t>(first + i)), w.traced));
   }
 }
 
-double Lookout::albedoOf(const FirstSegment& s, const LinkEnds& ends) const {
+double FluxEstimate::albedoOf(const FirstSegment& s, const LinkEnds& ends) const {
   if (s.kind == FirstSegment::Kind::Target) return receivers_.albedo(s.receiverCell);
   return receivers_.albedo(receivers_.nodes()[ends.receiver].begin);
 }
 
 /// Gray flux behind the first event, if it meets a surface.
-double Lookout::passedOn(const FirstHit& a, const EventNumbers& u, std::uint64_t& rays) const {
+double FluxEstimate::passedOn(const FirstHit& a, const EventNumbers& u, std::uint64_t& rays) const {
   const SurfaceSpot spot{a.primitive, a.triangle, a.position, a.normal, a.front()};
   const auto event = surfaces_.scatter(spot, a.direction, true, u);
   if (!event) return 0;

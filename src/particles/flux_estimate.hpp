@@ -1,6 +1,6 @@
 #pragma once
-// What passes over a link of particles, by looks: first segments of its own, followed over one event to the next
-// surface (what only leaves the scene is worth no particle). More looks at a link add to those before, as samples of
+// What passes over a link of particles, by pilots: first segments of its own, followed over one event to the next
+// surface (what only leaves the scene is worth no particle). More pilots at a link add to those before, as samples of
 // one stratified sequence. Cost: 0.2 microseconds a look, and a ray or two.
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 
 namespace deltalux::particles {
 
-/// What some looks at a link have seen.
-class Looks {
+/// What some pilots at a link have seen.
+class PilotSamples {
  public:
   /// `bound`: flux of the look if nothing stood in its way.
   void expect(double bound) { ++count_, bound_ += bound, boundSquares_ += bound * bound; }
@@ -26,9 +26,9 @@ class Looks {
     return std::min((sum_ + kHopeful * std::min(bound_ / count_, most)) / (count_ + 1), most);
   }
   double passing() const { return (arrived_ + kHopeful) / (count_ + 1); }
-  /// Root mean square of looks, had they arrived.
+  /// Root mean square of pilots, had they arrived.
   double bound() const { return std::sqrt(boundSquares_ / count_); }
-  /// Looks differ much, or only some of them passed.
+  /// PilotSamples differ much, or only some of them passed.
   bool uneven() const { return squares_ * count_ > (1 + tuning::kUneven * tuning::kUneven) * sum_ * sum_ || sum_ == 0; }
 
  private:
@@ -38,13 +38,13 @@ class Looks {
   double sum_ = 0, squares_ = 0, bound_ = 0, boundSquares_ = 0;
 };
 
-class Lookout {
+class FluxEstimate {
  public:
   /// All must outlive this.
-  Lookout(const Scene&, const tracing::RayTracer&, const ParticleEmission&, const Senders&, const Receivers&,
-          const CoarseExitance&);
+  FluxEstimate(const Scene&, const tracing::RayTracer&, const ParticleEmission&, const Senders&, const Receivers&,
+               const CoarseExitance&);
 
-  /// Memory for looks, used again by the next.
+  /// Memory for pilots, used again by the next.
   struct Workspace {
     std::vector<FirstSegment> segments;
     std::vector<LinkEnds> links;
@@ -52,8 +52,8 @@ class Lookout {
     FirstRays rays;
     std::uint64_t traced = 0;
   };
-  /// Looks until there are `count` of them; `key` names the link.
-  void look(const LinkEnds&, std::uint64_t key, int count, Looks&, Workspace&) const;
+  /// PilotSamples until there are `count` of them; `key` names the link.
+  void sample(const LinkEnds&, std::uint64_t key, int count, PilotSamples&, Workspace&) const;
   /// Greatest of the receiver.
   double albedo(const LinkEnds& ends) const { return albedo_[ends.receiver]; }
   /// More flux than this cannot pass, whatever stands where.
