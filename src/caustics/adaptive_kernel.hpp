@@ -7,7 +7,7 @@
 //   3. Between the sharp edges, widths by Lepski's method; and the light, by them.
 //
 // Flux is kept exactly throughout: only step 3's flow moves the particles' light. Of the ways tried on a bright disc of
-// 4,000 particles in an even veil, root mean square errors: the paper's spiral 1.14, widths alone 0.91, blurred edges
+// 4,000 particles in even light, root mean square errors: the paper's spiral 1.14, widths alone 0.91, blurred edges
 // 0.58, this 0.51.
 // Cost: two scale spaces and two flows, all of them passes of HeatFlow.
 #include "caustics/bandwidth.hpp"

@@ -5,10 +5,10 @@
 #include "caustics/adaptive_kernel.hpp"
 #include "caustics/chart_part.hpp"
 #include "caustics/choice.hpp"
+#include "caustics/low_frequency_layer.hpp"
 #include "caustics/resolution.hpp"
 #include "caustics/surface_impacts.hpp"
 #include "caustics/tuning.hpp"
-#include "caustics/veil.hpp"
 
 namespace deltalux::caustics {
 
@@ -133,10 +133,11 @@ class AdaptiveTextures {
     std::vector<ChartPart> regions = takeRegionsOut(surface, whole, grid, coarse, borders);
     const int halvings = coarsen(surface, whole);
     if (regions.empty()) return put(surface, whole);
-    const Veil veil(surface, std::move(all), grid, coarse, borders, halvings);
-    for (std::size_t i = 0; i < regions.size(); ++i) putRegion(surface, regions[i], borders[i], veil);
+    const LowFrequencyLayer layer(surface, std::move(all), grid, coarse, borders, halvings);
+    for (std::size_t i = 0; i < regions.size(); ++i) putRegion(surface, regions[i], borders[i], layer);
     const auto isSurface = [](float area) { return area > 0; };
-    if (std::any_of(whole.areas.begin(), whole.areas.end(), isSurface)) result_.textures.push_back(veil.shownOn(whole));
+    if (std::any_of(whole.areas.begin(), whole.areas.end(), isSurface))
+      result_.textures.push_back(layer.shownOn(whole));
   }
 
   std::vector<ChartPart> takeRegionsOut(const ChartSurface& surface, ChartPart& whole, const CellGrid& grid,
@@ -161,13 +162,14 @@ class AdaptiveTextures {
     result_.textures.push_back(surface.texture(part, grid, light, reconstructAdaptive(grid, light, rule_).E));
   }
 
-  void putRegion(const ChartSurface& surface, ChartPart& region, const FadingBorder& border, const Veil& veil) {
+  void putRegion(const ChartSurface& surface, ChartPart& region, const FadingBorder& border,
+                 const LowFrequencyLayer& layer) {
     resolve(surface, region, tuning::kStray, squared(tuning::kFirstSide), squared(tuning::kFineSide));
     const CellGrid grid = surface.grid(region);
     if (grid.size() == 0) return;
     const CellLight light = collect(grid, region.impacts);
     AdaptiveEstimate reconstruction = reconstructAdaptive(grid, light, rule_);
-    veil.over(grid, border, rule_, reconstruction);
+    layer.over(grid, border, rule_, reconstruction);
     result_.textures.push_back(surface.texture(region, grid, light, reconstruction.E));
   }
 

@@ -4,9 +4,8 @@
 //   2. Which parts of the surface need fine texels?                          restriction.hpp
 //   3. Texels down to what the particles can tell, in each part.           resolution.hpp
 //   4. Kernels as wide as the particles allow, texel by texel.             adaptive_kernel.hpp
-// The rest of the surface keeps a coarse texture, cut out where the fine ones are, which fade into it (veil.hpp). Every
-// particle is in exactly one.
-// Cost: about 0.25 microseconds a texel.
+// The rest of the surface keeps a coarse texture, cut out where the fine ones are, which fade into it
+// (low_frequency_layer.hpp). Every particle is in exactly one. Cost: about 0.25 microseconds a texel.
 #include <optional>
 
 #include "caustics/caustic_texture.hpp"

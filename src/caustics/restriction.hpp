@@ -2,10 +2,10 @@
 // Textures only where they are needed [GD01 3.3]: scan for a lit texel, flood-fill from it, take the bounding box of
 // what was filled, clear it and go on scanning. Boxes that overlap become one.
 //
-// The paper calls lit what exceeds 1 to 5 % of the maximum; a faint, even veil of particles over a wall then makes the
-// whole wall one region. Here a texel counts when it differs from the veil (the median over the area) by more than the
-// target error of the light where the particles are. What lies outside all regions is smooth, and stays in one coarse
-// texture of the whole surface, so that no flux is dropped.
+// The paper calls lit what exceeds 1 to 5 % of the maximum; faint, even light of particles over a wall then makes the
+// whole wall one region. Here a texel counts when it differs from even light (the median over the area) by more than
+// the target error of the light where the particles are. What lies outside all regions is smooth, and stays in one
+// coarse texture of the whole surface, so that no flux is dropped.
 #include <vector>
 
 #include "caustics/cell_light.hpp"

@@ -44,7 +44,7 @@ TEST(Choice, SmoothGradientsAreLeftToTheMesh) {
 
 TEST(Choice, FiguresGetTextures) {
   for (const std::size_t n : {400u, 2000u, 20000u}) {
-    const Histogram h(test::drawImpacts(n, 1, test::discInVeil));
+    const Histogram h(test::drawImpacts(n, 1, test::discInEvenLight));
     EXPECT_TRUE(deservesTexture(departure(h.grid, h.light), 0.05, 0)) << n;
   }
 }
@@ -61,7 +61,7 @@ TEST(Choice, FewHeavyParticlesDoNotHideAFigureElsewhere) {
     return test::inSquare(0.1 * u, 1 - 0.1 * rng.uniform());
   };
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    std::vector<particles::Impact> impacts = test::drawImpacts(5000, seed, test::discInVeil);
+    std::vector<particles::Impact> impacts = test::drawImpacts(5000, seed, test::discInEvenLight);
     const std::vector<particles::Impact> heavy = withHeavyOnes(test::drawImpacts(5000, seed, corner), 1, 300.0f);
     impacts.insert(impacts.end(), heavy.begin(), heavy.begin() + 3);
     const Histogram h(impacts);
@@ -80,7 +80,7 @@ TEST(Choice, EvenLightOfUnevenParticlesIsLeftToTheMesh) {
 }
 
 TEST(Choice, FiguresThatOtherLightDrownsDoNot) {
-  const Histogram h(test::drawImpacts(20000, 1, test::discInVeil));
+  const Histogram h(test::drawImpacts(20000, 1, test::discInEvenLight));
   EXPECT_FALSE(deservesTexture(departure(h.grid, h.light), 0.05, 1000));
 }
 

@@ -24,7 +24,7 @@ TEST(Resolution, TexelsFollowTheDensityWhereTheLightIs) {
   const Shape square = test::unitSquare();
   const Charts charts = chartsOf(square);
   const ChartSurface surface(square, charts, 0);
-  const auto impacts = test::drawImpacts(20000, 1, test::discInVeil);
+  const auto impacts = test::drawImpacts(20000, 1, test::discInEvenLight);
   const ChartPart part = surface.whole({64, 64}, placeImpacts(square, charts, impacts)[0]);
   const double inDisc = 0.3 + 0.7 / (kPi * 0.0144), inside = 0.7 + 0.3 * kPi * 0.0144;
   const double typical = 20000 * (inside * inDisc + (1 - inside) * 0.3);

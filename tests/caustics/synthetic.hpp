@@ -33,13 +33,13 @@ inline SurfacePoint inSquare(double u, double v) {
   return p;
 }
 
-/// A disc of radius 0.12 around (0.6, 0.4) that holds 70 % of the flux, in an even veil.
-inline SurfacePoint discInVeil(Rng& rng) {
+/// A disc of radius 0.12 around (0.6, 0.4) that holds 70 % of the flux, in even light.
+inline SurfacePoint discInEvenLight(Rng& rng) {
   if (rng.uniform() < 0.3) return inSquare(rng.uniform(), rng.uniform());
   const double r = 0.12 * std::sqrt(rng.uniform()), phi = 2 * kPi * rng.uniform();
   return inSquare(0.6 + r * std::cos(phi), 0.4 + r * std::sin(phi));
 }
-inline double discInVeilDensity(double u, double v) {
+inline double discInEvenLightDensity(double u, double v) {
   const double r = std::hypot(u - 0.6, v - 0.4);
   return 0.3 + (r < 0.12 ? 0.7 / (kPi * 0.12 * 0.12) : 0.0);
 }

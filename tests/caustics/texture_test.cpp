@@ -112,9 +112,9 @@ TEST(CausticTextures, AreSeamlessAroundClosedSurfaces) {
 TEST(CausticTextures, ErrorFallsInOrderWithTheParticles) {
   std::vector<double> errors;
   for (const std::size_t n : {2000u, 8000u, 32000u}) {
-    const auto s = makeCausticTextures(test::unitSquare(), test::drawImpacts(n, 1, test::discInVeil), {0.05, 0});
+    const auto s = makeCausticTextures(test::unitSquare(), test::drawImpacts(n, 1, test::discInEvenLight), {0.05, 0});
     ASSERT_TRUE(s);
-    errors.push_back(test::squareError(*s, test::discInVeilDensity));
+    errors.push_back(test::squareError(*s, test::discInEvenLightDensity));
   }
   // A sharp edge allows n^-1/4 at best without knowing where it is (pixels that it crosses dominate); noise alone
   // n^-1/2.
@@ -124,16 +124,16 @@ TEST(CausticTextures, ErrorFallsInOrderWithTheParticles) {
 }
 
 TEST(CausticTextures, AreNearerToTheTruthThanThePapers) {
-  const auto impacts = test::drawImpacts(4000, 1, test::discInVeil);
+  const auto impacts = test::drawImpacts(4000, 1, test::discInEvenLight);
   const auto ours = makeCausticTextures(test::unitSquare(), impacts, {0.05, 0});
   const auto papers = paper::makeTextures(test::unitSquare(), impacts);
   ASSERT_TRUE(ours && papers);
-  EXPECT_LT(test::squareError(*ours, test::discInVeilDensity),
-            0.6 * test::squareError(*papers, test::discInVeilDensity));
+  EXPECT_LT(test::squareError(*ours, test::discInEvenLightDensity),
+            0.6 * test::squareError(*papers, test::discInEvenLightDensity));
 }
 
 TEST(CausticTextures, AreRestrictedToTheFigure) {
-  const auto s = makeCausticTextures(test::unitSquare(), test::drawImpacts(4000, 1, test::discInVeil), {0.05, 0});
+  const auto s = makeCausticTextures(test::unitSquare(), test::drawImpacts(4000, 1, test::discInEvenLight), {0.05, 0});
   ASSERT_TRUE(s);
   ASSERT_EQ(s->textures.size(), 2u);
   const Region& r = s->textures[0].region;
@@ -142,7 +142,7 @@ TEST(CausticTextures, AreRestrictedToTheFigure) {
 }
 
 TEST(CausticTextures, AreTheSameInAllUnits) {
-  const auto impacts = test::drawImpacts(4000, 1, test::discInVeil);
+  const auto impacts = test::drawImpacts(4000, 1, test::discInEvenLight);
   const auto unit = makeCausticTextures(test::unitSquare(), impacts, {0.05, 0});
   ASSERT_TRUE(unit);
   for (const double size : {1e-6, 1e5}) {
@@ -165,13 +165,13 @@ TEST(CausticTextures, AreTheSameInAllUnits) {
 }
 
 TEST(CausticTextures, FewParticlesAreLeftToTheMesh) {
-  EXPECT_FALSE(makeCausticTextures(test::unitSquare(), test::drawImpacts(3, 1, test::discInVeil), {0.05, 0}));
+  EXPECT_FALSE(makeCausticTextures(test::unitSquare(), test::drawImpacts(3, 1, test::discInEvenLight), {0.05, 0}));
   EXPECT_FALSE(makeCausticTextures(test::unitSquare(), {}, {0.05, 0}));
-  EXPECT_FALSE(paper::makeTextures(test::unitSquare(), test::drawImpacts(9, 1, test::discInVeil)));
+  EXPECT_FALSE(paper::makeTextures(test::unitSquare(), test::drawImpacts(9, 1, test::discInEvenLight)));
 }
 
 TEST(CausticTextures, ValidateFindsLostFlux) {
-  auto s = makeCausticTextures(test::unitSquare(), test::drawImpacts(4000, 1, test::discInVeil), {0.05, 0});
+  auto s = makeCausticTextures(test::unitSquare(), test::drawImpacts(4000, 1, test::discInEvenLight), {0.05, 0});
   for (Rgb& texel : s->textures[0].texels) texel *= 1.01f;
   EXPECT_THROW(validate(*s), std::logic_error);
 }

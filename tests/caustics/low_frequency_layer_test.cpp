@@ -1,4 +1,4 @@
-#include "caustics/veil.hpp"
+#include "caustics/low_frequency_layer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -33,14 +33,14 @@ double stepOverBorders(const SurfaceCaustics& s, double E) {
   return count > 0 ? std::sqrt(squares / count) : 1e30;
 }
 
-TEST(Veil, LightDoesNotStepWhereAFineTextureEnds) {
-  const auto s = makeCausticTextures(test::unitSquare(), test::drawImpacts(20000, 3, test::discInVeil), {0.05, 0});
+TEST(LowFrequencyLayer, LightDoesNotStepWhereAFineTextureEnds) {
+  const auto s = makeCausticTextures(test::unitSquare(), test::drawImpacts(20000, 3, test::discInEvenLight), {0.05, 0});
   ASSERT_TRUE(s);
   ASSERT_GT(s->textures.size(), 1u);
   EXPECT_LT(stepOverBorders(*s, 0.3), 0.01);
 }
 
-TEST(Veil, FigureAtTheSurfacesOwnBorderStaysSharpThere) {
+TEST(LowFrequencyLayer, FigureAtTheSurfacesOwnBorderStaysSharpThere) {
   // A disc that the left border halves.
   const auto halfDisc = [](Rng& rng) {
     if (rng.uniform() < 0.3) return test::evenly(rng);
@@ -55,8 +55,8 @@ TEST(Veil, FigureAtTheSurfacesOwnBorderStaysSharpThere) {
   EXPECT_NEAR(sum / exact, 1, 0.03);
 }
 
-TEST(Veil, ChartKeepsItsFlux) {
-  const auto s = makeCausticTextures(test::unitSquare(), test::drawImpacts(20000, 3, test::discInVeil), {0.05, 0});
+TEST(LowFrequencyLayer, ChartKeepsItsFlux) {
+  const auto s = makeCausticTextures(test::unitSquare(), test::drawImpacts(20000, 3, test::discInEvenLight), {0.05, 0});
   ASSERT_TRUE(s);
   RgbSum shown(0.0);
   for (const CausticTexture& t : s->textures) shown += t.integral();

@@ -1,11 +1,12 @@
 #pragma once
-// What all of a chart looks like on coarse texels, figures of light and the veil around them: what is left of the light
-// when regions have been taken out of it, and what each of these goes over into.
+// What all of a chart looks like on coarse texels, figures of light and the layer around them: what is left of the
+// light when regions have been taken out of it, and what each of these goes over into.
 //
-// A region's own light has no share in what is beyond its border, and as few particles as the veil has leave both sides
-// with noise of their own: without more, light steps along the border. So the veil that is shown inside of a region is
-//   - that of the whole chart within the region's margin, where the veil is all that there is: entirely at the border;
-//   - wherever the region's widest kernels leave more noise than a quarter of the target error and the veil, which has
+// A region's own light has no share in what is beyond its border, and as few particles as the layer has leave both
+// sides with noise of their own: without more, light steps along the border. So the layer that is shown inside of a
+// region is
+//   - that of the whole chart within the region's margin, where the layer is all that there is: entirely at the border;
+//   - wherever the region's widest kernels leave more noise than a quarter of the target error and the layer, which has
 //     wider ones, does not contradict them: the next step of Lepski's method (bandwidth.hpp).
 // This moves flux between regions, of which the chart's whole is kept.
 #include "caustics/adaptive_kernel.hpp"
@@ -26,14 +27,14 @@ struct FadingBorder {
   double at(const Vec2& st) const;
 };
 
-class Veil {
+class LowFrequencyLayer {
  public:
   /// `all`: the chart before anything was taken out of it, whose grid and reconstruction these are. What is shown of
-  /// the veil has no light from within the borders, and is halved as often as the part that is left.
-  Veil(const ChartSurface&, ChartPart all, const CellGrid&, const AdaptiveEstimate&, std::span<const FadingBorder>,
-       int halvings);
+  /// the layer has no light from within the borders, and is halved as often as the part that is left.
+  LowFrequencyLayer(const ChartSurface&, ChartPart all, const CellGrid&, const AdaptiveEstimate&,
+                    std::span<const FadingBorder>, int halvings);
 
-  /// Gives the cells of a region, whose light is reconstructed, as much of the veil as they want.
+  /// Gives the cells of a region, whose light is reconstructed, as much of the layer as they want.
   void over(const CellGrid&, const FadingBorder&, const BandwidthRule&, AdaptiveEstimate&) const;
 
   /// Its texture where it is shown. `left`: the part that regions were taken out of.

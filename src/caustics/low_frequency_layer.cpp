@@ -1,4 +1,4 @@
-#include "caustics/veil.hpp"
+#include "caustics/low_frequency_layer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,9 @@ double FadingBorder::at(const Vec2& st) const {
   return 1 - smoothStep(inside);
 }
 
-Veil::Veil(const ChartSurface& surface, ChartPart all, const CellGrid& grid, const AdaptiveEstimate& reconstruction,
-           std::span<const FadingBorder> borders, int halvings)
+LowFrequencyLayer::LowFrequencyLayer(const ChartSurface& surface, ChartPart all, const CellGrid& grid,
+                                     const AdaptiveEstimate& reconstruction, std::span<const FadingBorder> borders,
+                                     int halvings)
     : all_(surface.texture(all, grid, {}, reconstruction.E)) {
   std::vector<ChartImpact> pieces;
   for (int y = 0; y < all_.height; ++y)
@@ -55,24 +56,24 @@ Veil::Veil(const ChartSurface& surface, ChartPart all, const CellGrid& grid, con
   shown_ = surface.texture(all, halved, {}, collect(halved, pieces).E);
 }
 
-void Veil::over(const CellGrid& grid, const FadingBorder& border, const BandwidthRule& rule,
-                AdaptiveEstimate& own) const {
+void LowFrequencyLayer::over(const CellGrid& grid, const FadingBorder& border, const BandwidthRule& rule,
+                             AdaptiveEstimate& own) const {
   for (std::uint32_t i = 0; i < grid.size(); ++i) {
     const auto texel = static_cast<int>(grid.texelOf(i));
     const Vec2 st = centreOf(grid.region(), grid.width(), grid.height(), texel % grid.width(), texel / grid.width());
     Rgb& E = own.E[i];
-    const Rgb veil = all_.sample(st);
-    const double difference = gray(veil) - gray(E), noise = std::max<double>(own.noise[i], 1e-30);
+    const Rgb layer = all_.sample(st);
+    const double difference = gray(layer) - gray(E), noise = std::max<double>(own.noise[i], 1e-30);
     const double allowed = rule.error * (gray(E) + rule.darkest);
     const double asked =
         smoothStep((noise / std::max(allowed, 1e-30) - tuning::kNoticed) / (tuning::kMatters - tuning::kNoticed));
     const double bearsOut = std::exp(-std::pow(difference / noise, 2));
-    E += static_cast<float>(asked * bearsOut) * (veil - E);
+    E += static_cast<float>(asked * bearsOut) * (layer - E);
     if (const double fades = border.at(st); fades > 0) E += static_cast<float>(fades) * (shown_.sample(st) - E);
   }
 }
 
-CausticTexture Veil::shownOn(const ChartPart& left) const {
+CausticTexture LowFrequencyLayer::shownOn(const ChartPart& left) const {
   CausticTexture shown = shown_;
   shown.areas = left.areas;
   shown.flux = RgbSum(0.0);
