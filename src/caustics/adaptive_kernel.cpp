@@ -35,11 +35,11 @@ class Smoothing {
         raster_.laidOut(times(light.squares, static_cast<float>(1 / (grid.meanArea() * mean_ * mean_))))};
     Slots first = told[0];
     const EdgeStopping walls = blurredWalls(raster_, told);
-    HeatFlow(raster_, walls.bandwidth, &walls.openness).apply(first, 1.0);
+    HeatFlow(raster_, walls.bandwidth, &walls.stopping).apply(first, 1.0);
     const double darkness = rule.error * (tuning::kMatters * medianOfFlux(raster_.areas(), first) + rule.darkest);
-    const Borders openness = sharpWalls(raster_, first, darkness);
-    Bandwidths widths = chooseBandwidths(raster_, HeatFlow(raster_, {}, &openness), told, rule);
-    flow_.emplace(raster_, widths.conductivity, &openness);
+    const Borders stopping = sharpWalls(raster_, first, darkness);
+    Bandwidths widths = chooseBandwidths(raster_, HeatFlow(raster_, {}, &stopping), told, rule);
+    flow_.emplace(raster_, widths.conductivity, &stopping);
     noise_ = std::move(widths.noise);
   }
 

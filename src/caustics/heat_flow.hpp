@@ -19,8 +19,8 @@ namespace deltalux::caustics {
 class HeatFlow {
  public:
   /// `conductivity`: D of every slot [unit^2 per unit of time], the same for the texels of a cell, or nothing: 1.
-  /// Across a border its harmonic mean holds, times the border's openness in [0, 1]; nullptr: all are open. The raster
-  /// must outlive this.
+  /// Across a border its harmonic mean holds, times the border's edge-stopping factor in [0, 1]; nullptr: all are open.
+  /// The raster must outlive this.
   HeatFlow(const CellRaster&, std::span<const float> conductivity, const Borders* open = nullptr);
 
   /// E after `time`, in place. E is a density over the cells' areas, the same for the texels of a cell.

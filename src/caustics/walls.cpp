@@ -97,18 +97,18 @@ Slots mediansAround(const CellRaster& raster, const Slots& E) {
 
 /// By border: exp(-x / contrast^2), x = squared(slot, slot), halved over diagonals: the cells are further apart.
 template <class Squared>
-Borders opennessBy(const CellRaster& raster, double contrast, const Squared& squared) {
-  Borders openness;
+Borders edgeStopping(const CellRaster& raster, double contrast, const Squared& squared) {
+  Borders stopping;
   const std::size_t begin = raster.rowBegin(0), end = raster.rowBegin(raster.rows());
-  for (std::size_t b = 0; b < openness.size(); ++b) {
-    openness[b].assign(raster.slots(), 1.0f);
+  for (std::size_t b = 0; b < stopping.size(); ++b) {
+    stopping[b].assign(raster.slots(), 1.0f);
     const auto factor = static_cast<float>((b < 2 ? 1 : 0.5) / (contrast * contrast));
     const std::size_t across = raster.across()[b];
-    float* const to = openness[b].data();
+    float* const to = stopping[b].data();
     for (std::size_t i = begin; i < end; ++i)
       to[i] = std::max(deltalux::tuning::kNegligible, expOf(-factor * squared(i, i + across)));
   }
-  return openness;
+  return stopping;
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ EdgeStopping blurredWalls(const CellRaster& raster, const Channels& light) {
   const auto half = static_cast<float>(raster.meanArea() / (8 * kPi));
   for (std::size_t i = 0; i < raster.slots(); ++i) walls.bandwidth[i] = half / overlap[i];
   constexpr auto cell = static_cast<float>(4 * kPi);
-  walls.openness = opennessBy(raster, tuning::kConfidence, [=](std::size_t a, std::size_t b) {
+  walls.stopping = edgeStopping(raster, tuning::kConfidence, [=](std::size_t a, std::size_t b) {
     const float jump = 2 * (root[a] - root[b]);
     // Over the kernel's width, not over the one cell.
     const float widths = std::max(1 / (cell * std::max(overlap[a], overlap[b])), 0.25f);
@@ -140,7 +140,7 @@ Borders sharpWalls(const CellRaster& raster, const Slots& E, double darkness) {
   for (float& r : roots) r = std::sqrt(r + least);
   const float* const root = roots.data();
   const auto noise = static_cast<float>(2 * std::sqrt(tuning::kEnough));
-  return opennessBy(raster, tuning::kSharp, [=](std::size_t a, std::size_t b) {
+  return edgeStopping(raster, tuning::kSharp, [=](std::size_t a, std::size_t b) {
     const float jump = noise * (1 - std::min(root[a], root[b]) / std::max(std::max(root[a], root[b]), kTinyWeight));
     return jump * jump;
   });
