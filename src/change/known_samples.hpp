@@ -23,8 +23,8 @@ bool holdShadowRays(const MovedSpace&, const direct::DirectSampler&, const hiera
                     hierarchy::ElementId patch, const direct::KnownPoints&, const direct::LampSight& above,
                     const direct::LeafDirect&);
 
-/// Tells the fate of those shadow rays of a patch to the sky that are as they were, by their codes in the order of its
-/// sequence. Returns whether all of them are. Sizes must agree.
+/// Tells the visibility of those shadow rays of a patch to the sky that are as they were, by their codes in the order
+/// of its sequence. Returns whether all of them are. Sizes must agree.
 bool holdSkyRays(const MovedSpace&, const hierarchy::Elements&, hierarchy::ElementId patch,
                  std::span<const lines::LineCode>, std::span<direct::SkyRay>);
 

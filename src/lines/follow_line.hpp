@@ -17,7 +17,7 @@ enum class LineTermination : std::uint8_t {
 };
 
 struct LineEnd {
-  LineTermination fate = LineTermination::Lost;
+  LineTermination termination = LineTermination::Lost;
   bool turned = false;                 // it has gone on over something else than straight passages
   bool rough = false;                  // some of that were rough lobes: the way back has another chance
   bool dimmed = false;                 // weight is not 1
