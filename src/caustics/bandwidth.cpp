@@ -54,7 +54,7 @@ class WidthSearch {
   }
 
   /// Whether most cells are content with the last of these levels, or a narrower one.
-  bool judge(const std::vector<ScaleLevel>& levels) {
+  bool evaluate(const std::vector<ScaleLevel>& levels) {
     const auto log = static_cast<float>(std::log(levels.back().width / std::sqrt(raster_.meanArea())));
     const Overlaps whole(levels, raster_.meanArea(), raster_.meanArea());
     const std::size_t end = raster_.rowBegin(raster_.rows());
@@ -131,7 +131,7 @@ Bandwidths chooseBandwidths(const CellRaster& raster, const HeatFlow& even, cons
                             const BandwidthRule& rule) {
   ScaleSpace space(raster, even, light, tuning::kWidest, tuning::kWidthFactor);
   WidthSearch search(raster, rule);
-  while (space.widen() && !search.judge(space.levels())) {
+  while (space.widen() && !search.evaluate(space.levels())) {
   }
   // Choices are noisy too: their logarithms blend with their neighbours'.
   Slots D = std::move(search.logs());

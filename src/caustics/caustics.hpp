@@ -59,7 +59,7 @@ struct OtherLight {
 OtherLight otherLight(const Scene&, const hierarchy::Elements&, const SurfaceSides&);
 std::vector<double> meanOtherLight(const Scene&, const hierarchy::Elements&);
 
-/// Judges all that landed on the sides `remade`, and makes the textures of those that need them; others are not
+/// Evaluates all that landed on the sides `remade`, and makes the textures of those that need them; others are not
 /// touched. Returns how many textures it made.
 std::size_t remakeCaustics(Caustics&, const Scene&, const hierarchy::Elements&, std::vector<particles::Impact>,
                            double error, const std::vector<char>& remade, const TextureRule& = adaptiveRule());

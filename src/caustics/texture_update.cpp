@@ -70,7 +70,7 @@ TextureUpdate::Report TextureUpdate::follow(const particles::ParticleUpdate& upd
     sides[side] = changed(side, background[side], caustics.of(PrimitiveId(side / 2), side % 2 == 0));
   });
   Report report;
-  report.judged = static_cast<std::uint64_t>(std::count(sides.begin(), sides.end(), 1));
+  report.evaluated = static_cast<std::uint64_t>(std::count(sides.begin(), sides.end(), 1));
   for (SurfaceCaustics& s : caustics.surfaces)
     if (const std::size_t side = particles::sideIndex(s.primitive, s.front); !sides[side])
       report.scaled += rescale(s, fluxOf(side), particles::tuning::kChangeMatters * error_);

@@ -12,8 +12,8 @@
 //   - light that became more or less as a whole, as of a dimmed lamp, is taken for a change only of what is left after
 //   a
 //     common factor; textures are multiplied by it;
-//   - all other sides are judged and made anew (adaptive_textures.hpp), and so are those where other light has changed
-//   so
+//   - all other sides are evaluated and made anew (adaptive_textures.hpp), and so are those where other light has
+//   changed so
 //     much that noise matters more, or less, than it did. [GD01 4: textures whose particles changed]
 // Cost: some nanoseconds an impact, and 0.25 microseconds a texel of what is made anew. Memory: 12 bytes an impact.
 #include "caustics/caustics.hpp"
@@ -30,9 +30,9 @@ class TextureUpdate {
     const particles::Particles& particles;
   };
   struct Report {
-    std::uint64_t judged = 0;   // sides whose light has changed
-    std::uint64_t rebuilt = 0;  // textures made anew
-    std::uint64_t scaled = 0;   // sides whose textures were multiplied
+    std::uint64_t evaluated = 0;  // sides whose light has changed
+    std::uint64_t rebuilt = 0;    // textures made anew
+    std::uint64_t scaled = 0;     // sides whose textures were multiplied
   };
 
   /// Of textures that show the particles as they are now, sent with the light that there is now. The parts must outlive

@@ -95,7 +95,7 @@ void Aim::learn(const PointSampler& light, std::span<const Receiver> places, int
   std::vector<Look> looks;
   for (int round = 0; round < tuning::kLearningRounds && !dark(); ++round) {
     look(light, places, rays / tuning::kLearningRounds, combineKeys(key, static_cast<std::uint64_t>(round)), looks);
-    judge(looks);
+    evaluate(looks);
   }
 }
 
@@ -115,7 +115,7 @@ void Aim::look(const PointSampler& light, std::span<const Receiver> places, int 
   }
 }
 
-void Aim::judge(std::vector<Look>& looks) {
+void Aim::evaluate(std::vector<Look>& looks) {
   std::sort(looks.begin(), looks.end(), [](const Look& a, const Look& b) { return a.square < b.square; });
   std::vector<Square> squares;
   std::vector<Look> kept;

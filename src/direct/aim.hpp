@@ -86,7 +86,7 @@ class Aim {
   void keepFromSpecks(float light, int rays);
   void look(const PointSampler&, std::span<const Receiver> places, int rays, std::uint64_t key,
             std::vector<Look>&) const;
-  void judge(std::vector<Look>&);
+  void evaluate(std::vector<Look>&);
   static bool uneven(const Square&, std::span<const Look>);
   void divide(const Square&, std::span<Look>, std::vector<Square>& squares, std::vector<Look>& looks) const;
 

@@ -10,7 +10,7 @@ namespace deltalux::engine {
 
 struct Growth {
   hierarchy::ElementId root;                      // of what has grown, or none; its links are still to be made
-  std::vector<hierarchy::ElementId> reactivated;  // and they, to be judged anew
+  std::vector<hierarchy::ElementId> reactivated;  // and they, to be evaluated again
   std::vector<hierarchy::ElementId> inactive;
 
   bool empty() const { return !root.valid() && reactivated.empty() && inactive.empty(); }

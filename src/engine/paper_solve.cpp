@@ -23,7 +23,7 @@ void Engine::State::paperRound(Progress* progress) {
     s.report.converged = finished = true;
     return;
   }
-  paper::OracleSettings oracle = linksJudged();
+  paper::OracleSettings oracle = linkSettings();
   const double least = oracle.error;
   oracle.error = std::max(nextError, least);
   const bool last = oracle.error <= least;
@@ -67,7 +67,7 @@ void Engine::State::prepare(Progress* progress) {
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.counts.raysVisibility += coarse.rays;
   s.report.times.hierarchy += time.seconds() - s.report.times.particles;
-  nextError = linksJudged().error * engine::tuning::kFirstError *
+  nextError = linkSettings().error * engine::tuning::kFirstError *
               (previewed || budget.limited() ? engine::tuning::kHasty : 1.0);
   if (progress) progress->report("hierarchy", 1.0);
 }

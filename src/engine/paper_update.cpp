@@ -33,7 +33,7 @@ void Engine::State::paperUpdate(const engine::SceneUpdate& edits, double share, 
   step.times.particles += splitting.seconds();
   engine::Growth growth = grow(edits, followed, step);
   growth.reactivated.insert(growth.reactivated.end(), reflecting.begin(), reflecting.end());
-  judgeAnew(std::move(marks), growth, step);
+  evaluateAgain(std::move(marks), growth, step);
 
   std::vector<hierarchy::ElementId> changed = engine::leavesBelow(s.elements, growth);
   changed.insert(changed.end(), painted.begin(), painted.end());
@@ -129,7 +129,7 @@ engine::Growth Engine::State::grow(const engine::SceneUpdate& edits, const parti
   return growth;
 }
 
-void Engine::State::judgeAnew(paper::LinkMarks marks, const engine::Growth& growth, StepReport& step) {
+void Engine::State::evaluateAgain(paper::LinkMarks marks, const engine::Growth& growth, StepReport& step) {
   Solution& s = *solution;
   const paper::Parts parts{s.scene, *s.tracer, s.elements, s.links};
   const engine::Clock time;
@@ -137,7 +137,7 @@ void Engine::State::judgeAnew(paper::LinkMarks marks, const engine::Growth& grow
   step.linksVisited = marks.visited;
   step.times.visibility += time.seconds();
   const engine::Clock refining;
-  const paper::RefineReport refined = paper::follow(parts, marks, linksJudged(), *lists);
+  const paper::RefineReport refined = paper::follow(parts, marks, linkSettings(), *lists);
   s.report.counts.raysVisibility += refined.rays;
   step.linksChanged = refined.changed;
   step.times.refine = refining.seconds();
@@ -158,7 +158,7 @@ void Engine::State::placeParticles(const particles::ParticleUpdate& followed,
 bool Engine::State::refineByNewLight(Progress* progress) {
   Solution& s = *solution;
   const std::size_t elements = s.elements.size();
-  const paper::RefineReport refined = refineLinks(linksJudged(), progress);
+  const paper::RefineReport refined = refineLinks(linkSettings(), progress);
   if (s.elements.size() != elements) transfer->follow(s.particles, {}, s.elements, s.scene);
   return refined.created > 0 || refined.rays > 0;
 }

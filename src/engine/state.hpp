@@ -59,7 +59,7 @@ struct Engine::State {
   SolveReport step(Progress* progress);
   void lineRound(Progress* progress);
   void countParticles();
-  /// Of the light in the end, as updates judge it.
+  /// Of the light in the end, as updates evaluate it.
   void makeTextures();
   /// Those there were, where edits have left nearly all of their particles.
   void followTextures(StepReport& step);
@@ -84,8 +84,8 @@ struct Engine::State {
   bool iterateOverLinks(bool well, Progress* progress);
   /// The same over what edits have changed [GD01 5]; `changed`: elements that are others.
   void iterateOverLists(std::span<const hierarchy::ElementId> changed);
-  /// How links are judged when they are as fine as the error asks for.
-  paper::OracleSettings linksJudged() const { return paper::judgedFor(solution->settings.error); }
+  /// How links are evaluated when they are as fine as the error asks for.
+  paper::OracleSettings linkSettings() const { return paper::oracleSettingsFor(solution->settings.error); }
 
   // Updating.
   Restore apply(const Edit& edit);
@@ -129,7 +129,7 @@ struct Engine::State {
   /// Elements for what the edits brought into the light.
   engine::Growth grow(const engine::SceneUpdate& edits, const particles::ParticleUpdate& newPaths, StepReport& step);
   /// Links of what has moved, grown or been reactivated.
-  void judgeAnew(paper::LinkMarks marks, const engine::Growth& growth, StepReport& step);
+  void evaluateAgain(paper::LinkMarks marks, const engine::Growth& growth, StepReport& step);
   /// On the mesh as it is now, of which these patches reflect otherwise, or are others.
   void placeParticles(const particles::ParticleUpdate& newPaths, std::span<const hierarchy::ElementId> changed);
   /// Of surfaces whose particles have changed. [GD01 4]

@@ -34,7 +34,7 @@ void Links::setEnds(LinkId id, ElementId receiver, ElementId sender) {
   all[id.index()].receiver = receiver, all[id.index()].sender = sender;
 }
 
-void Links::judged(LinkId id, const Link& as) {
+void Links::evaluated(LinkId id, const Link& as) {
   Link& l = all[id.index()];
   l.K = as.K, l.V = as.V;
   l.receiverSpread = as.receiverSpread, l.senderSpread = as.senderSpread, l.visibilitySpread = as.visibilitySpread;

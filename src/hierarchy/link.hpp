@@ -57,8 +57,8 @@ class Links {
   /// `count` contiguous links below `parent`, which becomes Interior. The caller sets their ends by setEnds.
   LinkId addChildren(LinkId parent, std::size_t count);
   void setEnds(LinkId, ElementId receiver, ElementId sender);
-  /// Gives a link what it was judged to be; its place in the tree stays. The one way to change links.
-  void judged(LinkId, const Link&);
+  /// Gives a link what it was evaluated to be; its place in the tree stays. The one way to change links.
+  void evaluated(LinkId, const Link&);
   /// Frees all links below an interior link, which becomes Active.
   void collapse(LinkId);
   std::size_t memoryBytes() const { return all.capacity() * sizeof(Link); }

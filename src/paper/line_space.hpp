@@ -21,7 +21,7 @@ struct DisturbedLink {
   std::uint32_t rays = 0;  // which of those that sampled it may fare otherwise, by bits
 };
 
-/// Links that are to be judged anew.
+/// Links that are to be evaluated again.
 struct LinkMarks {
   std::vector<DisturbedLink> between;
   std::vector<hierarchy::LinkId> moved;    // an end of theirs moved, or holds what moved

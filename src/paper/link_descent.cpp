@@ -50,10 +50,10 @@ RefineReport LinkDescent::run() {
   while (!tasks.empty()) {
     const std::size_t blocks = (tasks.size() + kLinkBlock - 1) / kLinkBlock;
     if (level_.size() < blocks) level_.resize(blocks);
-    const LinkJudge judge(elements_, scene_, tracer_, settings_);
+    const LinkEvaluator evaluator(elements_, scene_, tracer_, settings_);
     parallelBlocks(tasks.size(), kLinkBlock, [&](std::size_t begin, std::size_t end) {
-      judgeBlock(judge, std::span(tasks).subspan(begin, end - begin), static_cast<std::uint32_t>(begin / kLinkBlock),
-                 level_[begin / kLinkBlock]);
+      evaluateBlock(evaluator, std::span(tasks).subspan(begin, end - begin),
+                    static_cast<std::uint32_t>(begin / kLinkBlock), level_[begin / kLinkBlock]);
     });
     next.clear();
     const bool stopping = stop && stop();
@@ -74,35 +74,37 @@ RefineReport LinkDescent::run() {
   return report_;
 }
 
-void LinkDescent::judgeBlock(const LinkJudge& judge, std::span<const Task> tasks, std::uint32_t index, Block& block) {
+void LinkDescent::evaluateBlock(const LinkEvaluator& evaluator, std::span<const Task> tasks, std::uint32_t index,
+                                Block& block) {
   block.blockers.clear(), block.next.clear(), block.pending.clear();
   block.report = {};
   for (Task task : tasks) {
     const hierarchy::ElementId* const candidates = above_[task.block].blockers.data() + task.candidates.begin;
-    const Verdict v = verdictOf(judge, task, {candidates, task.candidates.count, block.blockers});
+    const Evaluation v = evaluationOf(evaluator, task, {candidates, task.candidates.count, block.blockers});
     block.report.rays += v.rays;
     task.block = index;
     if (!finish(task, v, block)) block.pending.push_back({task, v, block.next.size()});
   }
 }
 
-Verdict LinkDescent::verdictOf(const LinkJudge& judge, const Task& t, const Candidates& candidates) const {
+Evaluation LinkDescent::evaluationOf(const LinkEvaluator& evaluator, const Task& t,
+                                     const Candidates& candidates) const {
   const hierarchy::Link& link = links_[t.link];
-  Verdict v = judged(judge, link, t, candidates);
+  Evaluation v = evaluated(evaluator, link, t, candidates);
   v.refined = t.mark > LinkMark::Path && link.state == hierarchy::LinkState::Interior && v.split == Split::None &&
-              judge.splits(link);
+              evaluator.splits(link);
   return v;
 }
 
-Verdict LinkDescent::judged(const LinkJudge& judge, const hierarchy::Link& link, const Task& t,
-                            const Candidates& candidates) const {
+Evaluation LinkDescent::evaluated(const LinkEvaluator& evaluator, const hierarchy::Link& link, const Task& t,
+                                  const Candidates& candidates) const {
   const bool interior = link.state == hierarchy::LinkState::Interior;
-  if (t.mark == LinkMark::Way && interior) return judge.passUnseen(link, candidates);
-  if (t.mark == LinkMark::Path && interior) return judge.pass(link, candidates);
-  if (t.mark == LinkMark::Between) return judge.judgeBetween(link, raysOf(t.link), candidates);
-  if (t.mark == LinkMark::Ends) return judge.judgeMoved(link, candidates);
+  if (t.mark == LinkMark::Way && interior) return evaluator.passUnseen(link, candidates);
+  if (t.mark == LinkMark::Path && interior) return evaluator.pass(link, candidates);
+  if (t.mark == LinkMark::Between) return evaluator.evaluateBetween(link, raysOf(t.link), candidates);
+  if (t.mark == LinkMark::Ends) return evaluator.evaluateMoved(link, candidates);
   const hierarchy::Link& above = link.parent.valid() ? links_[link.parent] : link;
-  return judge.judge(link, above.visibility == hierarchy::Visibility::Sampled && !isBlack(above.V), candidates);
+  return evaluator.evaluate(link, above.visibility == hierarchy::Visibility::Sampled && !isBlack(above.V), candidates);
 }
 
 std::uint32_t LinkDescent::raysOf(hierarchy::LinkId id) const {
@@ -111,9 +113,9 @@ std::uint32_t LinkDescent::raysOf(hierarchy::LinkId id) const {
       ->rays;
 }
 
-/// Takes a verdict that leaves the tree and its lists as they are; false when it does not. Nothing is written that
+/// Takes a evaluation that leaves the tree and its lists as they are; false when it does not. Nothing is written that
 /// other links of the level read.
-bool LinkDescent::finish(const Task& task, const Verdict& v, Block& block) {
+bool LinkDescent::finish(const Task& task, const Evaluation& v, Block& block) {
   const hierarchy::Link& link = links_[task.link];
   const bool anew = task.mark > LinkMark::Path, interior = link.state == hierarchy::LinkState::Interior;
   const bool same = anew && sameTransfer(link, v.link);
@@ -121,24 +123,24 @@ bool LinkDescent::finish(const Task& task, const Verdict& v, Block& block) {
   // A link collapses for what a move has changed, not for light that has converged since it was refined. One that shows
   // nothing any more stays refined for when what hides it moves on: until then that costs no more than its place.
   if (interior && (!anew || same || v.split != Split::None || !v.refined || v.link.unseen())) {
-    if (anew && !same) links_.judged(task.link, v.link);
+    if (anew && !same) links_.evaluated(task.link, v.link);
     descend(task, v, block.next, false);
     return true;
   }
   if (same) return true;
   if (interior || v.split != Split::None) return false;
-  links_.judged(task.link, v.link);
+  links_.evaluated(task.link, v.link);
   return true;
 }
 
 void LinkDescent::commit(const Pending& p, bool stopping, std::vector<Task>& next) {
   const hierarchy::LinkId id = p.task.link;
-  const Verdict& v = p.verdict;
+  const Evaluation& v = p.evaluation;
   if (links_[id].state == hierarchy::LinkState::Interior) {
     if (collapsing) collapsing(id);
     links_.collapse(id);
   }
-  links_.judged(id, v.link);
+  links_.evaluated(id, v.link);
   if (v.split == Split::None) return;
   const bool optional =
       v.link.receiver != v.link.sender && v.link.K >= 0 && v.link.visibility != hierarchy::Visibility::Unknown;
@@ -151,7 +153,7 @@ void LinkDescent::commit(const Pending& p, bool stopping, std::vector<Task>& nex
   descend(p.task, v, next, true);
 }
 
-void LinkDescent::descend(const Task& task, const Verdict& v, std::vector<Task>& next, bool fresh) const {
+void LinkDescent::descend(const Task& task, const Evaluation& v, std::vector<Task>& next, bool fresh) const {
   const hierarchy::Link& link = links_[task.link];
   for (std::size_t c = 0; c < link.childCount; ++c) {
     const hierarchy::LinkId child = links_.child(task.link, c);

@@ -1,16 +1,16 @@
 #pragma once
-// One descent over marked links of the tree, level by level: each is judged (link_judge.hpp), and accepted, split or
-// collapsed. refine.hpp says what it is for.
+// One descent over marked links of the tree, level by level: each is evaluated (link_evaluator.hpp), and accepted,
+// split or collapsed. refine.hpp says what it is for.
 //
-// Links of a level are judged side by side, from elements and links above that stand still; those that keep their place
-// in the tree take what they were judged to be at once. What changes the tree or its elements follows in the order of
-// the level, so the result does not depend on the number of threads.
+// Links of a level are evaluated side by side, from elements and links above that stand still; those that keep their
+// place in the tree take what they were evaluated to be at once. What changes the tree or its elements follows in the
+// order of the level, so the result does not depend on the number of threads.
 #include <functional>
 #include <span>
 #include <vector>
 
 #include "base/paged_array.hpp"
-#include "paper/link_judge.hpp"
+#include "paper/link_evaluator.hpp"
 #include "paper/refine.hpp"
 
 namespace deltalux::paper {
@@ -55,7 +55,7 @@ class LinkDescent {
   };
   struct Pending {
     Task task;
-    Verdict verdict;
+    Evaluation evaluation;
     std::size_t place;  // of its children among `next`
   };
   /// What becomes of some links of a level.
@@ -66,13 +66,13 @@ class LinkDescent {
     RefineReport report;
   };
 
-  void judgeBlock(const LinkJudge&, std::span<const Task>, std::uint32_t index, Block&);
-  Verdict verdictOf(const LinkJudge&, const Task&, const Candidates&) const;
-  Verdict judged(const LinkJudge&, const hierarchy::Link&, const Task&, const Candidates&) const;
+  void evaluateBlock(const LinkEvaluator&, std::span<const Task>, std::uint32_t index, Block&);
+  Evaluation evaluationOf(const LinkEvaluator&, const Task&, const Candidates&) const;
+  Evaluation evaluated(const LinkEvaluator&, const hierarchy::Link&, const Task&, const Candidates&) const;
   std::uint32_t raysOf(hierarchy::LinkId) const;
-  bool finish(const Task&, const Verdict&, Block&);
+  bool finish(const Task&, const Evaluation&, Block&);
   void commit(const Pending&, bool stopping, std::vector<Task>& next);
-  void descend(const Task&, const Verdict&, std::vector<Task>& next, bool fresh) const;
+  void descend(const Task&, const Evaluation&, std::vector<Task>& next, bool fresh) const;
 
   hierarchy::Links& links_;
   hierarchy::Elements& elements_;

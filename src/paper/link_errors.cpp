@@ -16,7 +16,7 @@ constexpr double kParts = 4;                         // links that one is split 
 
 LinkErrors::LinkErrors(const hierarchy::Links& links, const hierarchy::Elements& elements,
                        const OracleSettings& settings)
-    : judgedAt_(settings.error) {
+    : evaluatedAt_(settings.error) {
   struct Bins {
     std::array<std::uint64_t, kBins> count{};
     Bins& operator+=(const Bins& o) {
@@ -29,7 +29,7 @@ LinkErrors::LinkErrors(const hierarchy::Links& links, const hierarchy::Elements&
              Bins bins;
              const hierarchy::Link& l = links.all[i];
              if (l.state != hierarchy::LinkState::Active || l.visibility == hierarchy::Visibility::Blocked) return bins;
-             const LinkError e = oracle.judge(l);
+             const LinkError e = oracle.evaluate(l);
              if (!(e.total() > 0) || !(e.budget > 0)) return bins;
              const double bin = kBinsPerOctave * (std::log2(e.total() / e.budget) - kLowest);
              bins.count[static_cast<std::size_t>(std::clamp(bin, 0.0, kBins - 1.0))] = 1;
@@ -40,7 +40,7 @@ LinkErrors::LinkErrors(const hierarchy::Links& links, const hierarchy::Elements&
 double LinkErrors::madeBy(double error) const {
   double made = 0;
   for (std::size_t i = 0; i < kBins; ++i) {
-    const double q = std::exp2((static_cast<double>(i) + 0.5) / kBinsPerOctave + kLowest) * judgedAt_ / error;
+    const double q = std::exp2((static_cast<double>(i) + 0.5) / kBinsPerOctave + kLowest) * evaluatedAt_ / error;
     if (q > 1) made += kParts * q * static_cast<double>(count_[i]);
   }
   return made;

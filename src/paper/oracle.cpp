@@ -69,7 +69,7 @@ bool Oracle::divisible(hierarchy::ElementId e) const {
   return elements_.shape(e).area > settings_.finest * settings_.error * referenceArea(e);
 }
 
-LinkError Oracle::judge(const hierarchy::Link& link) const {
+LinkError Oracle::evaluate(const hierarchy::Link& link) const {
   LinkError e;
   e.budget = budget(link.receiver) *
              (elements_.at(link.sender).emitter && elements_.isPatch(link.receiver) ? settings_.direct : 1.0);

@@ -8,7 +8,7 @@
 // so an error on less than A_0 weighs only as much as its share of A_0. Nothing here depends on the scene's size, and
 // shadow edges end at patches of about error * A_0.
 //
-// Which error is asked of links for one of irradiance: judgedFor() (solve.hpp).
+// Which error is asked of links for one of irradiance: oracleSettingsFor() (solve.hpp).
 #include "hierarchy/link.hpp"
 
 namespace deltalux::paper {
@@ -39,7 +39,7 @@ class Oracle {
   Oracle(const hierarchy::Elements&, const OracleSettings&);
 
   /// The error of a link whose K and spreads are set; visibility counts as far as it is known.
-  LinkError judge(const hierarchy::Link&) const;
+  LinkError evaluate(const hierarchy::Link&) const;
   /// Power that links to `receiver` may err by [W].
   double budget(hierarchy::ElementId receiver) const;
   /// Side of the area that matters around an element, squared: A_0.

@@ -44,8 +44,8 @@ RefineReport refine(hierarchy::Links& links, hierarchy::Elements& elements, cons
                     const std::function<bool()>& stop) {
   makeRootLinks(links, elements);
   std::vector<char> unrefined(links.size(), 0);
-  const LinkJudge judge(elements, scene, tracer, settings);
-  parallelFor(links.size(), 4096, [&](std::size_t i) { unrefined[i] = judge.unrefined(links.all[i]); });
+  const LinkEvaluator evaluator(elements, scene, tracer, settings);
+  parallelFor(links.size(), 4096, [&](std::size_t i) { unrefined[i] = evaluator.unrefined(links.all[i]); });
   LinkDescent::Marks marks(links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (!unrefined[i]) continue;
@@ -57,9 +57,9 @@ RefineReport refine(hierarchy::Links& links, hierarchy::Elements& elements, cons
   return descent.run();
 }
 
-RefineReport rejudge(hierarchy::Links& links, hierarchy::Elements& elements, const Scene& scene,
-                     const tracing::RayTracer& tracer, const OracleSettings& settings, LinkMarks& marked,
-                     std::function<void(hierarchy::LinkId)> collapsing) {
+RefineReport evaluateAgain(hierarchy::Links& links, hierarchy::Elements& elements, const Scene& scene,
+                           const tracing::RayTracer& tracer, const OracleSettings& settings, LinkMarks& marked,
+                           std::function<void(hierarchy::LinkId)> collapsing) {
   std::sort(marked.between.begin(), marked.between.end(),
             [](const DisturbedLink& a, const DisturbedLink& b) { return a.link < b.link; });
   LinkDescent::Marks marks(links.size());

@@ -3,8 +3,8 @@
 // level by level, with the blocker lists handed from parent to child; accepts links whose error is within the budget
 // and splits an end of the others [GD01 2.1; SIL95 III.B; HW91].
 //
-// How it goes down, level by level, on how many threads ever: link_descent.hpp. Links accepted earlier are judged again
-// with today's radiosities: refining an already refined tree with a smaller error continues it (multigridding).
+// How it goes down, level by level, on how many threads ever: link_descent.hpp. Links accepted earlier are evaluated
+// again with today's radiosities: refining an already refined tree with a smaller error continues it (multigridding).
 // Cost: one kernel, one shaft and at most kMaxSamples rays a link.
 #include <functional>
 
@@ -26,11 +26,11 @@ void makeRootLinks(hierarchy::Links&, const hierarchy::Elements&);
 /// Makes the root links between what has grown and everything, itself included.
 void addRootLinks(hierarchy::Links&, const hierarchy::Elements&, hierarchy::ElementId grown);
 
-/// Judges the marked links anew after a move: active ones whose ends or visibility changed, interior ones that may no
-/// longer need to be refined, which collapse (`collapsing` is told each of them before it does); and refines root links
-/// that were made since the marks were.
-RefineReport rejudge(hierarchy::Links&, hierarchy::Elements&, const Scene&, const tracing::RayTracer&,
-                     const OracleSettings&, LinkMarks& marks, std::function<void(hierarchy::LinkId)> collapsing);
+/// Evaluates the marked links anew after a move: active ones whose ends or visibility changed, interior ones that may
+/// no longer need to be refined, which collapse (`collapsing` is told each of them before it does); and refines root
+/// links that were made since the marks were.
+RefineReport evaluateAgain(hierarchy::Links&, hierarchy::Elements&, const Scene&, const tracing::RayTracer&,
+                           const OracleSettings&, LinkMarks& marks, std::function<void(hierarchy::LinkId)> collapsing);
 
 /// `stop` is asked between levels; true ends refinement with a consistent tree.
 RefineReport refine(hierarchy::Links&, hierarchy::Elements&, const Scene&, const tracing::RayTracer&,

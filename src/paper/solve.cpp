@@ -18,7 +18,7 @@ RgbSum directPower(const hierarchy::Elements& e) {
   });
 }
 
-OracleSettings judgedFor(double error) {
+OracleSettings oracleSettingsFor(double error) {
   OracleSettings settings;
   settings.error = tuning::kLinkError * error;
   return settings;

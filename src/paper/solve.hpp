@@ -1,7 +1,7 @@
 #pragma once
 // Hierarchical radiosity with clustering, of which links carry the light [GD01 2.1]: they are refined in rounds, each
-// to a smaller error than the one before, and light converges over them after each, so that the next judges them by the
-// light there is. The last round refines to what the error of irradiance that is asked for comes to for links.
+// to a smaller error than the one before, and light converges over them after each, so that the next evaluates them by
+// the light there is. The last round refines to what the error of irradiance that is asked for comes to for links.
 //
 // How errors map: docs/links.md. Cost: refinement, one kernel, one shaft and at most 16 rays a link; iteration, some
 // ten nanoseconds a link and iteration. Nothing here depends on the number of threads.
@@ -24,8 +24,8 @@ struct Parts {
   hierarchy::Links& links;
 };
 
-/// How links are judged in the last round, for a relative error of irradiance.
-OracleSettings judgedFor(double error);
+/// How links are evaluated in the last round, for a relative error of irradiance.
+OracleSettings oracleSettingsFor(double error);
 /// The error of links in the round after one of `error`, of a solve that ends at `least`.
 double nextError(double error, double least);
 

@@ -46,8 +46,8 @@ void arrive(const Parts& x, LinkMarks& marks, const Newcomers& newcomers) {
 
 RefineReport follow(const Parts& x, LinkMarks& marks, const OracleSettings& settings, IrradianceLists& lists) {
   lists.remove(x.elements, x.links, marks);
-  const RefineReport refined = rejudge(x.links, x.elements, x.scene, x.tracer, settings, marks,
-                                       [&](hierarchy::LinkId id) { lists.removeBelow(x.elements, x.links, id); });
+  const RefineReport refined = evaluateAgain(x.links, x.elements, x.scene, x.tracer, settings, marks,
+                                             [&](hierarchy::LinkId id) { lists.removeBelow(x.elements, x.links, id); });
   lists.add(x.elements, x.links);
   DELTALUX_VALIDATED(validate(x.links, x.elements));
   return refined;

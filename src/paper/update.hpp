@@ -1,8 +1,8 @@
 #pragma once
 // What a move does to links [GD01 5]: those that it touches are found by the line-space traversal, where things stand
-// before they leave; they are judged anew where things have arrived, refined or made coarse again. The light that they
-// brought is taken out of their receivers, and what they bring now is put in (irradiance_lists.hpp). Cost: some 0.1
-// microseconds a link visited, and what judging costs those that are touched.
+// before they leave; they are evaluated again where things have arrived, refined or made coarse again. The light that
+// they brought is taken out of their receivers, and what they bring now is put in (irradiance_lists.hpp). Cost: some
+// 0.1 microseconds a link visited, and what evaluating costs those that are touched.
 #include <deltalux/edit.hpp>
 
 #include "paper/irradiance_lists.hpp"
@@ -25,7 +25,7 @@ struct Newcomers {
 /// It comes to its new place, and newcomers with it: adds the links of these to the marks.
 void arrive(const Parts&, LinkMarks&, const Newcomers&);
 
-/// Judges the marked links anew. `lists`: of the light that they bring.
+/// Evaluates the marked links anew. `lists`: of the light that they bring.
 RefineReport follow(const Parts&, LinkMarks&, const OracleSettings&, IrradianceLists& lists);
 
 }  // namespace deltalux::paper

@@ -13,9 +13,9 @@ namespace deltalux::particles {
 namespace {
 
 /// What the pilots at a link are for: whether it is to be refined, and which end.
-class Judge {
+class Evaluator {
  public:
-  Judge(const Senders& senders, const Receivers& receivers) : senders_(senders), receivers_(receivers) {}
+  Evaluator(const Senders& senders, const Receivers& receivers) : senders_(senders), receivers_(receivers) {}
 
   bool near(const LinkEnds& ends) const {
     const BoundingSphere &s = senders_.bound(ends.sender), &r = receivers_.bound(ends.receiver);
@@ -50,17 +50,17 @@ class Judge {
   const Receivers& receivers_;
 };
 
-struct Verdict {
+struct Evaluation {
   DsLink link;
   bool split = false;
 };
 
 /// PilotSamples at a link until it is clear whether it is to be refined, and about what passes.
-Verdict judged(const LinkEnds& ends, std::uint64_t key, double threshold, const Judge& judge,
-               const FluxEstimate& estimate, FluxEstimate::Workspace& workspace) {
-  Verdict v;
+Evaluation evaluated(const LinkEnds& ends, std::uint64_t key, double threshold, const Evaluator& evaluator,
+                     const FluxEstimate& estimate, FluxEstimate::Workspace& workspace) {
+  Evaluation v;
   v.link.ends = ends, v.link.key = key;
-  const bool near = judge.near(ends), divisible = judge.divisible(ends);
+  const bool near = evaluator.near(ends), divisible = evaluator.divisible(ends);
   const double most = estimate.most(ends);
   PilotSamples pilots;
   const auto splits = [&] {
@@ -95,7 +95,7 @@ DsLinks refineDsLinks(const Scene& scene, const tracing::RayTracer& tracer, cons
                       std::span<const std::uint32_t> senderRoots, const DsSettings& settings) {
   DsLinks links;
   if (receivers.empty()) return links;
-  const Judge judge(senders, receivers);
+  const Evaluator evaluator(senders, receivers);
   const FluxEstimate estimate(scene, tracer, emission, senders, receivers, exitance);
   std::vector<LinkEnds> level;
   for (const std::uint32_t root : senderRoots) level.push_back({root, receivers.root()});
@@ -105,7 +105,7 @@ DsLinks refineDsLinks(const Scene& scene, const tracing::RayTracer& tracer, cons
   parallelFor(level.size(), 1, [&](std::size_t i) {
     FluxEstimate::Workspace workspace;
     PilotSamples pilots;
-    estimate.sample(level[i], judge.key(level[i], settings.seed), tuning::kMostLooks, pilots, workspace);
+    estimate.sample(level[i], evaluator.key(level[i], settings.seed), tuning::kMostLooks, pilots, workspace);
     first[i] = pilots.flux(estimate.most(level[i])), rays[i] = workspace.traced;
   });
   double total = settings.otherFlux;
@@ -115,32 +115,32 @@ DsLinks refineDsLinks(const Scene& scene, const tracing::RayTracer& tracer, cons
 
   while (!level.empty()) {
     constexpr std::size_t kBlock = 64;  // [task]
-    std::vector<Verdict> verdicts(level.size());
+    std::vector<Evaluation> evaluations(level.size());
     rays.assign((level.size() + kBlock - 1) / kBlock, 0);
     parallelBlocks(level.size(), kBlock, [&](std::size_t begin, std::size_t end) {
       FluxEstimate::Workspace workspace;
       for (std::size_t i = begin; i < end; ++i) {
-        const std::uint64_t key = judge.key(level[i], settings.seed);
+        const std::uint64_t key = evaluator.key(level[i], settings.seed);
         // Averted: nothing passes, as long as neither end moves.
-        verdicts[i] =
+        evaluations[i] =
             emission.averted(level[i])
-                ? Verdict{{level[i], key, static_cast<float>(deltalux::tuning::kNegligible * threshold), 0}, false}
-                : judged(level[i], key, threshold, judge, estimate, workspace);
-        verdicts[i].link.albedo =
+                ? Evaluation{{level[i], key, static_cast<float>(deltalux::tuning::kNegligible * threshold), 0}, false}
+                : evaluated(level[i], key, threshold, evaluator, estimate, workspace);
+        evaluations[i].link.albedo =
             static_cast<float>(std::max<double>(estimate.albedo(level[i]), deltalux::tuning::kNegligible));
       }
       rays[begin / kBlock] = workspace.traced;
     });
     for (const std::uint64_t r : rays) links.rays += r;
-    links.judged += level.size();
+    links.evaluated += level.size();
     std::vector<LinkEnds> next;
-    for (const Verdict& v : verdicts) {
+    for (const Evaluation& v : evaluations) {
       if (!v.split) {
         if (v.link.flux > 0) links.all.push_back(v.link);
         continue;
       }
       const LinkEnds& e = v.link.ends;
-      const bool sender = judge.splitsSender(e);
+      const bool sender = evaluator.splitsSender(e);
       const RadixNode& node = sender ? senders.nodes()[e.sender] : receivers.nodes()[e.receiver];
       for (const std::uint32_t child : node.child)
         next.push_back(sender ? LinkEnds{child, e.receiver} : LinkEnds{e.sender, child});

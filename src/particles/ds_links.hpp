@@ -25,7 +25,7 @@ struct DsLink {
 struct DsLinks {
   std::vector<DsLink> all;  // ascending by key
   double flux = 0;          // summed
-  std::uint64_t rays = 0, judged = 0;
+  std::uint64_t rays = 0, evaluated = 0;
 };
 
 struct DsSettings {

@@ -118,8 +118,8 @@ struct ParticleSettings {
   bool ofSurfaces = true;  // diffuse surfaces send some, too, and not lights alone
 };
 
-/// Traces the particles of a scene. Throws nothing of its own. A scene with edits is judged at rest, with a tracer of
-/// its own.
+/// Traces the particles of a scene. Throws nothing of its own. A scene with edits is evaluated at rest, with a tracer
+/// of its own.
 Particles traceParticles(const Scene&, const tracing::RayTracer&, const ParticleSettings&);
 
 }  // namespace deltalux::particles

@@ -34,7 +34,7 @@ std::vector<double> landedFlux(const Particles& p, const Senders& senders) {
 void appendLinks(DsLinks& links, const DsLinks& more) {
   links.all.insert(links.all.end(), more.all.begin(), more.all.end());
   std::sort(links.all.begin(), links.all.end(), [](const DsLink& a, const DsLink& b) { return a.key < b.key; });
-  links.flux += more.flux, links.rays += more.rays, links.judged += more.judged;
+  links.flux += more.flux, links.rays += more.rays, links.evaluated += more.evaluated;
 }
 
 ParticlePlan plan(const Scene& scene, const tracing::RayTracer& tracer, const ParticleSettings& settings) {

@@ -9,7 +9,7 @@ struct ParticlePlan {
   DsLinks links;
 };
 
-/// A scene with edits is judged at rest, with an Embree tracer of its own.
+/// A scene with edits is evaluated at rest, with an Embree tracer of its own.
 ParticlePlan planParticles(const Scene&, const tracing::RayTracer&, const ParticleSettings&);
 
 /// Particles that are to be traced: how many paths each link gets.

@@ -80,7 +80,7 @@ TEST(IrradianceLists, AMotionIsFollowedByWhatItChanges) {
     w.s.tracer = tracing::makeEmbreeTracer(w.s.scene);
     paper::LinkMarks marks = paper::leave(w.parts(), applied.change.moved, {});
     paper::arrive(w.parts(), marks, {});
-    paper::follow(w.parts(), marks, paper::judgedFor(0.1), w.lists);
+    paper::follow(w.parts(), marks, paper::oracleSettingsFor(0.1), w.lists);
     w.transfer = particles::ParticleTransfer(w.s.particles, w.s.elements, w.s.scene);
     std::vector<PrimitiveId> primitives;
     for (const auto& m : applied.change.moved) primitives.push_back(m.primitive);

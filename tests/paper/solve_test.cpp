@@ -90,13 +90,13 @@ TEST(PaperSolve, WhatNoLightReachesHasNoElement) {
 }
 
 TEST(PaperSolve, RoundsEndAtTheirLeastError) {
-  const double least = paper::judgedFor(0.05).error;
+  const double least = paper::oracleSettingsFor(0.05).error;
   double error = 64 * least;
   int rounds = 0;
   for (; error > least; ++rounds) error = paper::nextError(error, least);
   EXPECT_EQ(error, least);
   EXPECT_LT(rounds, 8);
-  EXPECT_LT(paper::judgedFor(0.01).error, least);
+  EXPECT_LT(paper::oracleSettingsFor(0.01).error, least);
 }
 
 TEST(PaperSolve, EndsInTime) {

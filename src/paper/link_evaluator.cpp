@@ -1,4 +1,4 @@
-#include "paper/link_judge.hpp"
+#include "paper/link_evaluator.hpp"
 
 #include <algorithm>
 #include <span>
@@ -31,30 +31,35 @@ hierarchy::Link forgotten(hierarchy::Link link) {
 }  // namespace
 
 /// The link's own blockers, drawn up when they are first asked for.
-class LinkJudge::OwnBlockers {
+class LinkEvaluator::OwnBlockers {
  public:
-  OwnBlockers(const LinkJudge& judge, const hierarchy::Link& link, const Candidates& candidates, Verdict& v)
-      : judge_(judge), receiver_(link.receiver), sender_(link.sender), candidates_(candidates), range_(v.blockers) {}
+  OwnBlockers(const LinkEvaluator& evaluator, const hierarchy::Link& link, const Candidates& candidates, Evaluation& v)
+      : evaluator_(evaluator),
+        receiver_(link.receiver),
+        sender_(link.sender),
+        candidates_(candidates),
+        range_(v.blockers) {}
 
   std::span<const hierarchy::ElementId> list() {
     if (!std::exchange(drawnUp_, true)) {
       Blockers& own = candidates_.own;
       range_.begin = static_cast<std::uint32_t>(own.size());
-      shrinkBlockers(judge_.elements_, judge_.scene_, receiver_, sender_, candidates_.parents, candidates_.count, own);
+      shrinkBlockers(evaluator_.elements_, evaluator_.scene_, receiver_, sender_, candidates_.parents,
+                     candidates_.count, own);
       range_.count = static_cast<std::uint32_t>(own.size()) - range_.begin;
     }
     return {candidates_.own.data() + range_.begin, range_.count};
   }
 
  private:
-  const LinkJudge& judge_;
+  const LinkEvaluator& evaluator_;
   hierarchy::ElementId receiver_, sender_;
   const Candidates& candidates_;
   BlockerRange& range_;
   bool drawnUp_ = false;
 };
 
-bool LinkJudge::couple(hierarchy::Link& link, const Candidates& candidates, Verdict& v) const {
+bool LinkEvaluator::couple(hierarchy::Link& link, const Candidates& candidates, Evaluation& v) const {
   const Kernel k = kernel(elements_, scene_, link.receiver, link.sender);
   if (k.averted || elements_.at(link.receiver).blocker || !sends(link.sender)) {
     link.state = hierarchy::LinkState::Averted, link.K = 0;
@@ -67,7 +72,7 @@ bool LinkJudge::couple(hierarchy::Link& link, const Candidates& candidates, Verd
   return false;
 }
 
-void LinkJudge::see(hierarchy::Link& link, int least, bool saw, const Candidates& candidates, Verdict& v) const {
+void LinkEvaluator::see(hierarchy::Link& link, int least, bool saw, const Candidates& candidates, Evaluation& v) const {
   OwnBlockers blockers(*this, link, candidates, v);
   const bool solid = solidEnds(link), unknown = link.visibility == hierarchy::Visibility::Unknown;
   if (unknown && !(saw && (candidates.count > tuning::kShortList || !solid))) {
@@ -91,15 +96,15 @@ void LinkJudge::see(hierarchy::Link& link, int least, bool saw, const Candidates
   if (v.split != Split::None || link.childCount > 0) blockers.list();
 }
 
-Verdict LinkJudge::judge(const hierarchy::Link& before, bool parentSaw, const Candidates& candidates) const {
-  Verdict v;
+Evaluation LinkEvaluator::evaluate(const hierarchy::Link& before, bool parentSaw, const Candidates& candidates) const {
+  Evaluation v;
   v.link = before;
   if (couple(v.link, candidates, v)) see(v.link, 0, parentSaw, candidates, v);
   return v;
 }
 
-Verdict LinkJudge::judgeMoved(const hierarchy::Link& before, const Candidates& candidates) const {
-  Verdict v;
+Evaluation LinkEvaluator::evaluateMoved(const hierarchy::Link& before, const Candidates& candidates) const {
+  Evaluation v;
   v.link = forgotten(before);
   if (!couple(v.link, candidates, v)) return v;
   const bool saw = before.visibility == hierarchy::Visibility::Sampled && !isBlack(before.V);
@@ -107,11 +112,12 @@ Verdict LinkJudge::judgeMoved(const hierarchy::Link& before, const Candidates& c
   return v;
 }
 
-Verdict LinkJudge::judgeBetween(const hierarchy::Link& before, std::uint32_t rays, const Candidates& candidates) const {
-  if (before.visibility != hierarchy::Visibility::Sampled) return judge(forgotten(before), false, candidates);
+Evaluation LinkEvaluator::evaluateBetween(const hierarchy::Link& before, std::uint32_t rays,
+                                          const Candidates& candidates) const {
+  if (before.visibility != hierarchy::Visibility::Sampled) return evaluate(forgotten(before), false, candidates);
   VisibilitySamples samples(elements_, scene_, tracer_, before.receiver, before.sender);
   const VisibilityEstimate e = samples.renewed(before, rays);
-  Verdict v;
+  Evaluation v;
   v.link = before;
   hierarchy::Link& link = v.link;
   link.V = e.V, link.sampleMask = e.mask, link.visibilitySpread = e.spread;
@@ -130,44 +136,44 @@ Verdict LinkJudge::judgeBetween(const hierarchy::Link& before, std::uint32_t ray
   return v;
 }
 
-Verdict LinkJudge::pass(const hierarchy::Link& link, const Candidates& candidates) const {
+Evaluation LinkEvaluator::pass(const hierarchy::Link& link, const Candidates& candidates) const {
   if (candidates.count <= tuning::kLongList) return passUnseen(link, candidates);
-  Verdict v;
+  Evaluation v;
   v.link = link;
   OwnBlockers(*this, link, candidates, v).list();
   return v;
 }
 
-Verdict LinkJudge::passUnseen(const hierarchy::Link& link, const Candidates& candidates) const {
-  Verdict v;
+Evaluation LinkEvaluator::passUnseen(const hierarchy::Link& link, const Candidates& candidates) const {
+  Evaluation v;
   v.link = link;
   v.blockers = {static_cast<std::uint32_t>(candidates.own.size()), static_cast<std::uint32_t>(candidates.count)};
   candidates.own.insert(candidates.own.end(), candidates.parents, candidates.parents + candidates.count);
   return v;
 }
 
-bool LinkJudge::splits(hierarchy::Link link) const {
+bool LinkEvaluator::splits(hierarchy::Link link) const {
   link.state = hierarchy::LinkState::Active;
   return link.receiver == link.sender || choose(link) != Split::None;
 }
 
-bool LinkJudge::unrefined(const hierarchy::Link& link) const {
+bool LinkEvaluator::unrefined(const hierarchy::Link& link) const {
   if (link.state != hierarchy::LinkState::Active || link.visibility == hierarchy::Visibility::Blocked) return false;
-  const LinkError e = oracle_.judge(link);
+  const LinkError e = oracle_.evaluate(link);
   return e.total() > e.budget || wantedSamples(link, e) > link.samples;
 }
 
-bool LinkJudge::solidEnds(const hierarchy::Link& link) const {
+bool LinkEvaluator::solidEnds(const hierarchy::Link& link) const {
   return !elements_.isCluster(link.receiver) && !elements_.isCluster(link.sender);
 }
 
-void LinkJudge::proveBlocked(hierarchy::Link& link, OwnBlockers& blockers) const {
+void LinkEvaluator::proveBlocked(hierarchy::Link& link, OwnBlockers& blockers) const {
   const std::span<const hierarchy::ElementId> own = blockers.list();
   if (provablyBlocked(elements_, scene_, link.receiver, link.sender, own.data(), own.size()))
     prove(link, hierarchy::Visibility::Blocked);
 }
 
-bool LinkJudge::sends(hierarchy::ElementId sender) const {
+bool LinkEvaluator::sends(hierarchy::ElementId sender) const {
   const hierarchy::ElementTopology& s = elements_.at(sender);
   if (s.kind != hierarchy::ElementKind::Patch) return true;
   if (!(elements_.shape(sender).area > 0)) return false;  // removed
@@ -176,27 +182,27 @@ bool LinkJudge::sends(hierarchy::ElementId sender) const {
   return !isBlack(l.rho) || !isBlack(l.tau);
 }
 
-int LinkJudge::wantedSamples(const hierarchy::Link& link, const LinkError& e) const {
+int LinkEvaluator::wantedSamples(const hierarchy::Link& link, const LinkError& e) const {
   if (!open(link)) return 0;
   const double weight = e.power / std::max(e.budget, 1e-30);
   return tuning::kFewSamples << (weight < 0.5 ? 0 : weight < 2 ? 1 : 2);
 }
 
 /// Few rays, and more when the kernel alone does not already demand a split.
-void LinkJudge::look(hierarchy::Link& link, int least, VisibilitySamples& samples) const {
+void LinkEvaluator::look(hierarchy::Link& link, int least, VisibilitySamples& samples) const {
   const auto take = [&](int count) {
     if (count <= link.samples) return;
     const VisibilityEstimate e = samples.estimate(static_cast<std::size_t>(count));
     link.V = e.V, link.sampleMask = e.mask, link.visibilitySpread = e.spread, link.samples = e.samples;
     link.visibility = hierarchy::Visibility::Sampled;
   };
-  const int wanted = std::max(least, wantedSamples(link, oracle_.judge(link)));
+  const int wanted = std::max(least, wantedSamples(link, oracle_.evaluate(link)));
   take(std::min(wanted, tuning::kFewSamples));
-  const LinkError e = oracle_.judge(link);
+  const LinkError e = oracle_.evaluate(link);
   if (wanted > tuning::kFewSamples && !(e.receiver + e.sender > e.budget)) take(wanted);
 }
 
-Split LinkJudge::splitOverlapping(const hierarchy::Link& link) const {
+Split LinkEvaluator::splitOverlapping(const hierarchy::Link& link) const {
   const bool clusterReceiver = elements_.isCluster(link.receiver), clusterSender = elements_.isCluster(link.sender);
   if (clusterReceiver && clusterSender)
     return elements_.shape(link.receiver).radius >= elements_.shape(link.sender).radius ? Split::Receiver
@@ -205,7 +211,7 @@ Split LinkJudge::splitOverlapping(const hierarchy::Link& link) const {
 }
 
 /// The end to split, or none; an end that is too small to matter leaves the other one.
-Split LinkJudge::choose(const hierarchy::Link& link) const {
+Split LinkEvaluator::choose(const hierarchy::Link& link) const {
   const Split split = prefer(link);
   if (split == Split::None) return split;
   const bool receiver = oracle_.divisible(link.receiver), sender = senderDivisible(link.sender);
@@ -214,20 +220,20 @@ Split LinkJudge::choose(const hierarchy::Link& link) const {
   return sender ? split : receiver ? Split::Receiver : Split::None;
 }
 
-bool LinkJudge::senderDivisible(hierarchy::ElementId sender) const {
+bool LinkEvaluator::senderDivisible(hierarchy::ElementId sender) const {
   if (elements_.isDistant(sender)) return !isSun(sender) && elements_.shape(sender).radius > tuning::kFinestCell;
   return oracle_.divisible(sender);
 }
 
 /// When the receiver is as small as it gets, splitting the sender helps only where the sender's own error counts.
-bool LinkJudge::worthSplitting(const hierarchy::Link& link, bool divisible) const {
-  const LinkError e = oracle_.judge(link);
+bool LinkEvaluator::worthSplitting(const hierarchy::Link& link, bool divisible) const {
+  const LinkError e = oracle_.evaluate(link);
   return divisible && e.sender + e.visibility > e.budget;
 }
 
-Split LinkJudge::prefer(const hierarchy::Link& link) const {
+Split LinkEvaluator::prefer(const hierarchy::Link& link) const {
   if (link.visibility == hierarchy::Visibility::Blocked) return Split::None;
-  LinkError e = oracle_.judge(link);
+  LinkError e = oracle_.evaluate(link);
   const hierarchy::ElementGeometry &r = elements_.shape(link.receiver), &s = elements_.shape(link.sender);
   const bool clusterReceiver = elements_.isCluster(link.receiver), clusterSender = elements_.isCluster(link.sender);
   if (link.visibility == hierarchy::Visibility::Sampled && isBlack(link.V)) {
@@ -252,7 +258,7 @@ Split LinkJudge::prefer(const hierarchy::Link& link) const {
   return e.receiver >= e.sender ? Split::Receiver : Split::Sender;
 }
 
-bool LinkJudge::isSun(hierarchy::ElementId e) const {
+bool LinkEvaluator::isSun(hierarchy::ElementId e) const {
   return std::holds_alternative<SunLight>(scene_[elements_.light[e.index()]].emitter);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // What one link of the tree comes to: its kernel, its visibility, by proof or by rays, and whether an end of it is to
-// be split (oracle.hpp). Links are judged side by side from frozen elements; nothing is changed here.
+// be split (oracle.hpp). Links are evaluated side by side from frozen elements; nothing is changed here.
 //
 // Proofs need lists of blockers, which cost more than a few rays: where the ends saw each other before, or those of the
 // parent do, rays come first, and lists only where none or all pass, or where links below will ask for them.
@@ -19,8 +19,8 @@ struct BlockerRange {
   std::uint32_t begin = 0, count = 0;
 };
 
-struct Verdict {
-  hierarchy::Link link;  // as judged
+struct Evaluation {
+  hierarchy::Link link;  // as evaluated
   Split split = Split::None;
   BlockerRange blockers;  // of the link, where they were asked for
   bool refined = false;   // as the link was before, it would be refined today
@@ -34,23 +34,23 @@ struct Candidates {
   Blockers& own;
 };
 
-class LinkJudge {
+class LinkEvaluator {
  public:
   /// All must outlive this.
-  LinkJudge(const hierarchy::Elements& elements, const Scene& scene, const tracing::RayTracer& tracer,
-            const OracleSettings& settings)
+  LinkEvaluator(const hierarchy::Elements& elements, const Scene& scene, const tracing::RayTracer& tracer,
+                const OracleSettings& settings)
       : elements_(elements), scene_(scene), tracer_(tracer), oracle_(elements, settings) {}
 
   /// A link as the tree has it. `parentSaw`: some ray between the parent's ends passed.
-  Verdict judge(const hierarchy::Link&, bool parentSaw, const Candidates&) const;
+  Evaluation evaluate(const hierarchy::Link&, bool parentSaw, const Candidates&) const;
   /// One of which an end has moved, or holds what has.
-  Verdict judgeMoved(const hierarchy::Link& before, const Candidates&) const;
+  Evaluation evaluateMoved(const hierarchy::Link& before, const Candidates&) const;
   /// One between whose ends something has moved: its kernel stands, and so do its samples but for `rays`, by bits.
-  Verdict judgeBetween(const hierarchy::Link& before, std::uint32_t rays, const Candidates&) const;
+  Evaluation evaluateBetween(const hierarchy::Link& before, std::uint32_t rays, const Candidates&) const;
   /// One on the way to others.
-  Verdict pass(const hierarchy::Link&, const Candidates&) const;
+  Evaluation pass(const hierarchy::Link&, const Candidates&) const;
   /// The same, whose blockers are the parent's for now.
-  Verdict passUnseen(const hierarchy::Link&, const Candidates&) const;
+  Evaluation passUnseen(const hierarchy::Link&, const Candidates&) const;
 
   /// Whether the link, as it stands, would be split.
   bool splits(hierarchy::Link) const;
@@ -61,9 +61,9 @@ class LinkJudge {
   class OwnBlockers;
 
   /// Gives a link its kernel; false when that is all: no light passes, or the ends overlap.
-  bool couple(hierarchy::Link&, const Candidates&, Verdict&) const;
+  bool couple(hierarchy::Link&, const Candidates&, Evaluation&) const;
   /// Visibility by proof and by rays, `least` at least, and what follows from it.
-  void see(hierarchy::Link&, int least, bool saw, const Candidates&, Verdict&) const;
+  void see(hierarchy::Link&, int least, bool saw, const Candidates&, Evaluation&) const;
   bool solidEnds(const hierarchy::Link&) const;
   void proveBlocked(hierarchy::Link&, OwnBlockers&) const;
   bool sends(hierarchy::ElementId sender) const;
