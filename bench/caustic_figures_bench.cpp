@@ -238,15 +238,15 @@ void drawRestriction(const std::string& name, const std::string& file, const std
   const Solution& s = engine.solution().get();
   const caustics::SurfaceCaustics& restricted = texturesOf(s, object);
   const Shape& shape = s.scene[restricted.primitive].shape;
-  std::vector<particles::Impact> landed;
+  std::vector<particles::Impact> deposited;
   for (const particles::Impact& impact : particles::impacts(s.particles, s.elements, s.scene))
-    if (impact.primitive == restricted.primitive && impact.front) landed.push_back(impact);
+    if (impact.primitive == restricted.primitive && impact.front) deposited.push_back(impact);
   const std::size_t side = 2 * restricted.primitive.index();
   caustics::SurfaceSides asked(2 * s.scene.primitives.size(), false);
   asked[side] = true;
   const caustics::OtherLight other = caustics::otherLight(s.scene, s.elements, asked);
   const caustics::SurfaceCaustics whole = caustics::makeUnrestrictedTextures(
-      shape, landed, {error, other.mean[side], other.darkest[side]}, static_cast<int>(texelsOf(restricted)));
+      shape, deposited, {error, other.mean[side], other.darkest[side]}, static_cast<int>(texelsOf(restricted)));
   const caustics::Region all{Vec2(0), restricted.charts.all[0].size}, part = busiest(restricted).region;
   const Image close = drawn(restricted, shape, part, false);
   saveSheet(

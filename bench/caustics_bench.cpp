@@ -45,21 +45,21 @@ Engine solved(const std::string& file, double error, std::uint64_t particles, st
   return engine;
 }
 
-/// The front of the first primitive of an object, and what landed there.
-struct Landed {
+/// The front of the first primitive of an object, and what was deposited there.
+struct PlacedDeposits {
   Shape shape;
   std::vector<particles::Impact> impacts;
 };
 
-Landed landedOn(const Solution& s, const std::string& object) {
+PlacedDeposits depositsOn(const Solution& s, const std::string& object) {
   const std::vector<ObjectId> found = findObjects(s.scene, object);
   if (found.empty()) throw std::runtime_error("no object named " + object);
   const std::vector<PrimitiveId> primitives = primitivesOf(s.scene, found.front());
   if (primitives.empty()) throw std::runtime_error("an object without surfaces: " + object);
-  Landed landed{s.scene[primitives.front()].shape, {}};
+  PlacedDeposits deposited{s.scene[primitives.front()].shape, {}};
   for (const particles::Impact& impact : particles::impacts(s.particles, s.elements, s.scene))
-    if (impact.primitive == primitives.front() && impact.front) landed.impacts.push_back(impact);
-  return landed;
+    if (impact.primitive == primitives.front() && impact.front) deposited.impacts.push_back(impact);
+  return deposited;
 }
 
 Vec2 gridPoint(int x, int y, int size) { return {(x + 0.5) / size, (y + 0.5) / size}; }
@@ -68,9 +68,9 @@ Vec2 gridPoint(int x, int y, int size) { return {(x + 0.5) / size, (y + 0.5) / s
 struct Truth {
   std::vector<double> E, variance;
 
-  explicit Truth(const Landed& landed) : E(kTruthTexels * kTruthTexels, 0.0), variance(E.size(), 0.0) {
-    const double texel = area(landed.shape) / static_cast<double>(E.size());
-    for (const particles::Impact& impact : landed.impacts) {
+  explicit Truth(const PlacedDeposits& deposited) : E(kTruthTexels * kTruthTexels, 0.0), variance(E.size(), 0.0) {
+    const double texel = area(deposited.shape) / static_cast<double>(E.size());
+    for (const particles::Impact& impact : deposited.impacts) {
       const int x = std::min(static_cast<int>(impact.uv.x * kTruthTexels), kTruthTexels - 1);
       const int y = std::min(static_cast<int>(impact.uv.y * kTruthTexels), kTruthTexels - 1);
       const double g = gray(impact.flux) / texel;
@@ -106,7 +106,7 @@ std::size_t texelsOf(const caustics::SurfaceCaustics& s) {
 
 void growParticles(const std::string& name, const std::string& file, const std::string& object, double error,
                    std::uint64_t least, std::uint64_t most) {
-  const Truth truth(landedOn(solved(file, error, 16 * most, 2).solution().get(), object));
+  const Truth truth(depositsOn(solved(file, error, 16 * most, 2).solution().get(), object));
   const auto measure = [&](std::uint64_t n, const char* way, double seconds,
                            const std::optional<caustics::SurfaceCaustics>& s, const Shape& shape) {
     if (!s) return;
@@ -115,14 +115,14 @@ void growParticles(const std::string& name, const std::string& file, const std::
     row(name, error, n, fmt::format("{}: processor time", way).c_str(), seconds, "s");
   };
   for (std::uint64_t n = least; n <= most; n *= 4) {
-    const Landed landed = landedOn(solved(file, error, n, 1).solution().get(), object);
-    row(name, error, n, "impacts", static_cast<double>(landed.impacts.size()), "");
+    const PlacedDeposits deposited = depositsOn(solved(file, error, n, 1).solution().get(), object);
+    row(name, error, n, "impacts", static_cast<double>(deposited.impacts.size()), "");
     const double begin = cpuSeconds();
-    const auto ours = caustics::makeCausticTextures(landed.shape, landed.impacts, {error, 0});
+    const auto ours = caustics::makeCausticTextures(deposited.shape, deposited.impacts, {error, 0});
     const double middle = cpuSeconds();
-    const auto papers = paper::makeTextures(landed.shape, landed.impacts);
-    measure(n, "adaptive", middle - begin, ours, landed.shape);
-    measure(n, "paper", cpuSeconds() - middle, papers, landed.shape);
+    const auto papers = paper::makeTextures(deposited.shape, deposited.impacts);
+    measure(n, "adaptive", middle - begin, ours, deposited.shape);
+    measure(n, "paper", cpuSeconds() - middle, papers, deposited.shape);
   }
 }
 

@@ -124,7 +124,7 @@ void run(int argc, char** argv) {
   row("links", static_cast<double>(p.links.size()), "");
   row("samples", static_cast<double>(p.paths()), "");
   row("particles", static_cast<double>(p.arrived()), "");
-  row("landed", static_cast<double>(p.landed()), "");
+  row("deposited", static_cast<double>(p.deposited()), "");
   row("impacts", static_cast<double>(p.impacts()), "");
   row("effective share of impacts", 100 * effectiveShare(p), "%");
   row("rays", all, "");

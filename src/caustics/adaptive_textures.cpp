@@ -46,7 +46,7 @@ int coarsen(const ChartSurface& surface, ChartPart& part) {
   return halvings;
 }
 
-bool fewLanded(std::span<const particles::Impact> impacts) {
+bool fewDeposits(std::span<const particles::Impact> impacts) {
   double flux = 0, squares = 0;
   for (const particles::Impact& i : impacts) {
     const double w = gray(i.flux);
@@ -175,11 +175,11 @@ class AdaptiveTextures {
 
   /// What went from one texture of a chart to another is theirs; together they show all particles.
   static void keepFlux(std::span<CausticTexture> textures) {
-    RgbSum landed(0.0), shown(0.0);
-    for (const CausticTexture& t : textures) landed += t.flux, shown += t.integral();
+    RgbSum deposited(0.0), shown(0.0);
+    for (const CausticTexture& t : textures) deposited += t.flux, shown += t.integral();
     Rgb factor(1.0f);
     for (int c = 0; c < 3; ++c)
-      if (shown[c] > 0) factor[c] = static_cast<float>(landed[c] / shown[c]);
+      if (shown[c] > 0) factor[c] = static_cast<float>(deposited[c] / shown[c]);
     for (CausticTexture& t : textures)
       for (Rgb& E : t.texels) E *= factor;
   }
@@ -194,14 +194,14 @@ class AdaptiveTextures {
 }  // namespace
 
 bool deservesTextures(const Shape& shape, std::span<const particles::Impact> impacts, const CausticSettings& settings) {
-  if (fewLanded(impacts)) return false;
+  if (fewDeposits(impacts)) return false;
   AdaptiveTextures textures(shape, settings);
   return deservesTexture(textures.place(impacts), settings.error, settings.background);
 }
 
 std::optional<SurfaceCaustics> makeCausticTextures(const Shape& shape, std::span<const particles::Impact> impacts,
                                                    const CausticSettings& settings) {
-  if (fewLanded(impacts)) return std::nullopt;
+  if (fewDeposits(impacts)) return std::nullopt;
   AdaptiveTextures textures(shape, settings);
   if (!deservesTexture(textures.place(impacts), settings.error, settings.background)) return std::nullopt;
   return textures.restricted();

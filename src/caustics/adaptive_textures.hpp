@@ -1,6 +1,6 @@
 #pragma once
 // Caustic textures of one side of a surface, with nothing to set but the target error [GD01 3]:
-//   1. Does what landed there depart from what a mesh can show?            choice.hpp
+//   1. Does what was deposited depart from what a mesh can show?            choice.hpp
 //   2. Which parts of the surface need fine texels?                          restriction.hpp
 //   3. Texels down to what the particles can tell, in each part.           resolution.hpp
 //   4. Kernels as wide as the particles allow, texel by texel.             adaptive_kernel.hpp

@@ -116,9 +116,9 @@ void validate(const SurfaceCaustics& s) {
     validate(texture);
     shown += texture.integral();
   }
-  const RgbSum landed = s.flux();
+  const RgbSum deposited = s.flux();
   for (int c = 0; c < 3; ++c)
-    if (!(std::abs(shown[c] - landed[c]) <= kFluxTolerance * landed[c] + 1e-12))
+    if (!(std::abs(shown[c] - deposited[c]) <= kFluxTolerance * deposited[c] + 1e-12))
       throw std::logic_error("caustic textures: their integral is not the flux of the side's particles");
 }
 

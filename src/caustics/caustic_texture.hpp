@@ -1,5 +1,5 @@
 #pragma once
-// A caustic texture: irradiance of the particles that landed on a part of a surface's side, for display [GD01 3]. It is
+// A caustic texture: irradiance of the particles deposited on a part of a surface's side, for display [GD01 3]. It is
 // a reconstruction of the particles' flux and never feeds back into the transport.
 //
 // The textures of one side share its surface out among them: at every point exactly one shows the particles, and

@@ -41,8 +41,8 @@ struct TextureRule {
 /// By the target error alone (adaptive_textures.hpp).
 TextureRule adaptiveRule();
 
-/// Which sides need textures for what landed there, in any order. Light that is not the particles' is read from the
-/// elements: errors are measured against it.
+/// Which sides need textures for what was deposited there, in any order. Light that is not the particles' is read from
+/// the elements: errors are measured against it.
 SurfaceSides sidesWithTextures(const Scene&, const hierarchy::Elements&, std::vector<particles::Impact>, double error,
                                const TextureRule& = adaptiveRule());
 
@@ -59,8 +59,8 @@ struct OtherLight {
 OtherLight otherLight(const Scene&, const hierarchy::Elements&, const SurfaceSides&);
 std::vector<double> meanOtherLight(const Scene&, const hierarchy::Elements&);
 
-/// Evaluates all that landed on the sides `remade`, and makes the textures of those that need them; others are not
-/// touched. Returns how many textures it made.
+/// Evaluates all that was deposited on the sides `remade`, and makes the textures of those that need them; others are
+/// not touched. Returns how many textures it made.
 std::size_t remakeCaustics(Caustics&, const Scene&, const hierarchy::Elements&, std::vector<particles::Impact>,
                            double error, const std::vector<char>& remade, const TextureRule& = adaptiveRule());
 

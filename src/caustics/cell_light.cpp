@@ -14,7 +14,7 @@ CellLight collect(const CellGrid& grid, std::span<const ChartImpact> impacts) {
   light.fourths.assign(grid.size(), 0.0);
   for (const ChartImpact& impact : impacts) {
     const std::uint32_t cell = grid.cellAt(impact.st);
-    DELTALUX_CHECK(cell != CellGrid::kNone, "particles landed on a surface without area");
+    DELTALUX_CHECK(cell != CellGrid::kNone, "particles deposited on a surface without area");
     const double g = gray(impact.flux);
     sums[cell] += RgbSum(impact.flux);
     squares[cell] += g * g;

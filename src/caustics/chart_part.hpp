@@ -1,5 +1,5 @@
 #pragma once
-// A part of a chart with the particles that landed on it: what one texture is made of. A chart starts as one part; lit
+// A part of a chart with the particles deposited on it: what one texture is made of. A chart starts as one part; lit
 // regions are taken out of it, each a part of its own, until every place and every particle is in exactly one.
 #include "caustics/caustic_texture.hpp"
 #include "caustics/cell_light.hpp"

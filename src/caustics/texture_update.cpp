@@ -74,7 +74,7 @@ TextureUpdate::Report TextureUpdate::follow(const particles::ParticleUpdate& upd
   for (SurfaceCaustics& s : caustics.surfaces)
     if (const std::size_t side = particles::sideIndex(s.primitive, s.front); !sides[side])
       report.scaled += rescale(s, fluxOf(side), particles::tuning::kChangeMatters * error_);
-  report.rebuilt = remakeCaustics(caustics, parts_.scene, parts_.elements, landedOn(sides, powers), error_, sides);
+  report.rebuilt = remakeCaustics(caustics, parts_.scene, parts_.elements, depositsOn(sides, powers), error_, sides);
   remember(sides, background);
   return report;
 }
@@ -184,8 +184,8 @@ bool TextureUpdate::changed(std::size_t side, double background, bool textured) 
 }
 
 /// By side; on each in the order of the particles.
-std::vector<particles::Impact> TextureUpdate::landedOn(const std::vector<char>& sides,
-                                                       const LargeArray<Rgb>& powers) const {
+std::vector<particles::Impact> TextureUpdate::depositsOn(const std::vector<char>& sides,
+                                                         const LargeArray<Rgb>& powers) const {
   const particles::Particles& p = parts_.particles;
   std::vector<std::vector<std::uint32_t>> places(kParts, std::vector<std::uint32_t>(sides.size(), 0));
   const auto forEach = [&](const auto& body) {

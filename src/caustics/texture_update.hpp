@@ -63,7 +63,7 @@ class TextureUpdate {
   bool fewParticles(const SurfaceTiles::Side&) const;
   static std::vector<Tile> halved(const std::vector<Tile>&, std::uint32_t across);
   bool changed(std::size_t side, double background, bool textured) const;
-  std::vector<particles::Impact> landedOn(const std::vector<char>& sides, const LargeArray<Rgb>& powers) const;
+  std::vector<particles::Impact> depositsOn(const std::vector<char>& sides, const LargeArray<Rgb>& powers) const;
   void remember(const std::vector<char>& sides, const std::vector<double>& background);
 
   Parts parts_;

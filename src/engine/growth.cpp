@@ -26,7 +26,7 @@ std::vector<Box> newlyLit(const SceneUpdate& edits, const Scene& scene) {
   return boxes;
 }
 
-void addLanding(std::vector<hierarchy::SurfaceSide>& sides, const Solution& s,
+void addDeposit(std::vector<hierarchy::SurfaceSide>& sides, const Solution& s,
                 const particles::ParticleUpdate& update) {
   std::vector<std::uint32_t> paths(update.all ? s.particles.paths() : update.paths.size());
   for (std::uint32_t i = 0; i < paths.size(); ++i) paths[i] = update.all ? i : update.paths[i].path;
@@ -53,7 +53,7 @@ Growth growInLight(Solution& s, const SceneUpdate& edits, const particles::Parti
   if (!edits.moved.empty() || !edits.movedLights.empty()) {
     sides = paper::coveredSides(s.scene, *s.tracer, s.elements, edits.primitives(), newlyLit(edits, s.scene));
   }
-  addLanding(sides.uncovered, s, particles);
+  addDeposit(sides.uncovered, s, particles);
   particles::dropReachedSides(sides.covered, s.particles);
   Growth growth;
   std::vector<hierarchy::SurfaceSide> fresh;

@@ -29,7 +29,7 @@ void Engine::State::paperUpdate(const engine::SceneUpdate& edits, double share, 
   if (tracing) followed = reemitParticles(edits.whole, share, step), countParticles();
   step.particlesTotal = s.particles.arrived();
   const engine::Clock splitting;
-  subdivideWhereParticlesLanded(followed);
+  subdivideForDeposits(followed);
   step.times.particles += splitting.seconds();
   engine::Growth growth = grow(edits, followed, step);
   growth.reactivated.insert(growth.reactivated.end(), reflecting.begin(), reflecting.end());
@@ -110,14 +110,14 @@ void Engine::State::relight(const engine::SceneUpdate& edits, std::vector<hierar
   }
 }
 
-void Engine::State::subdivideWhereParticlesLanded(const particles::ParticleUpdate& landed) {
+void Engine::State::subdivideForDeposits(const particles::ParticleUpdate& deposited) {
   Solution& s = *solution;
-  if (landed.paths.empty() && !landed.all) return;
+  if (deposited.paths.empty() && !deposited.all) return;
   std::vector<bool> shown(2 * s.scene.primitives.size(), false);
   for (const caustics::SurfaceCaustics& c : s.caustics.surfaces)
     shown[particles::sideIndex(c.primitive, c.front)] = true;
   particles::subdivideForParticles(s.elements, s.scene, s.particles, shown,
-                                   particles::sidesThatKeepTheirMesh(s.scene, s.particles, landed));
+                                   particles::sidesThatKeepTheirMesh(s.scene, s.particles, deposited));
 }
 
 engine::Growth Engine::State::grow(const engine::SceneUpdate& edits, const particles::ParticleUpdate& followed,

@@ -50,17 +50,17 @@ void Engine::State::countParticles() {
   c.particles = s.particles.arrived();
   c.impacts = s.particles.impacts();
   s.report.cutParticles = s.particles.cut();
-  c.raysParticles = s.particles.rays + s.particles.looks;
+  c.raysParticles = s.particles.rays + s.particles.pilots;
   s.report.memory.particles = s.particles.memoryBytes();
 }
 
 void Engine::State::makeTextures() {
   Solution& s = *solution;
   const engine::Clock time;
-  std::vector<particles::Impact> landed;
+  std::vector<particles::Impact> deposited;
   // The mesh shows what no texture does.
-  if (s.settings.causticTextures && !budget.up()) landed = particles::impacts(s.particles, s.elements, s.scene);
-  s.caustics = caustics::makeCaustics(s.scene, s.elements, std::move(landed), s.settings.error,
+  if (s.settings.causticTextures && !budget.up()) deposited = particles::impacts(s.particles, s.elements, s.scene);
+  s.caustics = caustics::makeCaustics(s.scene, s.elements, std::move(deposited), s.settings.error,
                                       byLines() ? caustics::adaptiveRule() : paper::textureRule());
   DELTALUX_VALIDATED(validate(s.caustics));
   s.report.times.textures += time.seconds();

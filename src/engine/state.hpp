@@ -125,7 +125,7 @@ struct Engine::State {
   void relight(const engine::SceneUpdate& edits, std::vector<hierarchy::ElementId>& painted,
                std::vector<hierarchy::ElementId>& reflecting);
   /// Where light of particles is new. It is sent on from where it lies, so the mesh must know.
-  void subdivideWhereParticlesLanded(const particles::ParticleUpdate& landed);
+  void subdivideForDeposits(const particles::ParticleUpdate& deposited);
   /// Elements for what the edits brought into the light.
   engine::Growth grow(const engine::SceneUpdate& edits, const particles::ParticleUpdate& newPaths, StepReport& step);
   /// Links of what has moved, grown or been reactivated.

@@ -22,14 +22,14 @@ struct Quarter {
   double error(double area) const { return (2 * tuning::kClearly * squares - sum * sum) / area; }
 };
 
-/// What has fallen on a leaf.
+/// What was deposited on a leaf.
 struct Tally {
   hierarchy::ElementId leaf;
   std::array<Quarter, 4> quarters;
   std::uint32_t count = 0;
 };
 
-struct Fallen {
+struct PlacedDeposit {
   hierarchy::ElementId leaf;
   hierarchy::Side side;
   glm::vec2 uv{0.0f};
@@ -37,10 +37,10 @@ struct Fallen {
 };
 
 /// Impacts on sides that do not keep their mesh, in the order of the particles.
-std::vector<Fallen> fallenOn(const hierarchy::Elements& elements, const Scene& scene, const Particles& p,
-                             const std::vector<bool>& keep) {
+std::vector<PlacedDeposit> depositsOn(const hierarchy::Elements& elements, const Scene& scene, const Particles& p,
+                                      const std::vector<bool>& keep) {
   constexpr std::size_t kBlock = 4096;  // [task]
-  std::vector<std::vector<Fallen>> found((p.paths() + kBlock - 1) / kBlock);
+  std::vector<std::vector<PlacedDeposit>> found((p.paths() + kBlock - 1) / kBlock);
   const hierarchy::SideLocator locator(elements, scene);
   parallelFor(p.paths(), kBlock, [&](std::size_t path) {
     for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
@@ -52,13 +52,13 @@ std::vector<Fallen> fallenOn(const hierarchy::Elements& elements, const Scene& s
       found[path / kBlock].push_back({locator.leafAt(side, Vec2(p.uv[i])), on, p.uv[i], power * gray(p.throughput[i])});
     }
   });
-  std::vector<Fallen> all;
+  std::vector<PlacedDeposit> all;
   for (const auto& block : found) all.insert(all.end(), block.begin(), block.end());
   return all;
 }
 
-/// Which quarter of its leaf's area something has fallen on: of its rectangle, or of its faces in order.
-std::size_t quarterOf(const hierarchy::Elements& elements, const Fallen& f) {
+/// Which quarter of its leaf's area something was deposited on: of its rectangle, or of its faces in order.
+std::size_t quarterOf(const hierarchy::Elements& elements, const PlacedDeposit& f) {
   if (elements.hasFaces(f.leaf)) {
     const hierarchy::FaceRange range = elements.facesOf(f.leaf);
     const hierarchy::FaceOrder& order = elements.orderOf(f.leaf);
@@ -70,10 +70,10 @@ std::size_t quarterOf(const hierarchy::Elements& elements, const Fallen& f) {
 }
 
 /// By leaf, in the order of ids.
-std::vector<Tally> tally(const hierarchy::Elements& elements, std::span<const Fallen> fallen) {
+std::vector<Tally> tally(const hierarchy::Elements& elements, std::span<const PlacedDeposit> deposits) {
   std::vector<std::uint32_t> place(elements.size(), Id<void>::kNone);
   std::vector<Tally> tallies;
-  for (const Fallen& f : fallen) {
+  for (const PlacedDeposit& f : deposits) {
     std::uint32_t& at = place[f.leaf.index()];
     if (at == Id<void>::kNone) at = static_cast<std::uint32_t>(tallies.size()), tallies.emplace_back().leaf = f.leaf;
     tallies[at].quarters[quarterOf(elements, f)].add(f.weight);
@@ -83,7 +83,7 @@ std::vector<Tally> tally(const hierarchy::Elements& elements, std::span<const Fa
   return tallies;
 }
 
-/// Whether quarters of the leaf show what fell on it clearly better than the whole.
+/// Whether quarters of the leaf show what was deposited on it clearly better than the whole.
 bool showsDetail(const Tally& t, double area) {
   Quarter whole;
   double parts = 0;
@@ -98,11 +98,11 @@ bool showsDetail(const Tally& t, double area) {
 
 std::size_t subdivideForParticles(hierarchy::Elements& elements, const Scene& scene, const Particles& p,
                                   const std::vector<bool>& coarse, const std::vector<bool>& keep) {
-  std::vector<Fallen> fallen = fallenOn(elements, scene, p, keep);
+  std::vector<PlacedDeposit> deposits = depositsOn(elements, scene, p, keep);
   std::size_t total = 0;
-  while (!fallen.empty()) {
+  while (!deposits.empty()) {
     std::size_t split = 0;
-    for (const Tally& t : tally(elements, fallen)) {
+    for (const Tally& t : tally(elements, deposits)) {
       if (t.count < tuning::kDetail) continue;
       const hierarchy::ElementTopology& e = elements.at(t.leaf);
       if (coarse[sideIndex(elements.domain[t.leaf.index()].primitive, e.front)] && e.depth >= tuning::kShownDepth)
@@ -112,10 +112,10 @@ std::size_t subdivideForParticles(hierarchy::Elements& elements, const Scene& sc
     if (split == 0) break;
     total += split;
     // What stays whole now stays so.
-    std::erase_if(fallen, [&](const Fallen& f) { return elements.isLeaf(f.leaf); });
+    std::erase_if(deposits, [&](const PlacedDeposit& f) { return elements.isLeaf(f.leaf); });
     const hierarchy::SideLocator locator(elements, scene);
-    parallelFor(fallen.size(), 4096, [&](std::size_t i) {
-      Fallen& f = fallen[i];
+    parallelFor(deposits.size(), 4096, [&](std::size_t i) {
+      PlacedDeposit& f = deposits[i];
       const hierarchy::ElementId from =
           elements.hasFaces(f.leaf) ? locator.side(f.side.primitive, f.side.triangle, f.side.front) : f.leaf;
       f.leaf = locator.leafAt(from, Vec2(f.uv));

@@ -14,7 +14,7 @@ std::size_t subdivideForParticles(hierarchy::Elements&, const Scene&, const Part
                                   const std::vector<bool>& keep = {});
 
 /// Sides for whose particles the mesh need not be looked at anew after these paths were traced: all but those of whose
-/// flux, by nominal senders, new landings bring a tenth or more.
+/// flux, by nominal senders, new deposits bring a tenth or more.
 std::vector<bool> sidesThatKeepTheirMesh(const Scene&, const Particles&, const ParticleUpdate&);
 
 }  // namespace deltalux::particles

@@ -28,7 +28,7 @@ ParticleLedger Particles::ledger() const {
     l.entered += w * gray(a.entered.value()), l.passed += w * gray(a.passed.value());
     l.absorbed += w * gray(a.absorbed.value());
     (termination[p] & kCut ? l.cut : l.escaped) += w * gray(a.left.value());
-    for (std::uint32_t i = firstImpact(p); i < endImpact(p); ++i) l.landed += w * gray(throughput[i]);
+    for (std::uint32_t i = firstImpact(p); i < endImpact(p); ++i) l.deposited += w * gray(throughput[i]);
   }
   return l;
 }
@@ -43,7 +43,7 @@ std::uint64_t Particles::cut() const {
       std::count_if(termination.begin(), termination.end(), [](auto f) { return f & kCut; }));
 }
 
-std::uint64_t Particles::landed() const {
+std::uint64_t Particles::deposited() const {
   std::uint64_t count = 0;
   for (const PathRange& r : range) count += r.impacts > 0;
   return count;

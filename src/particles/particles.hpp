@@ -31,15 +31,15 @@ struct ParticleLink {
 
 /// What became of particle flux, gray [W], with the nominal exitance of senders: what goes in comes out, in the mean.
 struct ParticleLedger {
-  double entered = 0;   // from lights and diffuse surfaces, at surfaces that take no particles (mirrors, glass)
-  double passed = 0;    // passed on by surfaces that take particles (plastic, brass), of light that they have anyway
-  double landed = 0;    // on surfaces that take particles
-  double absorbed = 0;  // by mirrors, glass and media
-  double escaped = 0;   // out of the scene
-  double cut = 0;       // by the depth limit
+  double entered = 0;    // from lights and diffuse surfaces, at surfaces that take no particles (mirrors, glass)
+  double passed = 0;     // passed on by surfaces that take particles (plastic, brass), of light that they have anyway
+  double deposited = 0;  // on surfaces that take particles
+  double absorbed = 0;   // by mirrors, glass and media
+  double escaped = 0;    // out of the scene
+  double cut = 0;        // by the depth limit
 
   /// What chance decisions gained or lost.
-  double residue() const { return entered + passed - landed - absorbed - escaped - cut; }
+  double residue() const { return entered + passed - deposited - absorbed - escaped - cut; }
 };
 
 /// Where a path's vertices and impacts stand.
@@ -91,9 +91,9 @@ struct Particles {
   /// Size of the arrays of impacts, with gaps.
   std::size_t impactSlots() const { return primitive.size(); }
   std::uint64_t impacts() const;
-  /// Paths that reached a receiver of their link; that landed somewhere; that the depth limit ended.
+  /// Paths that reached a receiver of their link; that were deposited somewhere; that the depth limit ended.
   std::uint64_t arrived() const;
-  std::uint64_t landed() const;
+  std::uint64_t deposited() const;
   std::uint64_t cut() const;
   /// Flux that one unit of a path's throughput stands for, by its nominal sender.
   double weight(std::size_t path) const { return double(links[link[path]].scale) * nominal[sender[path]]; }

@@ -36,7 +36,7 @@ class PackedRgb {
   std::int8_t mantissa_[3] = {0, 0, 0}, exponent_ = 0;
 };
 
-/// Throughput, before the link's scale. Entered + passed = landed + absorbed + left, but for roulette.
+/// Throughput, before the link's scale. Entered + passed = deposited + absorbed + left, but for roulette.
 struct PathAccount {
   PackedRgb entered;   // taken from the light around: at a first surface that takes no particles
   PackedRgb passed;    // passed on by surfaces that take particles: of the light that lands there, whatever by

@@ -28,16 +28,16 @@ void append(const PathBlock& block, std::size_t begin, std::span<const std::uint
     const std::size_t path = only.empty() ? begin + k : only[begin + k];
     nextVertex[k] = v, nextImpact[k] = i;
     p.range[path] = {v, i, static_cast<std::uint16_t>(block.vertexCount[k]),
-                     static_cast<std::uint16_t>(block.landingCount[k])};
+                     static_cast<std::uint16_t>(block.depositCount[k])};
     p.termination[path] = block.termination[k];
     p.account[path] = block.termination[k] & kArrived ? closed(block.accounts[k], path) : PathAccount{};
-    v += block.vertexCount[k], i += block.landingCount[k];
+    v += block.vertexCount[k], i += block.depositCount[k];
   }
   for (const PathBlock::Vertex& from : block.vertices) {
     const std::uint32_t to = nextVertex[from.path]++;
     p.vertices[to] = from.position, p.met[to] = from.met;
   }
-  for (const PathBlock::Landing& from : block.landings) {
+  for (const PathBlock::Deposit& from : block.deposits) {
     const std::uint32_t to = nextImpact[from.path]++;
     p.primitive[to] = from.primitive, p.triangleAndSide[to] = from.triangleAndSide;
     p.uv[to] = from.uv, p.throughput[to] = from.throughput;
@@ -50,7 +50,7 @@ void append(std::span<const PathBlock> blocks, std::size_t begin, std::span<cons
   std::vector<std::size_t> vertex{p.vertices.size()}, impact{p.impactSlots()};
   for (const PathBlock& b : blocks) {
     vertex.push_back(vertex.back() + b.vertices.size());
-    impact.push_back(impact.back() + b.landings.size());
+    impact.push_back(impact.back() + b.deposits.size());
     p.rays += b.rays;
   }
   DELTALUX_CHECK(vertex.back() < 0x100000000ull, "fewer than 2^32 vertices of particles");

@@ -9,7 +9,7 @@
 
 namespace deltalux::particles {
 
-/// What a block of paths made; vertices and landings in the order in which they happened.
+/// What a block of paths made; vertices and deposits in the order in which they happened.
 struct PathBlock {
   static constexpr std::size_t kPaths = 512;  // of all blocks but the last [task]
 
@@ -18,7 +18,7 @@ struct PathBlock {
     Vec3f position;
     PrimitiveId met;
   };
-  struct Landing {
+  struct Deposit {
     std::uint32_t path;
     PrimitiveId primitive;
     std::uint32_t triangleAndSide;
@@ -30,9 +30,9 @@ struct PathBlock {
     Rgb entered{0.0f}, passed{0.0f}, absorbed{0.0f}, left{0.0f};
   };
   std::vector<Vertex> vertices;
-  std::vector<Landing> landings;
+  std::vector<Deposit> deposits;
   // Per path.
-  std::vector<std::uint32_t> vertexCount, landingCount;
+  std::vector<std::uint32_t> vertexCount, depositCount;
   std::vector<Account> accounts;
   std::vector<std::uint8_t> termination;
   std::uint64_t rays = 0;
@@ -41,8 +41,8 @@ struct PathBlock {
   void begin(std::size_t paths) {
     constexpr std::size_t kUsual = 3;  // vertices of a path [task]
     vertices.clear(), vertices.reserve(kUsual * paths);
-    landings.clear(), landings.reserve(paths);
-    vertexCount.assign(paths, 0), landingCount.assign(paths, 0);
+    deposits.clear(), deposits.reserve(paths);
+    vertexCount.assign(paths, 0), depositCount.assign(paths, 0);
     accounts.assign(paths, {}), termination.assign(paths, 0);
     rays = 0;
   }
@@ -50,9 +50,9 @@ struct PathBlock {
     vertices.push_back({path, p, there});
     ++vertexCount[path];
   }
-  void addLanding(std::uint32_t path, const tracing::Hit& hit, const glm::vec2& at, const Rgb& flux) {
-    landings.push_back({path, hit.primitive, 2 * hit.triangle + (hit.front ? 0 : 1), at, flux});
-    ++landingCount[path];
+  void addDeposit(std::uint32_t path, const tracing::Hit& hit, const glm::vec2& at, const Rgb& flux) {
+    deposits.push_back({path, hit.primitive, 2 * hit.triangle + (hit.front ? 0 : 1), at, flux});
+    ++depositCount[path];
   }
 };
 

@@ -18,7 +18,7 @@ void nameSenders(const Senders& senders, const CoarseExitance& exitance, Particl
 }
 
 /// Flux of particles by the diffuse cell that they land on.
-std::vector<double> landedFlux(const Particles& p, const Senders& senders) {
+std::vector<double> depositedFlux(const Particles& p, const Senders& senders) {
   std::vector<double> flux(senders.cells().size(), 0.0);
   for (std::size_t path = 0; path < p.paths(); ++path) {
     const double power = double(p.links[p.link[path]].scale) * p.nominal[p.sender[path]];
@@ -67,7 +67,7 @@ ParticlePlan plan(const Scene& scene, const tracing::RayTracer& tracer, const Pa
   const double share = std::min(arrivingShare(links) / deltalux::tuning::kDefensive, 1.0);
   countPaths(links, share * tuning::kPilotParticles, pilots);
   tracePaths(scene, tracer, emission, settings.maxDepth, pilots);
-  exitance = coarseExitance(scene, tracer, lights, senders, landedFlux(pilots, senders));
+  exitance = coarseExitance(scene, tracer, lights, senders, depositedFlux(pilots, senders));
   senders.weigh(exitance.perCell);
   appendLinks(links, refine(senders.surfaceRoots()));
 

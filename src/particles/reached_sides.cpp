@@ -28,7 +28,7 @@ double areaOf(const Scene& scene, const hierarchy::SurfaceSide& s) {
   return mesh->cumulativeArea[s.triangle] - (s.triangle > 0 ? mesh->cumulativeArea[s.triangle - 1] : 0.0);
 }
 
-struct Landed {
+struct PlacedDeposits {
   RgbSum flux{0.0};
   std::vector<std::uint32_t> paths;  // some of them
 };
@@ -89,18 +89,18 @@ void addReachedSides(std::vector<hierarchy::SurfaceSide>& sides, const Particles
                      std::span<const std::uint32_t> paths, const Scene& scene, const tracing::RayTracer& tracer,
                      const IsLit& lit) {
   const LampSight sight(scene, tracer, lit);
-  std::map<std::pair<PrimitiveId, std::uint32_t>, Landed> landed;  // by primitive, triangle and side
+  std::map<std::pair<PrimitiveId, std::uint32_t>, PlacedDeposits> deposited;  // by primitive, triangle and side
   for (const std::uint32_t path : paths) {
     const double power =
         double(particles.links[particles.link[path]].scale) * particles.nominal[particles.sender[path]];
     for (std::uint32_t i = particles.firstImpact(path); i < particles.endImpact(path); ++i) {
-      Landed& l = landed[{particles.primitive[i], particles.triangleAndSide[i]}];
+      PlacedDeposits& l = deposited[{particles.primitive[i], particles.triangleAndSide[i]}];
       l.flux += power * RgbSum(particles.throughput[i]);
       if (l.paths.size() < deltalux::tuning::kPilots) l.paths.push_back(path);
     }
   }
   std::vector<hierarchy::SurfaceSide> added;
-  for (const auto& [where, l] : landed) {
+  for (const auto& [where, l] : deposited) {
     hierarchy::SurfaceSide s{where.first, where.second >> 1, (where.second & 1) == 0, 0, Rgb(0.0f), 0};
     if (std::binary_search(sides.begin(), sides.end(), s, before)) continue;
     const auto starts = [&](std::uint32_t path) { return startsInLight(particles, path, scene, sight); };
@@ -126,9 +126,9 @@ void dropReachedSides(std::vector<hierarchy::SurfaceSide>& sides, const Particle
       const PrimitiveId primitive = particles.primitive[i];
       if (primitive > last || !asked[primitive.index()]) continue;
       const std::uint32_t side = particles.triangleAndSide[i];
-      const hierarchy::SurfaceSide landed{primitive, side >> 1, (side & 1) == 0, 0, Rgb(0.0f), 0};
-      const auto at = std::lower_bound(sides.begin(), sides.end(), landed, before);
-      if (at != sides.end() && !before(landed, *at))
+      const hierarchy::SurfaceSide deposited{primitive, side >> 1, (side & 1) == 0, 0, Rgb(0.0f), 0};
+      const auto at = std::lower_bound(sides.begin(), sides.end(), deposited, before);
+      if (at != sides.end() && !before(deposited, *at))
         std::atomic_ref(reached[static_cast<std::size_t>(at - sides.begin())]).store(1, std::memory_order_relaxed);
     }
   });

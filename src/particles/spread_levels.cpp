@@ -36,7 +36,7 @@ void PatchTree::list(const hierarchy::Elements& elements, hierarchy::ElementId t
 
 /// Of a patch, from all that lies on it and below it.
 struct SpreadLevels::Cut {
-  LandingSums sums;
+  DepositSums sums;
   double lit = 0;        // area
   double parts = 0;      // least error of what is below
   bool whole = true;     // its particles are spread over all of it
@@ -44,7 +44,7 @@ struct SpreadLevels::Cut {
 };
 
 void SpreadLevels::choose(std::span<const hierarchy::ElementId> surfaces, const hierarchy::Elements& elements,
-                          const std::vector<LandingSums>& sums) {
+                          const std::vector<DepositSums>& sums) {
   of_.resize(elements.size(), kNone);
   damping_.resize(elements.size(), 1.0f);
   parallelBlocks(surfaces.size(), kElementBlock, [&](std::size_t begin, std::size_t end) {
@@ -57,7 +57,7 @@ void SpreadLevels::choose(std::span<const hierarchy::ElementId> surfaces, const 
   });
 }
 
-void SpreadLevels::choose(const hierarchy::Elements& elements, const std::vector<LandingSums>& sums,
+void SpreadLevels::choose(const hierarchy::Elements& elements, const std::vector<DepositSums>& sums,
                           const PatchTree& tree, std::vector<Cut>& cuts) {
   cuts.assign(tree.places.size(), {});
   for (std::size_t i = cuts.size(); i-- > 0;) {

@@ -37,12 +37,12 @@ inline Feedback feedbackOf(double flux, double albedo) {
 }
 
 /// Of the impacts on an element itself.
-struct LandingSums {
+struct DepositSums {
   double weight = 0, squares = 0;  // by nominal senders
   Feedback feedback;
   std::uint32_t count = 0;  // of impacts
 
-  void operator+=(const LandingSums& o) {
+  void operator+=(const DepositSums& o) {
     weight += o.weight, squares += o.squares, count += o.count, feedback += o.feedback;
   }
 };
@@ -64,7 +64,7 @@ class SpreadLevels {
 
   /// Cuts the trees of these input-level patches, each listed once. `sums`: by element.
   void choose(std::span<const hierarchy::ElementId> surfaces, const hierarchy::Elements&,
-              const std::vector<LandingSums>& sums);
+              const std::vector<DepositSums>& sums);
 
   /// The element that the particles of `e` are spread over; none for what stands above one.
   std::uint32_t of(hierarchy::ElementId e) const { return of_[e.index()]; }
@@ -74,7 +74,7 @@ class SpreadLevels {
 
  private:
   struct Cut;
-  void choose(const hierarchy::Elements&, const std::vector<LandingSums>&, const PatchTree&, std::vector<Cut>&);
+  void choose(const hierarchy::Elements&, const std::vector<DepositSums>&, const PatchTree&, std::vector<Cut>&);
 
   std::vector<std::uint32_t> of_;  // by element
   std::vector<float> damping_;     // by element

@@ -219,7 +219,7 @@ class Tracing {
     r.addVertex(w.path, hit.position, hit.primitive);
     w.arrive(hit.primitive, hit.triangle, hit.position, hit.normal, hit.front);
     const bool takes = surfaces_.takes(hit.primitive, hit.front);
-    if (takes) r.addLanding(w.path, hit, surfaces_.parameters(hit), w.throughput);
+    if (takes) r.addDeposit(w.path, hit, surfaces_.parameters(hit), w.throughput);
     if (surfaces_.passesOn(hit.primitive, hit.front)) return true;
     if (!takes) r.accounts[w.path].absorbed += w.throughput;
     return false;

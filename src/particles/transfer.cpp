@@ -74,7 +74,7 @@ void ParticleTransfer::visit(const Particles& p, std::size_t path, std::uint32_t
   const ParticleLink& link = p.links[p.link[path]];
   const float scale = link.scale;
   for (std::uint32_t i = range.impact; i < range.impact + range.impacts; ++i)
-    visit(Landing{elementOf_[i], sender, scale * p.throughput[i], scale * p.nominal[cell] * gray(p.throughput[i]),
+    visit(Deposit{elementOf_[i], sender, scale * p.throughput[i], scale * p.nominal[cell] * gray(p.throughput[i]),
                   link.albedo});
 }
 
@@ -90,23 +90,23 @@ ParticleTransfer::ParticleTransfer(const Particles& p, const hierarchy::Elements
   // By element; each sums its own in the order of the particles.
   std::vector<std::uint32_t> first(elements.size() + 1, 0);
   for (std::size_t path = 0; path < p.paths(); ++path)
-    visit(p, path, senderOf_[path], p.sender[path], p.range[path], [&](const Landing& l) {
+    visit(p, path, senderOf_[path], p.sender[path], p.range[path], [&](const Deposit& l) {
       if (l.element == kNone)
         lost_ += l.weight;
       else
         ++first[l.element + 1];
     });
   for (std::size_t e = 0; e < elements.size(); ++e) first[e + 1] += first[e];
-  LargeArray<Landing> landings(first.back());
+  LargeArray<Deposit> deposits(first.back());
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
   for (std::size_t path = 0; path < p.paths(); ++path)
-    visit(p, path, senderOf_[path], p.sender[path], p.range[path], [&](const Landing& l) {
-      if (l.element != kNone) landings[next[l.element]++] = l;
+    visit(p, path, senderOf_[path], p.sender[path], p.range[path], [&](const Deposit& l) {
+      if (l.element != kNone) deposits[next[l.element]++] = l;
     });
   parallelFor(elements.size(), 64, [&](std::size_t e) {
-    const auto begin = landings.begin() + first[e], end = landings.begin() + first[e + 1];
-    std::stable_sort(begin, end, [](const Landing& a, const Landing& b) { return a.sender < b.sender; });
-    std::for_each(begin, end, [&](const Landing& l) { add(l); });
+    const auto begin = deposits.begin() + first[e], end = deposits.begin() + first[e + 1];
+    std::stable_sort(begin, end, [](const Deposit& a, const Deposit& b) { return a.sender < b.sender; });
+    std::for_each(begin, end, [&](const Deposit& l) { add(l); });
   });
   levels_.choose(surfacesOf(elements), elements, sums_);
   for (std::size_t e = 0; e < entries_.size(); ++e)
@@ -159,7 +159,7 @@ void ParticleTransfer::follow(const Particles& p, const ParticleUpdate& update, 
 
   std::vector<char> touched(elements.size(), 0);
   for (const RetracedPath& r : paths)
-    visit(p, r.path, senderOf_[r.path], r.sender, r.range, [&](const Landing& l) {
+    visit(p, r.path, senderOf_[r.path], r.sender, r.range, [&](const Deposit& l) {
       if (l.element == kNone)
         lost_ -= l.weight;
       else
@@ -168,7 +168,7 @@ void ParticleTransfer::follow(const Particles& p, const ParticleUpdate& update, 
   const hierarchy::SideLocator locator(elements, scene);
   parallelFor(paths.size(), 64, [&](std::size_t i) { locate(p, paths[i].path, locator, scene); });
   for (const RetracedPath& r : paths)
-    visit(p, r.path, senderOf_[r.path], p.sender[r.path], p.range[r.path], [&](const Landing& l) {
+    visit(p, r.path, senderOf_[r.path], p.sender[r.path], p.range[r.path], [&](const Deposit& l) {
       if (l.element == kNone)
         lost_ += l.weight;
       else
@@ -197,9 +197,9 @@ void ParticleTransfer::followPatches(const hierarchy::Elements& elements,
   levels_.choose(under, elements, sums_);
 }
 
-void ParticleTransfer::add(const Landing& l) {
+void ParticleTransfer::add(const Deposit& l) {
   if (l.sender == kNone) return;
-  LandingSums& s = sums_[l.element];
+  DepositSums& s = sums_[l.element];
   s.weight += l.weight, s.squares += double(l.weight) * l.weight, ++s.count;
   if (l.sender >= lights_) s.feedback += feedbackOf(maxChannel(l.flux), l.albedo);
   std::vector<Entry>& all = entries_[l.element];
@@ -209,9 +209,9 @@ void ParticleTransfer::add(const Landing& l) {
   ++at->count, at->flux += RgbSum(l.flux);
 }
 
-void ParticleTransfer::remove(const Landing& l) {
+void ParticleTransfer::remove(const Deposit& l) {
   if (l.sender == kNone) return;
-  LandingSums& s = sums_[l.element];
+  DepositSums& s = sums_[l.element];
   s.weight -= l.weight, s.squares -= double(l.weight) * l.weight, --s.count;
   if (l.sender >= lights_) s.feedback -= feedbackOf(maxChannel(l.flux), l.albedo);
   std::vector<Entry>& all = entries_[l.element];
@@ -274,7 +274,7 @@ std::size_t ParticleTransfer::pairs() const {
 
 std::size_t ParticleTransfer::memoryBytes() const {
   return (senderOf_.capacity() + elementOf_.capacity() + surfaces_.capacity()) * 4 + places_.capacity() +
-         levels_.memoryBytes() + sums_.capacity() * sizeof(LandingSums) + entries_.capacity() * sizeof(entries_[0]) +
+         levels_.memoryBytes() + sums_.capacity() * sizeof(DepositSums) + entries_.capacity() * sizeof(entries_[0]) +
          pairs() * sizeof(Entry);
 }
 

@@ -41,7 +41,7 @@ class ParticleTransfer {
   bool placed(std::size_t impact) const { return elementOf_[impact] != kNone; }
 
   std::size_t pairs() const;
-  /// Gray throughput (by the particles' nominal senders) that landed where there is no element [W].
+  /// Gray throughput (by the particles' nominal senders) deposited where there is no element [W].
   double lost() const { return lost_; }
   std::size_t memoryBytes() const;
 
@@ -53,7 +53,7 @@ class ParticleTransfer {
     std::uint32_t count = 0;   // of impacts
     RgbSum flux{0.0};          // per radiosity [unit^2], of lights per scale [W]
   };
-  struct Landing {
+  struct Deposit {
     std::uint32_t element, sender;
     Rgb flux;
     float weight;
@@ -65,8 +65,8 @@ class ParticleTransfer {
   template <class Visit>
   void visit(const Particles&, std::size_t path, std::uint32_t sender, std::uint32_t cell, const PathRange&,
              const Visit&) const;
-  void add(const Landing&);
-  void remove(const Landing&);
+  void add(const Deposit&);
+  void remove(const Deposit&);
   std::vector<RetracedPath> misplaced(const Particles&, const ParticleUpdate&) const;
   void apply(const PatchTree&, const std::vector<Rgb>& B, hierarchy::Elements&, std::span<const Rgb> scales) const;
 
@@ -75,7 +75,7 @@ class ParticleTransfer {
   LargeArray<std::uint32_t> senderOf_;          // by path
   LargeArray<std::uint32_t> elementOf_;         // by slot of impact
   std::vector<std::vector<Entry>> entries_;     // by element: ascending by sender
-  std::vector<LandingSums> sums_;               // by element
+  std::vector<DepositSums> sums_;               // by element
   std::vector<char> places_;                    // by element: whether particles can start and land there
   std::vector<hierarchy::ElementId> surfaces_;  // input-level patches that particles land on, or did, ascending
   SpreadLevels levels_;

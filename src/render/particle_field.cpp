@@ -64,13 +64,13 @@ ParticleField::ParticleField(const Solution& s) : scene_(s.scene), tracer_(*s.tr
   const auto group = [](const particles::Impact& i) { return particles::sideIndex(i.primitive, i.front); };
   for (const particles::Impact& i : all) ++begin_[group(i) + 1];
   for (std::size_t g = 1; g < begin_.size(); ++g) begin_[g] += begin_[g - 1];
-  landings_.resize(all.size());
+  deposits_.resize(all.size());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
   std::vector<std::uint32_t> place(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) place[i] = next[group(all[i])]++;
   parallelFor(all.size(), 4096, [&](std::size_t i) {
     const particles::Impact& impact = all[i];
-    landings_[place[i]] = {Vec3f(particles::positionOf(impact, scene_)), 0, impact.flux};
+    deposits_[place[i]] = {Vec3f(particles::positionOf(impact, scene_)), 0, impact.flux};
   });
   parallelFor(begin_.size() - 1, 4, [&](std::size_t g) { sortTree(begin_[g], begin_[g + 1]); });
 }
@@ -79,11 +79,11 @@ ParticleField::ParticleField(const Solution& s) : scene_(s.scene), tracer_(*s.tr
 void ParticleField::sortTree(std::uint32_t begin, std::uint32_t end) {
   if (end - begin < 2) return;
   const std::uint32_t middle = begin + (end - begin) / 2;
-  Landing* const at = landings_.data();
+  Deposit* const at = deposits_.data();
   const int axis = widestAxis(at + begin, at + end);
   std::nth_element(at + begin, at + middle, at + end,
-                   [axis](const Landing& a, const Landing& b) { return a.position[axis] < b.position[axis]; });
-  landings_[middle].axis = static_cast<std::uint32_t>(axis);
+                   [axis](const Deposit& a, const Deposit& b) { return a.position[axis] < b.position[axis]; });
+  deposits_[middle].axis = static_cast<std::uint32_t>(axis);
   sortTree(begin, middle);
   sortTree(middle + 1, end);
 }
@@ -91,7 +91,7 @@ void ParticleField::sortTree(std::uint32_t begin, std::uint32_t end) {
 void ParticleField::search(std::uint32_t begin, std::uint32_t end, Query& q) const {
   if (begin == end) return;
   const std::uint32_t middle = begin + (end - begin) / 2;
-  const Landing& l = landings_[middle];
+  const Deposit& l = deposits_[middle];
   const Vec3f p(q.position), d = l.position - p;
   const auto nearer = [](const Neighbour& a, const Neighbour& b) { return a.squared < b.squared; };
   const float squared = glm::dot(d, d);
@@ -201,7 +201,7 @@ ParticleField::Rings ParticleField::ringsOf(const Query& q, const Surroundings& 
                                     rings.radii.begin());
   };
   for (const Neighbour& n : q.found) {
-    const Landing& l = landings_[n.landing];
+    const Deposit& l = deposits_[n.deposit];
     const Vec3 d = Vec3(l.position) - q.position;
     Rings::Sum& s = rings.out[sectorOf(glm::dot(d, frame.tangent), glm::dot(d, frame.bitangent))]
                              [stepOf(std::sqrt(double(n.squared)))];
@@ -231,13 +231,13 @@ ParticleField::Rings ParticleField::ringsOf(const Query& q, const Surroundings& 
 
 Rgb ParticleField::estimate(Query& q, const Surroundings& around) const {
   if (around.blocked)
-    std::erase_if(q.found, [&](const Neighbour& n) { return !inSight(q, Vec3(landings_[n.landing].position)); });
+    std::erase_if(q.found, [&](const Neighbour& n) { return !inSight(q, Vec3(deposits_[n.deposit].position)); });
   if (q.found.empty()) return Rgb(0.0f);
   const Rings rings = ringsOf(q, around);
   const std::size_t steps = rings.radii.size();
   const Rings::Sum all = rings.whole(steps - 1);
   if (!(all.gray > 0) || !(all.area > 0)) return Rgb(0.0f);
-  // Where few have landed the noise is that of as many as land around on average.
+  // Where deposits are few the noise is that of as many as are around on average.
   const double typical = all.squares / all.area;
   const auto noiseOf = [&](const Rings::Sum& s) {
     return caustics::tuning::kSharp * std::sqrt(std::max(s.squares, typical * s.area)) / s.area;

@@ -29,15 +29,15 @@ class ParticleField {
   Rgb at(PrimitiveId, bool front, const Vec3& position, const Vec3& normal) const;
 
  private:
-  struct Landing {
+  struct Deposit {
     Vec3f position;
     std::uint32_t axis = 0;  // that its node of the tree divides
     Rgb flux;
   };
-  /// A landing near the query point.
+  /// A deposit near the query point.
   struct Neighbour {
     float squared;
-    std::uint32_t landing;
+    std::uint32_t deposit;
   };
   struct Query {
     PrimitiveId primitive;
@@ -62,7 +62,7 @@ class ParticleField {
   const Scene& scene_;
   const tracing::RayTracer& tracer_;
   std::vector<std::uint32_t> begin_;  // per primitive and side, one more
-  std::vector<Landing> landings_;     // implicit kd-trees
+  std::vector<Deposit> deposits_;     // implicit kd-trees
 };
 
 }  // namespace deltalux::rendering

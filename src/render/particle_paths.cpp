@@ -16,19 +16,19 @@ namespace {
 
 constexpr std::size_t kPathBlock = 4096;  // [task]
 
-struct Landed {
+struct PlacedDeposits {
   double squared;  // of its distance
   std::uint32_t path, impact;
 };
 
 /// Impacts on the side of the spot, nearest first.
-std::vector<Landed> nearestImpacts(const Solution& s, const SurfaceSpot& spot) {
+std::vector<PlacedDeposits> nearestImpacts(const Solution& s, const SurfaceSpot& spot) {
   const particles::Particles& p = s.particles;
-  std::vector<std::vector<Landed>> found((p.paths() + kPathBlock - 1) / kPathBlock);
-  const auto nearer = [](const Landed& a, const Landed& b) {
+  std::vector<std::vector<PlacedDeposits>> found((p.paths() + kPathBlock - 1) / kPathBlock);
+  const auto nearer = [](const PlacedDeposits& a, const PlacedDeposits& b) {
     return std::tie(a.squared, a.impact) < std::tie(b.squared, b.impact);
   };
-  const auto keepNearest = [&](std::vector<Landed>& all) {
+  const auto keepNearest = [&](std::vector<PlacedDeposits>& all) {
     const std::size_t most = std::min(all.size(), tuning::kMostParticles);
     std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(most), all.end(), nearer);
     all.resize(most);
@@ -42,8 +42,8 @@ std::vector<Landed> nearestImpacts(const Solution& s, const SurfaceSpot& spot) {
       found[path / kPathBlock].push_back({glm::dot(d, d), static_cast<std::uint32_t>(path), i});
     }
   });
-  std::vector<Landed> all;
-  for (std::vector<Landed>& part : found) {
+  std::vector<PlacedDeposits> all;
+  for (std::vector<PlacedDeposits>& part : found) {
     keepNearest(part);
     all.insert(all.end(), part.begin(), part.end());
   }
@@ -51,19 +51,19 @@ std::vector<Landed> nearestImpacts(const Solution& s, const SurfaceSpot& spot) {
   return all;
 }
 
-/// Vertices of the path up to where it landed: the one nearest to that.
-std::size_t cornersUntil(const Solution& s, const Landed& landed) {
+/// Vertices of the path up to where it was deposited: the one nearest to that.
+std::size_t cornersUntil(const Solution& s, const PlacedDeposits& deposited) {
   const particles::Particles& p = s.particles;
-  const std::uint32_t where = p.triangleAndSide[landed.impact];
+  const std::uint32_t where = p.triangleAndSide[deposited.impact];
   const Vec3 at = particles::positionOf(
-      {p.primitive[landed.impact], where >> 1, (where & 1) == 0, p.uv[landed.impact], Rgb(0.0f)}, s.scene);
-  const auto vertices = p.verticesOf(landed.path);
-  const auto met = p.metBy(landed.path);
+      {p.primitive[deposited.impact], where >> 1, (where & 1) == 0, p.uv[deposited.impact], Rgb(0.0f)}, s.scene);
+  const auto vertices = p.verticesOf(deposited.path);
+  const auto met = p.metBy(deposited.path);
   std::size_t best = vertices.size() - 1;
   double least = kInfinity;
   for (std::size_t v = 1; v < vertices.size(); ++v) {
     const double away = glm::length(Vec3(vertices[v]) - at);
-    if (met[v] == p.primitive[landed.impact] && away < least) least = away, best = v;
+    if (met[v] == p.primitive[deposited.impact] && away < least) least = away, best = v;
   }
   return best + 1;
 }
@@ -80,17 +80,17 @@ std::vector<Contributions::Path> particlePathsAt(const Solution& s, const Surfac
   std::map<std::vector<PrimitiveId>, Group> groups;
   const std::vector<Rgb> scales = scene::scalesOf(s.scene);
   RgbSum all(0.0);
-  for (const Landed& landed : nearestImpacts(s, spot)) {
-    const std::size_t corners = cornersUntil(s, landed);
-    const auto vertices = s.particles.verticesOf(landed.path).first(corners);
-    const auto met = s.particles.metBy(landed.path).first(corners);
+  for (const PlacedDeposits& deposited : nearestImpacts(s, spot)) {
+    const std::size_t corners = cornersUntil(s, deposited);
+    const auto vertices = s.particles.verticesOf(deposited.path).first(corners);
+    const auto met = s.particles.metBy(deposited.path).first(corners);
     Group& group = groups[{met.begin(), met.end()}];
     if (group.corners.empty()) {
       for (const Vec3f& v : vertices) group.corners.push_back(Vec3(v));
       group.corners.back() = spot.position;
     }
-    const RgbSum flux(particles::powerOf(s.particles, landed.path, s.elements, locator, scales) *
-                      s.particles.throughput[landed.impact]);
+    const RgbSum flux(particles::powerOf(s.particles, deposited.path, s.elements, locator, scales) *
+                      s.particles.throughput[deposited.impact]);
     group.flux += flux, all += flux, ++group.particles;
   }
   std::vector<Contributions::Path> paths;

@@ -1,5 +1,6 @@
 #pragma once
-// Along which ways particles came to a point: those that landed nearest to it, grouped by the surfaces that they met.
+// Along which ways particles came to a point: those deposited nearest to it, grouped by the surfaces that they
+// met.
 #include <deltalux/contributions.hpp>
 
 #include "render/light_meter.hpp"

@@ -30,10 +30,10 @@ TEST(CausticTexturesOf, TheRingAreOnTheTableAndHoldItsFlux) {
   const PrimitiveId table = primitivesOf(s.scene, findObjects(s.scene, "table").at(0)).at(0);
   const caustics::SurfaceCaustics* caustics = s.caustics.of(table, true);
   ASSERT_TRUE(caustics);
-  RgbSum landed(0.0);
+  RgbSum deposited(0.0);
   for (const particles::Impact& i : particles::impacts(s.particles, s.elements, s.scene))
-    if (i.primitive == table && i.front) landed += RgbSum(i.flux);
-  EXPECT_NEAR(gray(caustics->flux()) / gray(landed), 1.0, 1e-5);
+    if (i.primitive == table && i.front) deposited += RgbSum(i.flux);
+  EXPECT_NEAR(gray(caustics->flux()) / gray(deposited), 1.0, 1e-5);
   // The ring's surroundings alone need fine texels.
   const Vec2 size = caustics->textures.front().region.size();
   EXPECT_LT(size.x * size.y, 0.1 * area(s.scene[table].shape));

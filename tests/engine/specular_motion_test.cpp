@@ -26,7 +26,7 @@ Mat4 turn(double degrees, const Vec3& axis, const Vec3& about) {
   return translation(about) * glm::rotate(Mat4(1.0), glm::radians(degrees), axis) * translation(-about);
 }
 
-double landedFlux(const Solution& s) {
+double depositedFlux(const Solution& s) {
   double sum = 0;
   for (const particles::Impact& i : particles::impacts(s.particles, s.elements, s.scene)) sum += gray(i.flux);
   return sum;
@@ -42,7 +42,7 @@ void expectFresh(Engine& engine, const Edit& edit, double p95) {
   fresh.solve();
   const Solution& t = fresh.solution().get();
   EXPECT_EQ(s.particles.hash(), t.particles.hash());
-  EXPECT_NEAR(landedFlux(s) / landedFlux(t), 1.0, 0.01);
+  EXPECT_NEAR(depositedFlux(s) / depositedFlux(t), 1.0, 0.01);
   const CheckReport check = compareSolutions(engine.solution(), fresh.solution(), test::kQuickCheck);
   EXPECT_TRUE(check.particlesIdentical);
   EXPECT_LT(check.medianRelDiff, 0.005);

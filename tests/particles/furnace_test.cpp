@@ -37,7 +37,7 @@ double meanIrradiance(const Solution& s, std::size_t walls) {
 }
 
 /// What lands by particles of lights and of walls that send what they would.
-double landedFlux(const Scene& scene) {
+double depositedFlux(const Scene& scene) {
   const auto tracer = tracing::makeEmbreeTracer(scene);
   const Particles p = traceParticles(scene, *tracer, {300000, 1});
   EXPECT_NO_THROW(validate(p, scene));
@@ -45,16 +45,16 @@ double landedFlux(const Scene& scene) {
   for (std::size_t i = 0; i < elements.size(); ++i)
     if (elements.isReceivingLeaf(hierarchy::ElementId(i)))
       elements.radiometry[i].B = Rgb(static_cast<float>(kRho * kExact));
-  double landed = 0;
-  for (const Impact& i : impacts(p, elements, scene)) landed += i.flux.g;
-  return landed;
+  double deposited = 0;
+  for (const Impact& i : impacts(p, elements, scene)) deposited += i.flux.g;
+  return deposited;
 }
 
 /// `taken`: area of a convex block that gives back all that reaches it. What lands by particles is then known: the
 /// radiosity of the walls times that area.
 void expectFurnace(Scene scene, double taken) {
   addAreaLights(scene);
-  EXPECT_NEAR(landedFlux(scene) / (kExact * taken), 1.0, 0.01);  // chance alone makes 0.3 %
+  EXPECT_NEAR(depositedFlux(scene) / (kExact * taken), 1.0, 0.01);  // chance alone makes 0.3 %
   SolveSettings settings;
   settings.error = 0.02, settings.particles = 300000;
   Engine engine(std::move(scene), settings);

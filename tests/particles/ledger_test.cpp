@@ -1,4 +1,4 @@
-// The flux that particles take over comes out again, on every scene of ours: landed, absorbed, escaped or cut.
+// The flux that particles take over comes out again, on every scene of ours: deposited, absorbed, escaped or cut.
 #include <gtest/gtest.h>
 
 #include <algorithm>

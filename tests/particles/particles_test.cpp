@@ -121,7 +121,7 @@ TEST(Particles, LightCaughtBetweenMirrorsEnds) {
   EXPECT_GT(p.cut(), 0u);
   const ParticleLedger l = p.ledger();
   EXPECT_EQ(l.passed, 0);
-  EXPECT_EQ(l.landed, 0);
+  EXPECT_EQ(l.deposited, 0);
   EXPECT_NEAR((l.escaped + l.cut + l.residue()) / l.entered, 1.0, 1e-3);
   EXPECT_NEAR(l.residue() / l.entered, 0.0, 0.02);
 }
@@ -134,13 +134,13 @@ TEST(Particles, DepositKeepsTheirFlux) {
   for (std::size_t i = 0; i < elements.size(); ++i) elements.radiometry[i].B = Rgb(2.0f);
   const ParticleTransfer transfer(p, elements, scene);
   transfer.apply(elements, scene::scalesOf(scene));
-  RgbSum deposited(0.0), landed(0.0);
+  RgbSum transferred(0.0), deposited(0.0);
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (elements.isReceivingLeaf(hierarchy::ElementId(i)))
-      deposited += double(elements.geometry[i].area) * RgbSum(elements.radiometry[i].particle);
+      transferred += double(elements.geometry[i].area) * RgbSum(elements.radiometry[i].particle);
   }
-  for (const Impact& i : impacts(p, elements, scene)) landed += RgbSum(i.flux);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(deposited[c] / landed[c], 1.0, 1e-4);
+  for (const Impact& i : impacts(p, elements, scene)) deposited += RgbSum(i.flux);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(transferred[c] / deposited[c], 1.0, 1e-4);
   EXPECT_EQ(transfer.lost(), 0);
 }
 

@@ -37,7 +37,7 @@ class Floor {
 
   /// Share that is taken of `flux` per radiosity and area of the floor, over links of that albedo, on its first leaf.
   double damping(double flux, float albedo) {
-    std::vector<LandingSums> sums(elements_.size());
+    std::vector<DepositSums> sums(elements_.size());
     sums[leaves_.front().index()] = {1, 1, feedbackOf(flux * elements_.shape(top_).area, albedo), 1};
     levels_.choose(std::array{top_}, elements_, sums);
     return levels_.damping(levels_.of(leaves_.front()));

@@ -61,9 +61,9 @@ void members(auto& archive, Is<lines::Lines> auto& l) {
 
 void members(auto& archive, Is<particles::Particles> auto& p) {
   auto& [senderCells, nominal, links, link, sender, originTriangle, range, account, termination, vertices, met,
-         primitive, triangleAndSide, uv, throughput, quantum, rays, looks] = p;
+         primitive, triangleAndSide, uv, throughput, quantum, rays, pilots] = p;
   transferAll(archive, senderCells, nominal, links, link, sender, originTriangle, range, account, termination, vertices,
-              met, primitive, triangleAndSide, uv, throughput, quantum, rays, looks);
+              met, primitive, triangleAndSide, uv, throughput, quantum, rays, pilots);
 }
 
 }  // namespace deltalux::io
