@@ -16,6 +16,7 @@ void addExportCommand(CLI::App&);
 void addReferenceCommand(CLI::App&);
 void addDesignCommand(CLI::App&);
 void addGridCommand(CLI::App&);
+void addGlareCommand(CLI::App&);
 #ifdef DELTALUX_VIEWER
 void addViewCommand(CLI::App&);
 #endif
@@ -32,6 +33,7 @@ inline void addCommands(CLI::App& app) {
   addReferenceCommand(app);
   addDesignCommand(app);
   addGridCommand(app);
+  addGlareCommand(app);
 #ifdef DELTALUX_VIEWER
   addViewCommand(app);
 #endif

@@ -1,9 +1,6 @@
 // deltalux grid: a standard's measuring grid on an area, and what the standard asks of its illuminances.
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
-#include <cstdio>
 #include <deltalux/error.hpp>
 #include <deltalux/output.hpp>
 #include <deltalux/plan.hpp>
@@ -11,43 +8,20 @@
 #include <deltalux/render.hpp>
 
 #include "commands.hpp"
+#include "grid_place.hpp"
 #include "solution_source.hpp"
 
 namespace deltalux::cli {
 
 namespace {
 
-constexpr double kRight = 1e-4;  // cosine between sides at right angles at most
-
 struct GridOptions {
   SolutionSource source;
   RunOptions run;
-  std::string area, surface, output, plan, standard = "en12464";
-  GridSettings grid;
+  GridPlace place;
+  std::string output, plan, standard = "en12464";
   bool cylindrical = false;
 };
-
-/// In the coordinates of the scene's files.
-GridArea areaIn(const std::string& text) {
-  std::array<double, 9> n{};
-  char rest = 0;
-  const int count = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf%c", &n[0], &n[1], &n[2], &n[3],
-                                &n[4], &n[5], &n[6], &n[7], &n[8], &rest);
-  const GridArea area{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}};
-  const double u = glm::length(area.u), v = glm::length(area.v);
-  if (count != 9 || !std::isfinite(u + v + glm::length(area.corner)))
-    throw CLI::ValidationError("--area " + text + ": not X,Y,Z,UX,UY,UZ,VX,VY,VZ (a corner and two sides)");
-  if (!(u > 0 && v > 0) || std::abs(glm::dot(area.u, area.v)) > kRight * u * v)
-    throw CLI::ValidationError("--area " + text + ": its sides are not at right angles");
-  return area;
-}
-
-MeasuringGrid gridIn(const Scene& scene, const GridOptions& options) {
-  if (!options.surface.empty()) return gridOn(scene, options.surface, options.grid);
-  GridArea area = areaIn(options.area);
-  area.corner -= scene.origin;
-  return gridOf(area, scene.metresPerUnit, options.grid);
-}
 
 /// The points in the coordinates of the scene's files, as a table to write.
 PointTable tableOf(const MeasuringGrid& grid, const Scene& scene) {
@@ -87,26 +61,23 @@ void sayCylindrical(const MeasuringGrid& grid, const std::vector<double>& horizo
 }
 
 void runGrid(const GridOptions& options) {
-  if (options.area.empty() == options.surface.empty())
-    throw CLI::ValidationError("say where: either --area or --surface");
-  if (!options.area.empty()) areaIn(options.area);
+  options.place.validate();
   Run run("grid", options.run);
   for (const std::string& file : {options.output, options.plan})
     if (!file.empty()) checkWritable(file);
   {
     ProgressPrinter progress(options.run.progressStyle());
     const SolutionView solution =
-        options.source.load(run, options.run, progress, [&](const Scene& scene) { (void)gridIn(scene, options); });
+        options.source.load(run, options.run, progress, [&](const Scene& scene) { (void)options.place.grid(scene); });
     const Scene& scene = solution.scene();
-    const MeasuringGrid grid = gridIn(scene, options);
+    const MeasuringGrid grid = options.place.grid(scene);
     const ProbeSettings settings = meterSettings(solution, options.run.seed);
     const std::vector<ProbeResult> results = probe(solution, grid.points, settings, &progress);
     const std::vector<double> lux = luxOf(results, scene.luminousEfficacy);
     const GridStatistics s = statisticsOf(lux);
     if (!options.output.empty())
       writeProbeResults(options.output, tableOf(grid, scene), results, scene.luminousEfficacy);
-    if (!options.plan.empty())
-      savePlan(options.plan, {grid, lux, options.surface.empty() ? "area" : options.surface, scene.metresPerUnit});
+    if (!options.plan.empty()) savePlan(options.plan, {grid, lux, options.place.name(), scene.metresPerUnit});
     if (!options.run.quiet) {
       fmt::print("{} points, {} x {}, {:.3g} x {:.3g} m apart\n", grid.points.size(), grid.columns, grid.rows,
                  glm::length(grid.area.u) * scene.metresPerUnit / grid.columns,
@@ -125,25 +96,11 @@ void addGridCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("grid", "A standard's measuring grid, its illuminances and a plan of them");
   const auto options = std::make_shared<GridOptions>();
   options->source.add(*command);
-  command->add_option("--surface", options->surface, "On that object's largest level polygon, or its largest")
-      ->type_name("NAME");
-  command
-      ->add_option("--area", options->area,
-                   "On a rectangle: a corner, and two sides at right angles; measured where U x V points")
-      ->type_name("X,Y,Z,UX,UY,UZ,VX,VY,VZ");
+  options->place.add(*command);
   command->add_option("--standard", options->standard, "Whose distances of points")
       ->check(CLI::IsMember({"en12464"}))
       ->capture_default_str();
-  command->add_option("--spacing", options->grid.spacing, "Distance of points at most, in place of the standard's [m]")
-      ->check(CLI::PositiveNumber)
-      ->type_name("M");
-  command
-      ->add_option("--border", options->grid.border,
-                   "Left out along the rim, but no more than 15 % of the shorter side [m]")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("M")
-      ->capture_default_str();
-  command->add_option("--height", options->grid.height, "Of the points above it [m]")
+  command->add_option("--height", options->place.settings.height, "Of the points above it [m]")
       ->check(CLI::NonNegativeNumber)
       ->type_name("M")
       ->capture_default_str();

@@ -54,7 +54,7 @@ struct LambertPointLight {
 struct Photometry {
   std::vector<double> verticals, horizontals;
   std::vector<double> candela;
-  Vec3 opening{0};  // luminous dimensions: width, length, height [m]; 0 for a point
+  Vec3 opening{0};  // luminous width, length, height [m]; 0 for a point; width, length negative of round ones
 };
 
 /// A luminaire as a point of measured intensity: I(w) = candela(w) / 179 * scale.

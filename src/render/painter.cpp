@@ -34,9 +34,14 @@ Image blankImage(const Solution& s, const RenderSettings& settings) {
 
 Painter::Painter(const Solution& s, const Reconstruction& reconstruction, const View& view,
                  const RenderSettings& settings)
+    : Painter(
+          s, reconstruction, [view](double x, double y) { return viewRay(view, x, y); }, settings) {}
+
+Painter::Painter(const Solution& s, const Reconstruction& reconstruction, PictureRay ray,
+                 const RenderSettings& settings)
     : elements_(s.elements),
       reconstruction_(reconstruction),
-      view_(view),
+      ray_(std::move(ray)),
       settings_(settings),
       across_((settings.width + tuning::kTile - 1) / tuning::kTile),
       down_((settings.height + tuning::kTile - 1) / tuning::kTile),
@@ -67,7 +72,7 @@ Rgb Painter::radiance(int x, int y, std::uint32_t s, Sights& sights) const {
 
 EyeRay Painter::eyeRay(int x, int y, std::uint32_t index, std::uint64_t key) const {
   const UnitPair u = scrambledSobol(index, key);
-  const ViewRay from = viewRay(view_, (x + u.x) / settings_.width, (y + u.y) / settings_.height);
+  const ViewRay from = ray_((x + u.x) / settings_.width, (y + u.y) / settings_.height);
   EyeRay eye;
   eye.ray.origin = Vec3f(from.origin);
   eye.ray.direction = Vec3f(from.direction);

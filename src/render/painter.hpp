@@ -3,6 +3,7 @@
 // each tile looks around first (sight.hpp), and every pixel then has a fixed list of rays.
 #include <deltalux/image.hpp>
 #include <deltalux/render.hpp>
+#include <functional>
 
 #include "render/eye_path.hpp"
 
@@ -11,10 +12,14 @@ namespace deltalux::rendering {
 /// An empty picture of that size. The settings are checked.
 Image blankImage(const Solution&, const RenderSettings&);
 
+/// The ray of a picture at x in [0,1] from the left and y in [0,1] from the top; direction is unit.
+using PictureRay = std::function<ViewRay(double x, double y)>;
+
 class Painter {
  public:
   /// Solution and reconstruction must outlive this.
   Painter(const Solution&, const Reconstruction&, const View&, const RenderSettings&);
+  Painter(const Solution&, const Reconstruction&, PictureRay, const RenderSettings&);
 
   struct Tile {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // pixels, the ends excluded
@@ -35,7 +40,7 @@ class Painter {
 
   const hierarchy::Elements& elements_;
   const Reconstruction& reconstruction_;
-  View view_;
+  PictureRay ray_;
   RenderSettings settings_;
   int across_, down_;
   EyePaths paths_;

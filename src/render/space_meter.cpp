@@ -8,7 +8,11 @@
 namespace deltalux::rendering {
 
 SpaceMeter::SpaceMeter(const Solution& s, const EyePaths& paths)
-    : scene_(s.scene, s.settings.diffuseOnly, s.tracer),
+    : SpaceMeter(s.scene, s.settings.diffuseOnly, s.tracer, paths) {}
+
+SpaceMeter::SpaceMeter(const Scene& scene, bool diffuseOnly, std::shared_ptr<const tracing::RayTracer> rays,
+                       const EyePaths& paths)
+    : scene_(scene, diffuseOnly, std::move(rays)),
       connections_(scene_),
       table_(scene_, connections_, tuning::kMeterTests),
       tracer_(scene_, connections_, table_, 0, [&paths](const tracing::Hit& hit) { return paths.diffuse(hit); }) {}

@@ -14,6 +14,8 @@ class SpaceMeter {
  public:
   /// Both must outlive this. `paths`: how the solution is read.
   SpaceMeter(const Solution&, const EyePaths& paths);
+  /// Of a scene with other lights than the solution's, whose surfaces send what the solution has.
+  SpaceMeter(const Scene&, bool diffuseOnly, std::shared_ptr<const tracing::RayTracer>, const EyePaths& paths);
 
   /// Irradiance at a point, to the error that the settings ask for.
   ProbeResult at(const ProbePoint&, const ProbeSettings&, std::uint64_t key) const;

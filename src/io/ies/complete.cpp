@@ -182,8 +182,8 @@ Photometry resampleToTypeC(const IesRecord& record, const std::string& name) {
 Photometry completePhotometry(IesRecord& record, const std::string& name) {
   Photometry photometry =
       record.type == PhotometricType::C ? completeTypeC(record, name) : resampleToTypeC(record, name);
-  // Negative dimensions mark round openings; their size is the same.
-  photometry.opening = {std::abs(record.width), std::abs(record.length), std::abs(record.height)};
+  // Negative dimensions mark round openings.
+  photometry.opening = {record.width, record.length, std::abs(record.height)};
   return photometry;
 }
 
