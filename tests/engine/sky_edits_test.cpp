@@ -21,7 +21,7 @@ Scene southRoom() {
   Scene scene;
   const MaterialId white = addMaterial(scene, "white", lambert(0.5f));
   addBox(scene, white, Vec3(0), {4, 3, 2.5}, true);
-  std::erase_if(scene.primitives, [](const Primitive& p) { return bounds(p.shape).max.y <= 0; });
+  std::erase_if(scene.primitives, [](const Primitive& p) { return bounds(p.shape).upper.y <= 0; });
   addBox(scene, white, {1, 1, 0.6}, {2, 2, 0.7}, false);
   setDaylight(scene, daylightAt("2026-03-20T09:00", "perez:500,120"));
   return scene;

@@ -152,7 +152,7 @@ TEST(GltfBadInput, NodesThatAreNoTree) {
 }
 
 TEST(GltfBadInput, ExtensionsThatAreNeededButNotRead) {
-  for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_texture_basisu"}) {
+  for (const char* extension : {"KHR_draco_mesh_compression", "KHR_meshopt_compression", "KHR_texture_basisu"}) {
     const InputError error = refusal(with("/extensionsRequired", {extension}).glb());
     EXPECT_NE(error.message().find(extension), std::string::npos);
     EXPECT_NE(error.hint().find("without compression"), std::string::npos);

@@ -19,14 +19,14 @@ constexpr std::int64_t kMaxCount = (std::int64_t{1} << 31) - 1;  // [limit]
 enum class Support { Understood, Ignored, Compressed, Unknown };
 
 Support supportOf(std::string_view extension) {
-  constexpr std::array<std::string_view, 10> understood{"KHR_lights_punctual",   "KHR_materials_emissive_strength",
-                                                        "KHR_materials_ior",     "KHR_materials_transmission",
-                                                        "KHR_materials_volume",  "KHR_materials_specular",
-                                                        "KHR_materials_unlit",   "KHR_texture_transform",
-                                                        "KHR_mesh_quantization", "EXT_lights_ies"};
-  constexpr std::array<std::string_view, 6> compressed{"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                                       "KHR_meshopt_compression",    "KHR_texture_basisu",
-                                                       "EXT_texture_webp",           "EXT_texture_avif"};
+  constexpr std::array<std::string_view, 12> understood{"KHR_lights_punctual",     "KHR_materials_emissive_strength",
+                                                        "KHR_materials_ior",       "KHR_materials_transmission",
+                                                        "KHR_materials_volume",    "KHR_materials_specular",
+                                                        "KHR_materials_unlit",     "KHR_texture_transform",
+                                                        "KHR_mesh_quantization",   "EXT_lights_ies",
+                                                        "EXT_mesh_gpu_instancing", "EXT_meshopt_compression"};
+  constexpr std::array<std::string_view, 5> compressed{"KHR_draco_mesh_compression", "KHR_meshopt_compression",
+                                                       "KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"};
   for (const std::string_view known : understood) {
     if (extension == known) return Support::Understood;
   }
@@ -70,14 +70,24 @@ void checkRequiredExtensions(const JsonView& document, const std::string& file) 
 
 // A view whose buffer is there can be read as it is: the compressed bytes are an alternative then.
 // [EXT_meshopt_compression, "Fallback buffers"]
-void checkCompression(const JsonView& view, const JsonView& buffer, const std::string& file, const std::string& where) {
-  for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-    if (!view.member("extensions").member(extension).present()) continue;
-    const JsonView fallback = buffer.member("extensions").member(extension).member("fallback");
+void checkCompression(const JsonView& view, const JsonView& buffer, std::size_t buffers, const std::string& file,
+                      const std::string& where) {
+  if (view.member("extensions").member("KHR_meshopt_compression").present()) {
+    const JsonView fallback = buffer.member("extensions").member("KHR_meshopt_compression").member("fallback");
     fallback.expectBool();
     const bool empty = fallback.present() && fallback.value().get<bool>() && !buffer.member("uri").present();
-    if (empty) throw needsUnread(file, where, extension);
+    if (empty) throw needsUnread(file, where, "KHR_meshopt_compression");
   }
+  const JsonView packed = view.member("extensions").member("EXT_meshopt_compression");
+  if (!packed.present()) return;
+  packed.expectObject();
+  packed.member("buffer").expectPresent("the index of the buffer with the compressed bytes");
+  packed.member("buffer").expectIndex(buffers);
+  packed.member("byteOffset").expectInteger(0, kMaxBytes);
+  packed.member("byteLength").expectInteger(1, kMaxBytes);
+  packed.member("byteStride").expectInteger(1, 256);
+  packed.member("count").expectInteger(1, kMaxCount);
+  for (const char* key : {"mode", "filter"}) packed.member(key).expectString();
 }
 
 void checkBuffers(const JsonView& document, const std::string& file) {
@@ -85,13 +95,17 @@ void checkBuffers(const JsonView& document, const std::string& file) {
     buffer.member("byteLength").expectPresent("its size in bytes");
     buffer.member("byteLength").expectInteger(1, kMaxBytes);
     buffer.member("uri").expectString();
+    const JsonView extensions = buffer.member("extensions");
+    extensions.expectObject();
+    extensions.member("EXT_meshopt_compression").expectObject();
+    extensions.member("EXT_meshopt_compression").member("fallback").expectBool();
   }
   const std::vector<JsonView> buffers = document.member("buffers").objects();
   std::size_t index = 0;
   for (const JsonView& view : document.member("bufferViews").objects()) {
     view.member("buffer").expectPresent("the index of its buffer");
     view.member("buffer").expectIndex(buffers.size());
-    checkCompression(view, buffers[view.member("buffer").value().get<std::size_t>()], file,
+    checkCompression(view, buffers[view.member("buffer").value().get<std::size_t>()], buffers.size(), file,
                      "/bufferViews/" + std::to_string(index++));
     view.member("byteLength").expectPresent("its size in bytes");
     view.member("byteLength").expectInteger(1, kMaxBytes);
@@ -274,6 +288,9 @@ void checkNodes(const JsonView& document) {
     node.member("translation").expectNumbers(3, -kHuge, kHuge);
     node.member("rotation").expectNumbers(4, -kHuge, kHuge);
     node.member("scale").expectNumbers(3, -kHuge, kHuge);
+    const JsonView instances = node.member("extensions").member("EXT_mesh_gpu_instancing").member("attributes");
+    for (const char* key : {"TRANSLATION", "ROTATION", "SCALE"})
+      instances.member(key).expectIndex(document.member("accessors").size());
     const JsonView punctual = node.member("extensions").member("KHR_lights_punctual").member("light");
     punctual.expectIndex(extensions.member("KHR_lights_punctual").member("lights").size());
     const JsonView measured = node.member("extensions").member("EXT_lights_ies");

@@ -5,6 +5,7 @@
 #include <deltalux/error.hpp>
 
 #include "io/gltf/check.hpp"
+#include "io/gltf/unpack.hpp"
 #include "io/import_file.hpp"
 #include "io/json_text.hpp"
 
@@ -61,6 +62,7 @@ std::string bytesOfBuffer(const json& buffer, std::size_t index, const GltfDocum
   const std::string where = "/buffers/" + std::to_string(index);
   const auto length = buffer.at("byteLength").get<std::size_t>();
   std::string bytes;
+  if (isFallback(buffer)) return bytes;
   if (buffer.contains("uri")) {
     bytes = bytesOfUri(document.name, document.folder, buffer.at("uri").get<std::string>(), where);
   } else if (container.isBinary && index == 0) {
@@ -118,10 +120,10 @@ GltfDocument openGltf(std::string_view bytes, const std::string& name, const std
   const auto entries = [&](const char* key) -> json {
     return tree.contains(key) ? std::move(tree[key]) : json::array();
   };
-  const json buffers = entries("buffers");
-  for (std::size_t i = 0; i < buffers.size(); ++i) {
-    document.buffers.push_back(bytesOfBuffer(buffers[i], i, document, container));
-  }
+  if (tree.contains("buffers"))
+    for (std::size_t i = 0; i < tree["buffers"].size(); ++i)
+      document.buffers.push_back(bytesOfBuffer(tree["buffers"][i], i, document, container));
+  unpackViews(tree, document);
   for (const json& image : entries("images")) document.images.push_back(imageOf(image));
   document.skins = entries("skins").size();
   document.animations = entries("animations").size();

@@ -153,6 +153,21 @@ void countIgnored(const tinygltf::Material& material, Ignored& ignored) {
 
 }  // namespace
 
+Material tinted(const Material& material, float metallic, const Rgb& factor, TextureId texture) {
+  Material result = material;
+  if (auto* opaque = std::get_if<Opaque>(&result.surface)) {
+    if (texture.valid())
+      opaque->diffuseTexture = texture;
+    else
+      opaque->diffuse = glm::min(opaque->diffuse * factor, Rgb(1.0f));
+    Rgb& lobe = opaque->specular.reflectance;
+    lobe = glm::min(lobe * glm::mix(Rgb(1.0f), factor, metallic), Rgb(1.0f));
+  } else if (auto* pane = std::get_if<ThinGlass>(&result.surface)) {
+    pane->transmissivity = glm::min(pane->transmissivity * factor, Rgb(1.0f));
+  }
+  return result;
+}
+
 GltfMaterials addMaterials(const GltfDocument& document, double luminousEfficacy, Scene& scene,
                            std::map<std::string, std::size_t>& ignored) {
   GltfTextures textures(document);
@@ -173,6 +188,11 @@ GltfMaterials addMaterials(const GltfDocument& document, double luminousEfficacy
     const bool textured = opaque && opaque->diffuseTexture.valid();
     result.texture.push_back(textured ? textureUseOf(source.pbrMetallicRoughness.baseColorTexture, document.model)
                                       : std::nullopt);
+    const auto& pbr = source.pbrMetallicRoughness;
+    result.metallic.push_back(single(pbr.metallicFactor) *
+                              (pbr.metallicRoughnessTexture.index < 0
+                                   ? 1.0f
+                                   : textures.average(pbr.metallicRoughnessTexture.index, TexelEncoding::Linear).b));
     scene.materials.push_back(std::move(material));
   }
   const bool needsFallback =

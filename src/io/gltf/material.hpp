@@ -33,7 +33,11 @@ struct TextureUse {
 struct GltfMaterials {
   MaterialId fallback;                             // of primitives that name none; valid if there are any
   std::vector<std::optional<TextureUse>> texture;  // by glTF material, when it has a diffuse texture
+  std::vector<float> metallic;                     // by glTF material
 };
+
+/// A material of the same name whose base colour has a factor more, or a texture instead of it whose mean that is.
+Material tinted(const Material&, float metallic, const Rgb& factor, TextureId texture);
 
 /// Appends the document's materials, in order, and one for primitives without any, and the textures that they use.
 /// Counts what is left out in `ignored`. Throws InputError when a texture that is needed cannot be read.

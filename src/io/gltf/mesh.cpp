@@ -101,7 +101,6 @@ std::optional<Mesh> readMesh(const GltfDocument& document, const tinygltf::Primi
     return std::nullopt;
   }
   if (!primitive.targets.empty()) ++ignored["morph targets"];
-  if (primitive.attributes.contains("COLOR_0")) ++ignored["vertex colours"];
   const auto position = primitive.attributes.find("POSITION");
   if (position == primitive.attributes.end()) throw InputError(document.name, 0, where + " has no POSITION", kHint);
 
