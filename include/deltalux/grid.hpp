@@ -36,6 +36,10 @@ MeasuringGrid gridOf(const GridArea&, double metresPerUnit, const GridSettings& 
 /// from its front: of the rectangle about it along its longest edge. Throws InputError where it has no polygon.
 MeasuringGrid gridOn(const Scene&, std::string_view object, const GridSettings& = {});
 
+/// The same on a polygon, from above where it is level, else from its front. Throws InputError where none of the points
+/// lies on it.
+MeasuringGrid gridOn(const Polygon&, const Vec3& up, double metresPerUnit, const GridSettings& = {});
+
 /// Of illuminances at points [lux]; they must not be none.
 struct GridStatistics {
   double mean = 0, least = 0, most = 0;

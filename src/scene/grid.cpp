@@ -69,11 +69,14 @@ MeasuringGrid gridOf(const GridArea& area, double metresPerUnit, const GridSetti
   return grid;
 }
 
-MeasuringGrid gridOn(const Scene& scene, std::string_view object, const GridSettings& settings) {
-  const Polygon& polygon = polygonOf(scene, object);
+namespace {
+
+/// Without points where none lies on the polygon.
+MeasuringGrid gridOnPolygon(const Polygon& polygon, const Vec3& up, double metresPerUnit,
+                            const GridSettings& settings) {
   const std::vector<Vec3>& corners = polygon.vertices;
-  const bool level = std::abs(glm::dot(polygon.normal, scene.up)) > kLevel;
-  const Vec3 normal = level && glm::dot(polygon.normal, scene.up) < 0 ? -polygon.normal : polygon.normal;
+  const bool level = std::abs(glm::dot(polygon.normal, up)) > kLevel;
+  const Vec3 normal = level && glm::dot(polygon.normal, up) < 0 ? -polygon.normal : polygon.normal;
   Vec3 u(0);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec3 edge = corners[(i + 1) % corners.size()] - corners[i];
@@ -86,8 +89,8 @@ MeasuringGrid gridOn(const Scene& scene, std::string_view object, const GridSett
     const Vec2 at(glm::dot(p - corners[0], u), glm::dot(p - corners[0], v));
     low = glm::min(low, at), high = glm::max(high, at);
   }
-  MeasuringGrid grid = gridOf({corners[0] + low.x * u + low.y * v, (high.x - low.x) * u, (high.y - low.y) * v},
-                              scene.metresPerUnit, settings);
+  MeasuringGrid grid =
+      gridOf({corners[0] + low.x * u + low.y * v, (high.x - low.x) * u, (high.y - low.y) * v}, metresPerUnit, settings);
   MeasuringGrid on = grid;
   on.points.clear(), on.cells.clear();
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
@@ -97,9 +100,22 @@ MeasuringGrid gridOn(const Scene& scene, std::string_view object, const GridSett
     if (!inFrame || !covers(polygon, uv)) continue;
     on.points.push_back(grid.points[i]), on.cells.push_back(grid.cells[i]);
   }
-  if (on.points.empty())
-    scene::edits::refuse("no point of its grid lies on '" + std::string(object) + "'", "set a smaller spacing");
   return on;
+}
+
+}  // namespace
+
+MeasuringGrid gridOn(const Scene& scene, std::string_view object, const GridSettings& settings) {
+  const MeasuringGrid grid = gridOnPolygon(polygonOf(scene, object), scene.up, scene.metresPerUnit, settings);
+  if (grid.points.empty())
+    scene::edits::refuse("no point of its grid lies on '" + std::string(object) + "'", "set a smaller spacing");
+  return grid;
+}
+
+MeasuringGrid gridOn(const Polygon& polygon, const Vec3& up, double metresPerUnit, const GridSettings& settings) {
+  MeasuringGrid grid = gridOnPolygon(polygon, up, metresPerUnit, settings);
+  if (grid.points.empty()) scene::edits::refuse("no point of its grid lies on the polygon", "set a smaller spacing");
+  return grid;
 }
 
 GridStatistics statisticsOf(std::span<const double> lux) {
