@@ -13,18 +13,33 @@ namespace {
 constexpr double kMostBorder = 0.15;  // of the shorter side [EN12464] [defined]
 constexpr double kMostSpacing = 10;   // [m] [EN12464] [defined]
 constexpr double kLevel = 0.99;       // cosine to the vertical of what is level [limit]
+constexpr int kDiscCorners = 64;      // of a disc as a polygon: 0.2 % of its area is left out [limit]
 constexpr int kCylinderSides = 16;    // a small lamp's light is 0.8 % off at most [limit]
 
 /// How many cells no wider than `spacing` a side of such a length has: [EN12464] takes the nearest whole number.
 int cellsOf(double length, double spacing) { return std::max(1, static_cast<int>(std::lround(length / spacing))); }
 
-const Polygon& polygonOf(const Scene& scene, std::string_view name) {
-  const Polygon* best = nullptr;
+/// A polygon, or a disc as one of many corners; nullopt of all else.
+std::optional<Polygon> flatShape(const Shape& shape) {
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) return *polygon;
+  const auto* ring = std::get_if<Ring>(&shape);
+  if (!ring || ring->innerRadius > 0 || !(ring->outerRadius > 0)) return std::nullopt;
+  const Frame frame(ring->normal);
+  std::vector<Vec3> corners;
+  for (int i = 0; i < kDiscCorners; ++i) {
+    const double angle = 2 * kPi * (i - 0.5) / kDiscCorners - kPi / 2;  // the first edge lies along the tangent
+    corners.push_back(ring->center + ring->outerRadius * frame.toWorld({std::cos(angle), std::sin(angle), 0}));
+  }
+  return makePolygon(std::move(corners));
+}
+
+Polygon polygonOf(const Scene& scene, std::string_view name) {
+  std::optional<Polygon> best;
   bool bestLevel = false;
   double bestHeight = 0;
   for (const ObjectId object : scene::edits::objectsNamed(scene, std::string(name)))
     for (const PrimitiveId p : primitivesOf(scene, object)) {
-      const auto* polygon = std::get_if<Polygon>(&scene[p].shape);
+      std::optional<Polygon> polygon = flatShape(scene[p].shape);
       if (!polygon || !(polygon->area > 0)) continue;
       const bool level = std::abs(glm::dot(polygon->normal, scene.up)) > kLevel;
       const double height = glm::dot(polygon->vertices.front(), scene.up);
@@ -33,9 +48,10 @@ const Polygon& polygonOf(const Scene& scene, std::string_view name) {
       constexpr double kEqual = 1e-6;  // [rounding]
       const bool larger = lead > kEqual || (std::abs(lead) <= kEqual && height > bestHeight);
       if (!best || (level && !bestLevel) || (level == bestLevel && larger))
-        best = polygon, bestLevel = level, bestHeight = height;
+        best = std::move(polygon), bestLevel = level, bestHeight = height;
     }
-  if (!best) scene::edits::refuse("'" + std::string(name) + "' has no polygon", "give an area of its own instead");
+  if (!best)
+    scene::edits::refuse("'" + std::string(name) + "' has no polygon and no disc", "give an area of its own instead");
   return *best;
 }
 

@@ -13,8 +13,8 @@ constexpr double kPageWidth = 595, kPageHeight = 842, kPageMargin = 42;  // [lay
 struct Ink {
   double r = 0, g = 0, b = 0;
 };
-constexpr Ink kBlack{0.1, 0.1, 0.12}, kGrey{0.42, 0.42, 0.45}, kFaint{0.85, 0.85, 0.87}, kWhite{1, 1, 1};  // [shown]
-constexpr Ink kGood{0.05, 0.48, 0.24}, kBad{0.76, 0.15, 0.11}, kAmber{0.72, 0.45, 0.02};                   // [shown]
+constexpr Ink kBlack{0.1, 0.1, 0.12}, kGrey{0.42, 0.42, 0.45}, kPale{0.85, 0.85, 0.87}, kWhite{1, 1, 1};  // [shown]
+constexpr Ink kGood{0.05, 0.48, 0.24}, kBad{0.76, 0.15, 0.11}, kAmber{0.72, 0.45, 0.02};                  // [shown]
 
 struct TextStyle {
   double size = 9;

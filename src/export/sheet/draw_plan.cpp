@@ -13,6 +13,7 @@ namespace {
 constexpr double kLegend = 52;        // for the scale at the right [pt] [shown]
 constexpr int kTint = 8, kMarks = 4;  // squares across a cell; marks of the scale [shown]
 constexpr double kLeastText = 3.5;    // smaller values are not written [pt] [shown]
+constexpr double kLabelsApart = 24;   // of lines: farther is no better [pt] [shown]
 constexpr double kEyeMark = 5;        // [pt] [shown]
 
 /// A grid's cells on the page.
@@ -37,15 +38,30 @@ void drawColours(Canvas& canvas, const PlanFrame& frame, const PlanField& field,
   canvas.image(frame.at, frame.size, shown);
 }
 
+/// The middle of the part that is farthest from all labels so far.
+Vec2 labelPlace(const PlanFrame& frame, const std::vector<Segment>& line, const std::vector<Vec2>& others) {
+  Vec2 best = frame.place(line[line.size() / 2].a);
+  double most = -1;
+  for (const Segment& part : line) {
+    const Vec2 at = frame.place(0.5 * (part.a + part.b));
+    double free = kLabelsApart;
+    for (const Vec2& other : others) free = std::min(free, glm::length((at - other) / Vec2(2, 1)));
+    if (free > most) most = free, best = at;
+  }
+  return best;
+}
+
 void drawLines(Canvas& canvas, const PlanFrame& frame, const PlanField& field, const GridStatistics& s) {
-  std::vector<std::pair<Vec2, std::string>> labels;
+  std::vector<Vec2> places;
+  std::vector<std::string> labels;
   for (const double level : levelsOf(s)) {
     const std::vector<Segment> line = lineAt(field, level);
     for (const Segment& part : line) canvas.line(frame.place(part.a), frame.place(part.b), {1.0, kBlack, false});
-    if (!line.empty()) labels.emplace_back(frame.place(line[line.size() / 2].a), fmt::format("{:.4g}", level));
+    if (line.empty()) continue;
+    places.push_back(labelPlace(frame, line, places)), labels.push_back(fmt::format("{:.4g}", level));
   }
-  for (const auto& [at, label] : labels)
-    canvas.text(at + Vec2(0, 3), label, {7.5, kBlack, true, TextStyle::Align::Middle, true});
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    canvas.text(places[i] + Vec2(0, 3), labels[i], {7.5, kBlack, true, TextStyle::Align::Middle, true});
 }
 
 void drawValues(Canvas& canvas, const PlanFrame& frame, const PlanField& field) {

@@ -32,10 +32,10 @@ void drawPolar(Canvas& canvas, const Vec2& at, double side, const Photometry& p)
     return points;
   };
   for (double circle = step; circle <= rim * 1.0001; circle += step) {
-    canvas.path(curve([&](double) { return radius * circle / rim; }), true, {0.4, kFaint, false});
+    canvas.path(curve([&](double) { return radius * circle / rim; }), true, {0.4, kPale, false});
     canvas.text(place(0, radius * circle / rim) + Vec2(2, -1), fmt::format("{:g}", circle), {5.5, kGrey});
   }
-  for (int angle = 0; angle < 360; angle += 30) canvas.line(middle, place(angle, radius), {0.4, kFaint, false});
+  for (int angle = 0; angle < 360; angle += 30) canvas.line(middle, place(angle, radius), {0.4, kPale, false});
   for (int angle = 0; angle <= 180; angle += 30)
     canvas.text(place(angle, radius + 7) + Vec2(0, 2), fmt::format("{}", angle),
                 {5.5, kGrey, false, TextStyle::Align::Middle, false});

@@ -76,7 +76,7 @@ class Layout {
     text(0, what, {10.5, kBlack, true});
     y_ += 15;
   }
-  void rule() { canvas_.line({kPageMargin, y_ + 4}, {kPageWidth - kPageMargin, y_ + 4}, {0.4, kFaint}); }
+  void rule() { canvas_.line({kPageMargin, y_ + 4}, {kPageWidth - kPageMargin, y_ + 4}, {0.4, kPale}); }
   void fact(const std::string& name, const std::string& value) {
     text(0, name, {8.5, kGrey});
     text(130, value, {8.5});
@@ -149,7 +149,7 @@ class Layout {
     double flux = 0, watts = 0;
     int count = 0, known = 0;
     for (const LuminaireType& type : sheet_.luminaires) {
-      need(112, "Luminaires and settings");
+      need(150, "Luminaires and settings");
       luminaire(type);
       count += type.count, flux += type.count * type.flux;
       if (type.watts) watts += type.count * *type.watts, known += type.count;
@@ -193,14 +193,14 @@ class Layout {
       if (glm::length(o) > 0)
         fact("Luminous area", fmt::format("{}{:.2f} x {:.2f} m", round, std::abs(o.y), std::abs(o.x)));
       fact("Peak intensity", fmt::format("{:.0f} cd", std::ranges::max(type.photometry->candela)));
-      drawPolar(canvas_, {kPageWidth - kPageMargin - 110, top}, 104, *type.photometry);
+      drawPolar(canvas_, {kPageWidth - kPageMargin - 146, top}, 140, *type.photometry);
       text(0, "solid C0\u2013C180, dashed C90\u2013C270 [cd]", {7, kGrey});
-      y_ = top + 118;
+      y_ = top + 154;
     } else {
       fact("Distribution", "of its own surface: not measured");
       y_ += 12;
     }
-    canvas_.line({kPageMargin, y_ - 10}, {kPageWidth - kPageMargin, y_ - 10}, {0.4, kFaint});
+    canvas_.line({kPageMargin, y_ - 10}, {kPageWidth - kPageMargin, y_ - 10}, {0.4, kPale});
     y_ += 6;
   }
 
