@@ -17,6 +17,7 @@ void addReferenceCommand(CLI::App&);
 void addDesignCommand(CLI::App&);
 void addGridCommand(CLI::App&);
 void addGlareCommand(CLI::App&);
+void addSheetCommand(CLI::App&);
 #ifdef DELTALUX_VIEWER
 void addViewCommand(CLI::App&);
 #endif
@@ -34,6 +35,7 @@ inline void addCommands(CLI::App& app) {
   addDesignCommand(app);
   addGridCommand(app);
   addGlareCommand(app);
+  addSheetCommand(app);
 #ifdef DELTALUX_VIEWER
   addViewCommand(app);
 #endif

@@ -6,6 +6,7 @@
 #include <deltalux/plan.hpp>
 #include <deltalux/points.hpp>
 #include <deltalux/render.hpp>
+#include <deltalux/sheet.hpp>
 
 #include "commands.hpp"
 #include "grid_place.hpp"
@@ -19,7 +20,7 @@ struct GridOptions {
   SolutionSource source;
   RunOptions run;
   GridPlace place;
-  std::string output, plan, standard = "en12464";
+  std::string output, plan, kind, standard = "en12464";
   bool cylindrical = false;
 };
 
@@ -40,8 +41,15 @@ PointTable tableOf(const MeasuringGrid& grid, const Scene& scene) {
   return table;
 }
 
+/// What a kind of area asks for, against what there is.
+void sayVerdict(const char* quantity, double reached, std::optional<double> required, const char* unit) {
+  if (required)
+    fmt::print("{}: {:.4g}{}, required at least {:g}{}: {}\n", quantity, reached, unit, *required, unit,
+               reached >= *required ? "pass" : "FAIL");
+}
+
 void sayCylindrical(const MeasuringGrid& grid, const std::vector<double>& horizontal, const SolutionView& solution,
-                    const ProbeSettings& settings, Progress& progress) {
+                    const ProbeSettings& settings, std::optional<double> required, Progress& progress) {
   std::vector<ProbePoint> points;
   for (const ProbePoint& p : grid.points)
     for (const ProbePoint& side : cylinderAt(p, solution.scene().up)) points.push_back(side);
@@ -55,9 +63,11 @@ void sayCylindrical(const MeasuringGrid& grid, const std::vector<double>& horizo
   }
   const GridStatistics z = statisticsOf(cylindrical);
   fmt::print("cylindrical: Em {:.4g} lx, U0 {:.2f}\n", z.mean, z.uniformity());
-  if (modelling.empty()) return;
-  const GridStatistics m = statisticsOf(modelling);
-  fmt::print("modelling: {:.2f} ({:.2f} to {:.2f})\n", m.mean, m.least, m.most);
+  if (!modelling.empty()) {
+    const GridStatistics m = statisticsOf(modelling);
+    fmt::print("modelling: {:.2f} ({:.2f} to {:.2f})\n", m.mean, m.least, m.most);
+  }
+  sayVerdict("Em, cylindrical", z.mean, required, " lx");
 }
 
 void runGrid(const GridOptions& options) {
@@ -84,7 +94,9 @@ void runGrid(const GridOptions& options) {
                  glm::length(grid.area.v) * scene.metresPerUnit / grid.rows);
       fmt::print("Em {:.4g} lx, Emin {:.4g} lx, Emax {:.4g} lx, U0 {:.3f}, Ud {:.3f}\n", s.mean, s.least, s.most,
                  s.uniformity(), s.diversity());
-      if (options.cylindrical) sayCylindrical(grid, lux, solution, settings, progress);
+      const AreaRequirements required = en12464(options.kind).value_or(AreaRequirements{});
+      sayVerdict("Em", s.mean, required.mean, " lx"), sayVerdict("U0", s.uniformity(), required.uniformity, "");
+      if (options.cylindrical) sayCylindrical(grid, lux, solution, settings, required.cylindrical, progress);
     }
   }
   run.finish();
@@ -104,6 +116,9 @@ void addGridCommand(CLI::App& app) {
       ->check(CLI::NonNegativeNumber)
       ->type_name("M")
       ->capture_default_str();
+  command->add_option("--kind", options->kind, "Of area: Em, U0 and cylindrical against what EN 12464-1 asks for")
+      ->check(CLI::IsMember(en12464Kinds()))
+      ->type_name("KIND");
   command->add_flag("--cylindrical", options->cylindrical, "Cylindrical illuminance and modelling, too");
   command->add_option("-o", options->output, "Where the points with E_r, E_g, E_b, lux and se_r, se_g, se_b go")
       ->type_name("OUT.csv");

@@ -40,7 +40,7 @@ MeasuringGrid GridPlace::grid(const Scene& scene) const {
 }
 
 void GridPlace::add(CLI::App& app) {
-  app.add_option("--surface", surface_, "On that object's largest level polygon, or its largest")->type_name("NAME");
+  app.add_option("--surface", surface_, "On that object's largest level polygon or disc, or its largest")->type_name("NAME");
   app.add_option("--area", area_,
                  "On a rectangle: a corner, and two sides at right angles; measured where U x V points")
       ->type_name("X,Y,Z,UX,UY,UZ,VX,VY,VZ");

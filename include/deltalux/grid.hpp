@@ -32,9 +32,13 @@ double gridSpacing(double side, double otherSide);
 /// The grid of an area. Precondition: sides are at right angles and not 0.
 MeasuringGrid gridOf(const GridArea&, double metresPerUnit, const GridSettings& = {});
 
-/// The grid of an object's largest level polygon, from above, or, where none of its polygons is level, of the largest,
-/// from its front: of the rectangle about it along its longest edge. Throws InputError where it has no polygon.
+/// The grid of an object's largest level polygon or disc, from above, or, where none of them is level, of the largest,
+/// from its front: of the rectangle about it along its longest edge. Throws InputError where it has neither.
 MeasuringGrid gridOn(const Scene&, std::string_view object, const GridSettings& = {});
+
+/// The same on a polygon, from above where it is level, else from its front. Throws InputError where none of the points
+/// lies on it.
+MeasuringGrid gridOn(const Polygon&, const Vec3& up, double metresPerUnit, const GridSettings& = {});
 
 /// Of illuminances at points [lux]; they must not be none.
 struct GridStatistics {

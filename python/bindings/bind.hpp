@@ -12,5 +12,6 @@ void bindImages(pybind11::module_&);
 void bindEdits(pybind11::module_&);
 void bindMesh(pybind11::module_&);
 void bindSolution(pybind11::module_&);
+void bindGlare(pybind11::module_&);
 
 }  // namespace deltalux::python

@@ -11,4 +11,5 @@ PYBIND11_MODULE(_core, m) {
   bindEdits(m);
   bindMesh(m);
   bindSolution(m);
+  bindGlare(m);
 }

@@ -19,13 +19,14 @@ from .grids import GridStats, SensorGrid, en12464_spacing
 from .images import load_image, load_view, save_image
 from .mesh import Caustic, Mesh
 from .scenes import load, load_dict
-from .solution import Check, Dimming, Solution, design, open, solve
+from .solution import Check, Dimming, Glare, Solution, design, open, solve
 
 __all__ = [
     "Caustic",
     "Check",
     "Dimming",
     "Edits",
+    "Glare",
     "GridStats",
     "InputError",
     "LightEdits",

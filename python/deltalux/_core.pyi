@@ -224,5 +224,21 @@ def solve(
     diffuse_only: bool,
     caustic_textures: bool,
 ) -> Solution: ...
+def glare(
+    solution: Solution,
+    position: _Array,
+    direction: _Array,
+    up: _Array | None,
+    threshold: float,
+    task: _Array | None,
+    size: int,
+    samples: int,
+    seed: int,
+    progress: _Progress,
+) -> tuple[str, npt.NDArray[np.float32]]: ...
+def ugr(
+    solution: Solution, positions: _Array, directions: _Array, seed: int, progress: _Progress
+) -> tuple[_Array, _Array]: ...
+def grid_spacing(side: float, other_side: float) -> float: ...
 def open(path: bytes, threads: int) -> Solution: ...
 def design(A: _Array, targets: _Array) -> tuple[_Array, _Array]: ...

@@ -139,9 +139,7 @@ class SensorGrid:
 
 def en12464_spacing(width: float, height: float) -> float:
     """Grid spacing [m] of EN 12464-1 for an area of width x height [m]."""
-    short, long = sorted((width, height))
-    d = short if long >= 2 * short else long
-    return min(0.2 * 5 ** math.log10(d), 10.0)
+    return _core.grid_spacing(width, height)
 
 
 def _row(text: str, file: str, line: int) -> list[float]:

@@ -31,6 +31,18 @@ class Check(NamedTuple):
     solve_s: float  #: of the solve from scratch [s]
 
 
+class Glare(NamedTuple):
+    """How much what an eye sees disturbs it: UGR of the luminaires, DGP of all that is bright (docs/glare.md)."""
+
+    ugr: float  #: -inf where no luminaire is seen
+    background: float  #: Lb [cd/m2]
+    luminaires: list[dict[str, Any]]  #: those that disturb most first: name, luminance_cd_m2, solid_angle_sr, ...
+    dgp: float
+    illuminance: float  #: on the eye [lux]
+    sources: list[dict[str, Any]]  #: of DGP, those that disturb most first
+    picture: npt.NDArray[np.float32]  #: fisheye of 180 degrees, (size, size, 3): radiance [W/(sr m2)]
+
+
 class Dimming(NamedTuple):
     """What design() finds."""
 
@@ -142,6 +154,63 @@ class Solution:
         it keeps the view's shape.  samples: camera rays per pixel. Raises InputError with near misses.
         """
         return self._core.render(view, size, samples, seed, progress)
+
+    def glare(
+        self,
+        position: npt.ArrayLike,
+        direction: npt.ArrayLike,
+        *,
+        up: npt.ArrayLike | None = None,
+        threshold: float = 2000.0,
+        task: npt.ArrayLike | None = None,
+        size: int = 512,
+        samples: int = 16,
+        seed: int = 1,
+        progress: Progress | None = None,
+    ) -> Glare:
+        """Glare from an eye at `position` (3,) that looks along `direction` (3,), as `deltalux glare` has it.
+
+        up: the scene's without it.  threshold: sources of DGP are brighter [cd/m2].  task: a place (3,) that is looked at:
+        they are five times as bright as it is, instead.  size, samples: of the fisheye picture.
+        """
+        given = [None if x is None else np.asarray(x, float) for x in (up, task)]
+        text, picture = _core.glare(
+            self._core,
+            np.asarray(position, float),
+            np.asarray(direction, float),
+            given[0],
+            threshold,
+            given[1],
+            size,
+            samples,
+            seed,
+            progress,
+        )
+        found = json.loads(text)
+        unified, daylight = found["ugr"][0], found["dgp"]
+        ugr = unified["ugr"]
+        if ugr is None:
+            ugr = np.inf if unified["luminaires"] else -np.inf
+        return Glare(
+            ugr,
+            unified["background_cd_m2"],
+            unified["luminaires"],
+            daylight["dgp"],
+            daylight["illuminance_lux"],
+            daylight["sources"],
+            picture,
+        )
+
+    def ugr(
+        self,
+        positions: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        *,
+        seed: int = 1,
+        progress: Progress | None = None,
+    ) -> Array:
+        """UGR (N,) of eyes at `positions` (N,3) that look along `directions` (N,3); -inf where no luminaire is seen."""
+        return _core.ugr(self._core, np.asarray(positions, float), np.asarray(directions, float), seed, progress)[0]
 
     def mesh(self) -> Mesh:
         """The solution as triangles with light on them, as it is now: a snapshot that later updates do not change."""

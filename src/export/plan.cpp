@@ -8,6 +8,7 @@
 #include <deltalux/image_io.hpp>
 
 #include "export/drawing.hpp"
+#include "export/plan_field.hpp"
 #include "io/atomic_file.hpp"
 
 namespace deltalux {
@@ -17,80 +18,6 @@ namespace {
 constexpr int kPixels = 640;              // of the longer side [layout]
 constexpr int kMargin = 44, kScale = 90;  // around the plan; for the legend [px] [layout]
 constexpr int kTints = 6;                 // squares across a cell, and of the legend a mark [layout]
-constexpr int kLevels = 7;                // lines of equal illuminance at most [layout]
-constexpr double kMostDecades = 1.5, kFewDecades = 0.15, kLabelled = 0.9;  // of the scale of colours [shown]
-
-/// Illuminance between the points of a grid: linear, and constant beyond the outermost.
-class PlanField {
- public:
-  explicit PlanField(const Plan& plan) : columns_(plan.grid.columns), rows_(plan.grid.rows) {
-    lux_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), -1);
-    for (std::size_t i = 0; i < plan.lux.size(); ++i) lux_[plan.grid.cells[i]] = plan.lux[i];
-  }
-  int columns() const { return columns_; }
-  int rows() const { return rows_; }
-  /// -1: no point.
-  double cell(int column, int row) const {
-    return lux_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column)];
-  }
-  /// At x, y in cells; -1 off the surface.
-  double at(double x, double y) const {
-    const int i = std::clamp(static_cast<int>(std::floor(x)), 0, columns_ - 1);
-    const int j = std::clamp(static_cast<int>(std::floor(y)), 0, rows_ - 1);
-    if (cell(i, j) < 0) return -1;
-    const double u = std::clamp(x - 0.5, 0.0, columns_ - 1.0), v = std::clamp(y - 0.5, 0.0, rows_ - 1.0);
-    const int a = std::min(static_cast<int>(u), std::max(columns_ - 2, 0)),
-              b = std::min(static_cast<int>(v), std::max(rows_ - 2, 0));
-    double sum = 0, weights = 0;
-    for (int dy = 0; dy < 2; ++dy)
-      for (int dx = 0; dx < 2; ++dx) {
-        const int c = std::min(a + dx, columns_ - 1), r = std::min(b + dy, rows_ - 1);
-        const double w = (dx ? u - a : 1 - u + a) * (dy ? v - b : 1 - v + b);
-        if (cell(c, r) >= 0) sum += w * cell(c, r), weights += w;
-      }
-    return weights > 0 ? sum / weights : cell(i, j);
-  }
-
- private:
-  int columns_, rows_;
-  std::vector<double> lux_;
-};
-
-std::vector<double> levelsOf(const GridStatistics& s) {
-  std::vector<double> levels;
-  const double span = s.most - s.least;
-  if (!(span > 0)) return levels;
-  double step = exporting::roundBelow(span / 3);
-  while (span / step > kLevels) step *= 2;
-  for (double level = step * std::ceil(s.least / step); level < s.most; level += step)
-    if (level > s.least) levels.push_back(level);
-  return levels;
-}
-
-/// From a round number above the most to a little below the least, over `decades` at least.
-FalseColorSettings coloursOf(const GridStatistics& s, double decades) {
-  FalseColorSettings settings;
-  settings.decades = kMostDecades;
-  if (!(s.most > 0)) return settings;
-  settings.top = exporting::roundBelow(s.most);
-  for (const double m : {2.0, 2.5, 2.0})
-    if (settings.top < s.most) settings.top = exporting::roundBelow(m * settings.top * (1 + 1e-9));
-  if (s.least > 0) settings.decades = std::clamp(std::log10(settings.top / s.least) + 0.05, decades, kMostDecades);
-  return settings;
-}
-
-/// A picture of illuminances, its rows downwards.
-template <class Lux>
-Image imageOf(int width, int height, const Lux& lux) {
-  Image image;
-  image.width = width, image.height = height, image.luminousEfficacy = kLuminousEfficacy;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const double E = lux(x, y);
-      image.pixels.emplace_back(static_cast<float>(E < 0 ? -1.0 : E / kLuminousEfficacy));
-    }
-  return image;
-}
 
 struct Size {
   int width, height;
@@ -101,33 +28,6 @@ Size sizeOf(const MeasuringGrid& grid) {
   return {std::max(1, static_cast<int>(std::lround(w * scale))), std::max(1, static_cast<int>(std::lround(h * scale)))};
 }
 
-struct Segment {
-  Vec2 a, b;  // in cells
-};
-
-/// Where the light between the middles of cells is `level`: marching squares, two triangles a square.
-std::vector<Segment> lineAt(const PlanField& field, double level) {
-  std::vector<Segment> line;
-  const auto triangle = [&](const std::array<Vec2, 3>& p) {
-    std::array<double, 3> E;
-    for (std::size_t i = 0; i < 3; ++i) E[i] = field.cell(static_cast<int>(p[i].x), static_cast<int>(p[i].y));
-    if (*std::ranges::min_element(E) < 0) return;
-    std::vector<Vec2> crossings;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      if ((E[i] < level) != (E[j] < level))
-        crossings.push_back(p[i] + (level - E[i]) / (E[j] - E[i]) * (p[j] - p[i]) + 0.5);
-    }
-    if (crossings.size() == 2) line.push_back({crossings[0], crossings[1]});
-  };
-  for (int r = 0; r + 1 < field.rows(); ++r)
-    for (int c = 0; c + 1 < field.columns(); ++c) {
-      triangle({Vec2(c, r), Vec2(c + 1, r), Vec2(c + 1, r + 1)});
-      triangle({Vec2(c, r), Vec2(c + 1, r + 1), Vec2(c, r + 1)});
-    }
-  return line;
-}
-
 std::string colourAt(const DisplayImage& image, int x, int y) {
   const auto& c = image.at(x, y);
   return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
@@ -136,14 +36,15 @@ std::string colourAt(const DisplayImage& image, int x, int y) {
 }  // namespace
 
 DisplayImage planImage(const Plan& plan) {
-  const PlanField field(plan);
+  const exporting::PlanField field(plan.grid, plan.lux);
   const auto [width, height] = sizeOf(plan.grid);
   const GridStatistics s = statisticsOf(plan.lux);
-  const std::vector<double> levels = levelsOf(s);
+  const std::vector<double> levels = exporting::levelsOf(s);
   const auto lux = [&, w = width, h = height](int x, int y) {
     return field.at((x + 0.5) / w * field.columns(), (h - y - 0.5) / h * field.rows());
   };
-  DisplayImage shown = falseColor(imageOf(width, height, lux), coloursOf(s, kLabelled));
+  DisplayImage shown =
+      falseColor(exporting::imageOfLux(width, height, lux), exporting::coloursOf(s, exporting::kLabelled));
   const int left = shown.width - width;
   const auto above = [&](double E) { return std::ranges::upper_bound(levels, E) - levels.begin(); };
   for (int y = 0; y + 1 < height; ++y)
@@ -156,10 +57,10 @@ DisplayImage planImage(const Plan& plan) {
 }
 
 std::string planSvg(const Plan& plan) {
-  const PlanField field(plan);
+  const exporting::PlanField field(plan.grid, plan.lux);
   const auto [width, height] = sizeOf(plan.grid);
   const GridStatistics s = statisticsOf(plan.lux);
-  const FalseColorSettings colours = coloursOf(s, kFewDecades);
+  const FalseColorSettings colours = exporting::coloursOf(s, exporting::kFewDecades);
   const int across = field.columns() * kTints, down = field.rows() * kTints;
   const double cellX = static_cast<double>(width) / field.columns(), cellY = static_cast<double>(height) / field.rows();
   std::string svg = fmt::format(
@@ -172,7 +73,7 @@ std::string planSvg(const Plan& plan) {
   const auto x = [&](double column) { return kMargin + column * cellX; };
   const auto y = [&](double row) { return kMargin + height - row * cellY; };
   const auto tint = [&](int i, int j) { return field.at((i + 0.5) / kTints, (down - j - 0.5) / kTints); };
-  const DisplayImage tints = falseColor(imageOf(across, down, tint), colours);
+  const DisplayImage tints = falseColor(exporting::imageOfLux(across, down, tint), colours);
   svg += "<g shape-rendering=\"crispEdges\">\n";
   for (int j = 0; j < down; ++j)
     for (int i = 0; i < across; ++i)
@@ -182,14 +83,14 @@ std::string planSvg(const Plan& plan) {
                            colourAt(tints, tints.width - across + i, j));
   svg += "</g>\n<g stroke=\"black\" stroke-width=\"1.2\" fill=\"none\">\n";
   std::string labels;
-  for (const double level : levelsOf(s)) {
-    const std::vector<Segment> line = lineAt(field, level);
+  for (const double level : exporting::levelsOf(s)) {
+    const std::vector<exporting::Segment> line = exporting::lineAt(field, level);
     if (line.empty()) continue;
     svg += "<path d=\"";
-    for (const Segment& part : line)
+    for (const exporting::Segment& part : line)
       svg += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", x(part.a.x), y(part.a.y), x(part.b.x), y(part.b.y));
     svg += "\"/>\n";
-    const Segment& middle = line[line.size() / 2];
+    const exporting::Segment& middle = line[line.size() / 2];
     labels += fmt::format(
         "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" font-weight=\"bold\" stroke=\"white\" "
         "stroke-width=\"3\" paint-order=\"stroke\">{:.4g}</text>\n",
@@ -207,7 +108,7 @@ std::string planSvg(const Plan& plan) {
   // The legend: the scale of colours from bottom to top.
   const int bar = std::min(height, 240), steps = 8 * kTints;
   const auto value = [&](int, int j) { return colours.top * std::pow(10, -colours.decades * (j + 0.5) / steps); };
-  const DisplayImage ramp = falseColor(imageOf(1, steps, value), colours);
+  const DisplayImage ramp = falseColor(exporting::imageOfLux(1, steps, value), colours);
   const double left = kMargin + width + 20;
   for (int j = 0; j < steps; ++j)
     svg += fmt::format("<rect x=\"{}\" y=\"{:.2f}\" width=\"16\" height=\"{:.2f}\" fill=\"{}\"/>\n", left,

@@ -12,11 +12,11 @@ namespace deltalux {
 namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
-constexpr std::array<Colour, 6> kTints{
+constexpr std::array<Colour, 6> kSourceTints{
     {{230, 60, 50}, {245, 160, 20}, {250, 230, 60}, {60, 190, 230}, {150, 110, 240}, {240, 110, 190}}};  // [shown]
 constexpr Colour kRing{40, 220, 110}, kPaper{24, 24, 24}, kInk{255, 255, 255}, kShadow{0, 0, 0};         // [shown]
-constexpr double kTint = 0.5;   // share of the tint [shown]
-constexpr int kRingMargin = 4;  // about a luminaire [px] [shown]
+constexpr double kSourceTint = 0.5;  // share of the tint [shown]
+constexpr int kRingMargin = 4;       // about a luminaire [px] [shown]
 
 class Marker {
  public:
@@ -78,9 +78,9 @@ DisplayImage markGlare(const DaylightGlare& glare, const UnifiedGlare* luminaire
       const int source = glare.sourceOf[static_cast<std::size_t>(y * image.width + x)];
       if (!glare::fisheyePixel(glare.eye, image.width, x, y)) pixel = kPaper;
       if (source < 0) continue;
-      const Colour& tint = kTints[static_cast<std::size_t>(source) % kTints.size()];
+      const Colour& tint = kSourceTints[static_cast<std::size_t>(source) % kSourceTints.size()];
       for (std::size_t c = 0; c < 3; ++c)
-        pixel[c] = static_cast<std::uint8_t>(std::lround((1 - kTint) * pixel[c] + kTint * tint[c]));
+        pixel[c] = static_cast<std::uint8_t>(std::lround((1 - kSourceTint) * pixel[c] + kSourceTint * tint[c]));
     }
   Marker marker(glare, image);
   marker.cross();
@@ -89,7 +89,7 @@ DisplayImage markGlare(const DaylightGlare& glare, const UnifiedGlare* luminaire
   const int inPicture = glare.sourceOf.empty() ? -1 : std::ranges::max(glare.sourceOf);
   for (std::size_t i = 0; i < glare.sources.size(); ++i) {
     const GlareSource& s = glare.sources[i];
-    if (static_cast<int>(i) > inPicture) marker.ring(s.direction, s.solidAngle, kTints[i % kTints.size()]);
+    if (static_cast<int>(i) > inPicture) marker.ring(s.direction, s.solidAngle, kSourceTints[i % kSourceTints.size()]);
     marker.label(s, i + 1);
   }
   return image;

@@ -54,7 +54,83 @@ InputError tooLarge(std::string_view text, const std::string& name, const char* 
   return InputError(name, at < text.size() ? lineAt(text, at) : 0, notANumber(word), hint);
 }
 
+/// Walks over text that is JSON.
+class Walker {
+ public:
+  explicit Walker(std::string_view text) : text_(text) {}
+
+  std::size_t at() const { return at_; }
+  char peek() {
+    at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
+    return at_ < text_.size() ? text_[at_] : '\0';
+  }
+  bool take(char c) { return peek() == c && ++at_; }
+  /// What stands between quotes.
+  std::string_view string() {
+    take('"');
+    const std::size_t from = at_;
+    while (at_ < text_.size() && text_[at_] != '"') at_ += text_[at_] == '\\' ? 2 : 1;
+    const std::size_t end = std::min(at_, text_.size());
+    at_ = end + 1;
+    return text_.substr(from, end - from);
+  }
+  void skipValue() {
+    const char first = peek();
+    if (first == '"') return (void)string();
+    if (first != '{' && first != '[') {
+      at_ = std::min(text_.find_first_of(",]} \t\r\n", at_), text_.size());
+      return;
+    }
+    int depth = 0;
+    do {
+      const char c = peek();
+      if (c == '"') {
+        string();
+        continue;
+      }
+      depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
+      ++at_;
+    } while (depth > 0 && at_ < text_.size());
+  }
+  /// Goes to the member or element of that name of the value here; false where there is none.
+  bool enter(std::string_view name) {
+    const bool object = take('{');
+    if (!object && !take('[')) return false;
+    for (std::size_t i = 0; at_ < text_.size() && peek() != '}' && peek() != ']'; ++i) {
+      const std::size_t begin = at_;
+      const bool found = object ? string() == name : std::to_string(i) == name;
+      if (object) take(':');
+      if (found && object) return member_ = begin, true;
+      if (found) return peek(), member_ = at_, true;
+      skipValue();
+      take(',');
+    }
+    return false;
+  }
+  /// Where the member that was entered last begins, its key included.
+  std::size_t member() const { return member_; }
+
+ private:
+  std::string_view text_;
+  std::size_t at_ = 0, member_ = 0;
+};
+
 }  // namespace
+
+int lineOf(std::string_view text, std::string_view pointer) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  Walker walker(text);
+  walker.peek();
+  std::size_t found = walker.at();
+  while (pointer.starts_with('/')) {
+    pointer.remove_prefix(1);
+    const std::size_t end = std::min(pointer.find('/'), pointer.size());
+    if (!walker.enter(pointer.substr(0, end))) break;
+    found = walker.member();
+    pointer.remove_prefix(end);
+  }
+  return lineAt(text, found);
+}
 
 json parseJson(std::string_view text, const std::string& name, const char* hint) {
   const PlainText plain(text, name);

@@ -1,5 +1,7 @@
 #include "io/json_view.hpp"
 
+#include "io/json_text.hpp"
+
 namespace deltalux::io {
 
 using nlohmann::json;
@@ -13,8 +15,10 @@ std::string text(double value) {
 }  // namespace
 
 void JsonView::fail(const std::string& message) const {
-  throw InputError(*file_, 0, (where_.empty() ? "the document" : where_.substr(0, 200)) + " " + message, hint_);
+  throw InputError(*file_, line(), (where_.empty() ? "the document" : where_.substr(0, 200)) + " " + message, hint_);
 }
+
+int JsonView::line() const { return text_.empty() ? 0 : lineOf(text_, where_); }
 
 JsonView JsonView::member(const char* key) const {
   const std::string where = where_ + "/" + key;

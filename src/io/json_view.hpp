@@ -3,6 +3,7 @@
 #include <deltalux/error.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace deltalux::io {
@@ -10,12 +11,15 @@ namespace deltalux::io {
 /// Members that are not there are nowhere: present() is false, and every check passes.
 class JsonView {
  public:
-  /// `hint` says, at the end of every message, what to do.
-  JsonView(const nlohmann::json& value, const std::string& file, const char* hint)
-      : value_(&value), file_(&file), hint_(hint) {}
+  /// `hint` says, at the end of every message, what to do. `text`, when given, is what the document was read from:
+  /// messages have lines then. It must outlive this.
+  JsonView(const nlohmann::json& value, const std::string& file, const char* hint, std::string_view text = {})
+      : value_(&value), file_(&file), hint_(hint), text_(text) {}
 
   bool present() const { return value_ != nullptr; }
   const nlohmann::json& value() const { return *value_; }
+  /// Of the text; of what is not there, of what it is missing in. 0 without text.
+  int line() const;
 
   /// The member `key` of an object.
   JsonView member(const char* key) const;
@@ -43,11 +47,12 @@ class JsonView {
 
  private:
   JsonView(const nlohmann::json* value, const JsonView& document, std::string where)
-      : value_(value), file_(document.file_), hint_(document.hint_), where_(std::move(where)) {}
+      : value_(value), file_(document.file_), hint_(document.hint_), text_(document.text_), where_(std::move(where)) {}
 
   const nlohmann::json* value_;
   const std::string* file_;
   const char* hint_;
+  std::string_view text_;
   std::string where_;  // JSON pointer
 };
 

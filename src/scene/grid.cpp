@@ -13,18 +13,33 @@ namespace {
 constexpr double kMostBorder = 0.15;  // of the shorter side [EN12464] [defined]
 constexpr double kMostSpacing = 10;   // [m] [EN12464] [defined]
 constexpr double kLevel = 0.99;       // cosine to the vertical of what is level [limit]
+constexpr int kDiscCorners = 64;      // of a disc as a polygon: 0.2 % of its area is left out [limit]
 constexpr int kCylinderSides = 16;    // a small lamp's light is 0.8 % off at most [limit]
 
 /// How many cells no wider than `spacing` a side of such a length has: [EN12464] takes the nearest whole number.
 int cellsOf(double length, double spacing) { return std::max(1, static_cast<int>(std::lround(length / spacing))); }
 
-const Polygon& polygonOf(const Scene& scene, std::string_view name) {
-  const Polygon* best = nullptr;
+/// A polygon, or a disc as one of many corners; nullopt of all else.
+std::optional<Polygon> flatShape(const Shape& shape) {
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) return *polygon;
+  const auto* ring = std::get_if<Ring>(&shape);
+  if (!ring || ring->innerRadius > 0 || !(ring->outerRadius > 0)) return std::nullopt;
+  const Frame frame(ring->normal);
+  std::vector<Vec3> corners;
+  for (int i = 0; i < kDiscCorners; ++i) {
+    const double angle = 2 * kPi * (i - 0.5) / kDiscCorners - kPi / 2;  // the first edge lies along the tangent
+    corners.push_back(ring->center + ring->outerRadius * frame.toWorld({std::cos(angle), std::sin(angle), 0}));
+  }
+  return makePolygon(std::move(corners));
+}
+
+Polygon polygonOf(const Scene& scene, std::string_view name) {
+  std::optional<Polygon> best;
   bool bestLevel = false;
   double bestHeight = 0;
   for (const ObjectId object : scene::edits::objectsNamed(scene, std::string(name)))
     for (const PrimitiveId p : primitivesOf(scene, object)) {
-      const auto* polygon = std::get_if<Polygon>(&scene[p].shape);
+      std::optional<Polygon> polygon = flatShape(scene[p].shape);
       if (!polygon || !(polygon->area > 0)) continue;
       const bool level = std::abs(glm::dot(polygon->normal, scene.up)) > kLevel;
       const double height = glm::dot(polygon->vertices.front(), scene.up);
@@ -33,9 +48,10 @@ const Polygon& polygonOf(const Scene& scene, std::string_view name) {
       constexpr double kEqual = 1e-6;  // [rounding]
       const bool larger = lead > kEqual || (std::abs(lead) <= kEqual && height > bestHeight);
       if (!best || (level && !bestLevel) || (level == bestLevel && larger))
-        best = polygon, bestLevel = level, bestHeight = height;
+        best = std::move(polygon), bestLevel = level, bestHeight = height;
     }
-  if (!best) scene::edits::refuse("'" + std::string(name) + "' has no polygon", "give an area of its own instead");
+  if (!best)
+    scene::edits::refuse("'" + std::string(name) + "' has no polygon and no disc", "give an area of its own instead");
   return *best;
 }
 
@@ -69,11 +85,14 @@ MeasuringGrid gridOf(const GridArea& area, double metresPerUnit, const GridSetti
   return grid;
 }
 
-MeasuringGrid gridOn(const Scene& scene, std::string_view object, const GridSettings& settings) {
-  const Polygon& polygon = polygonOf(scene, object);
+namespace {
+
+/// Without points where none lies on the polygon.
+MeasuringGrid gridOnPolygon(const Polygon& polygon, const Vec3& up, double metresPerUnit,
+                            const GridSettings& settings) {
   const std::vector<Vec3>& corners = polygon.vertices;
-  const bool level = std::abs(glm::dot(polygon.normal, scene.up)) > kLevel;
-  const Vec3 normal = level && glm::dot(polygon.normal, scene.up) < 0 ? -polygon.normal : polygon.normal;
+  const bool level = std::abs(glm::dot(polygon.normal, up)) > kLevel;
+  const Vec3 normal = level && glm::dot(polygon.normal, up) < 0 ? -polygon.normal : polygon.normal;
   Vec3 u(0);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec3 edge = corners[(i + 1) % corners.size()] - corners[i];
@@ -86,8 +105,8 @@ MeasuringGrid gridOn(const Scene& scene, std::string_view object, const GridSett
     const Vec2 at(glm::dot(p - corners[0], u), glm::dot(p - corners[0], v));
     low = glm::min(low, at), high = glm::max(high, at);
   }
-  MeasuringGrid grid = gridOf({corners[0] + low.x * u + low.y * v, (high.x - low.x) * u, (high.y - low.y) * v},
-                              scene.metresPerUnit, settings);
+  MeasuringGrid grid =
+      gridOf({corners[0] + low.x * u + low.y * v, (high.x - low.x) * u, (high.y - low.y) * v}, metresPerUnit, settings);
   MeasuringGrid on = grid;
   on.points.clear(), on.cells.clear();
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
@@ -97,9 +116,22 @@ MeasuringGrid gridOn(const Scene& scene, std::string_view object, const GridSett
     if (!inFrame || !covers(polygon, uv)) continue;
     on.points.push_back(grid.points[i]), on.cells.push_back(grid.cells[i]);
   }
-  if (on.points.empty())
-    scene::edits::refuse("no point of its grid lies on '" + std::string(object) + "'", "set a smaller spacing");
   return on;
+}
+
+}  // namespace
+
+MeasuringGrid gridOn(const Scene& scene, std::string_view object, const GridSettings& settings) {
+  const MeasuringGrid grid = gridOnPolygon(polygonOf(scene, object), scene.up, scene.metresPerUnit, settings);
+  if (grid.points.empty())
+    scene::edits::refuse("no point of its grid lies on '" + std::string(object) + "'", "set a smaller spacing");
+  return grid;
+}
+
+MeasuringGrid gridOn(const Polygon& polygon, const Vec3& up, double metresPerUnit, const GridSettings& settings) {
+  MeasuringGrid grid = gridOnPolygon(polygon, up, metresPerUnit, settings);
+  if (grid.points.empty()) scene::edits::refuse("no point of its grid lies on the polygon", "set a smaller spacing");
+  return grid;
 }
 
 GridStatistics statisticsOf(std::span<const double> lux) {

@@ -41,8 +41,8 @@ TEST(GlareCommand, SeesALampAndWritesPicturesAndJson) {
 TEST(GlareCommand, FindsTheWorstPlaceOfAGrid) {
   const TempFolder folder;
   const auto result =
-      runCli({"glare", bundledScene("cornell/cornell.rad"), "--error", "0.2", "--metres-per-unit", "0.01", "--surface",
-              "floor", "--spacing", "2", "--directions", "4", "--json", folder / "all.json"});
+      runCli({"glare", bundledScene("cornell/cornell.rad"), "--error", "0.2", "--surface", "floor", "--spacing", "0.2",
+              "--eye-height", "0.2", "--directions", "4", "--json", folder / "all.json"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_NE(result.out.find("directions: UGR at most"), std::string::npos) << result.out;
   const auto json = nlohmann::json::parse(test::readText(folder / "all.json"));

@@ -66,8 +66,11 @@ TEST(GridCommand, TellsTheAnalyticMeanAndUniformityOfALuminaire) {
 
 TEST(GridCommand, InAnEvenFieldAllIlluminancesAreOne) {
   const auto result = runCli({"grid", bundledScene("furnace/furnace.gltf"), "--area", "0.4,0.5,0.6,0.2,0,0,0,0,-0.2",
-                              "--spacing", "0.1", "--border", "0", "--cylindrical"});
+                              "--spacing", "0.1", "--border", "0", "--cylindrical", "--kind", "office"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_NE(result.out.find("required at least 500 lx: pass"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("required at least 0.6: pass"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("required at least 150 lx: pass"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("4 points, 2 x 2, 0.1 x 0.1 m apart"), std::string::npos) << result.out;
   double least = 0, most = 0;
   const std::size_t at = result.out.find("modelling: ");

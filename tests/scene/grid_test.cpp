@@ -73,6 +73,24 @@ TEST(MeasuringGrid, LiesOnTheTopOfAnObject) {
   }
 }
 
+TEST(MeasuringGrid, LiesOnTheUpperOfTwoDiscs) {
+  Scene scene = tableAndWall();
+  const std::size_t first = scene.primitives.size();
+  for (const double z : {0.72, 0.75})
+    scene.primitives.push_back({Ring{{1, 1, z}, {0, 0, z > 0.73 ? 1.0 : -1.0}, 0, 0.6}, MaterialId(0), ObjectId(0)});
+  scene.objects.push_back({"round", ObjectId(0)});
+  for (std::size_t i = first; i < scene.primitives.size(); ++i)
+    scene.primitives[i].object = ObjectId(scene.objects.size() - 1);
+  const MeasuringGrid grid = gridOn(scene, "round", {.border = 0, .spacing = 0.05});
+  EXPECT_EQ(grid.columns, 24);
+  EXPECT_NEAR(double(grid.points.size()) / (grid.columns * grid.rows), kPi / 4, 0.02);
+  for (const ProbePoint& p : grid.points) {
+    EXPECT_NEAR(p.position.z, 0.75, 1e-12);
+    EXPECT_LT(glm::length(p.position - Vec3(1, 1, 0.75)), 0.6);
+    EXPECT_NEAR(p.normal.z, 1, 1e-12);
+  }
+}
+
 TEST(MeasuringGrid, HasPointsOnTheSurfaceAlone) {
   const Scene scene = tableAndWall();
   const MeasuringGrid floor = gridOn(scene, "floor");
