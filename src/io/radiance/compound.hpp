@@ -1,6 +1,6 @@
 #pragma once
 // Compiled parts of a scene, an instance's octree and a mesh of obj2mesh, by the source that lies beside them:
-// `part.rad` for part.oct, `part.obj` for part.rtm. [Radiance reference manual, "Instance", "Mesh"; obj2mesh(1)]
+// `part.rad` for part.oct, `part.obj` for part.rtm. [Radiance reference manual, "Instance", "Mesh"]
 #include <string>
 #include <vector>
 
