@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <deltalux/polar_diagram.hpp>
 #include <filesystem>
+#include <fstream>
 
 #include "commands.hpp"
 #include "scene_options.hpp"
@@ -18,10 +19,18 @@ struct InfoOptions {
   std::string diagram;  // file name, empty for none
 };
 
+/// Whether the file is XML of Mitsuba's, not of TM-33.
+bool holdsScene(const std::string& file) {
+  std::string head(4096, '\0');  // a root stands near the beginning
+  std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.find("<scene") != std::string::npos;
+}
+
 bool isLuminaire(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension == ".ies" || extension == ".ldt" || extension == ".xml" || extension == ".tm33";
+  return extension == ".ies" || extension == ".ldt" || extension == ".tm33" ||
+         (extension == ".xml" && !holdsScene(file));
 }
 
 void describeLuminaire(const Run& run, const std::string& file, const std::string& diagram, bool quiet) {

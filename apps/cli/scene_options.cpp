@@ -69,7 +69,9 @@ SceneStats sceneStats(const Scene& scene) {
 }
 
 void SceneOptions::add(CLI::App& app) {
-  app.add_option("SCENE", files, ".gltf, .glb or .obj, or .rad files in order")->required()->type_name("FILE");
+  app.add_option("SCENE", files, ".gltf, .glb, .obj or .xml (Mitsuba), or .rad files in order")
+      ->required()
+      ->type_name("FILE");
   app.add_option("--ies", luminaires,
                  "Add a measured light (IES LM-63, TM-33, EULUMDAT), aimed straight down; may be repeated")
       ->type_name("FILE@x,y,z")

@@ -5,6 +5,7 @@
 
 #include "io/gltf.hpp"
 #include "io/lower_case.hpp"
+#include "io/mitsuba.hpp"
 #include "io/obj.hpp"
 #include "io/radiance.hpp"
 
@@ -18,7 +19,7 @@ std::string extensionOf(const fs::path& file) { return lowerCase(file.extension(
 
 bool isOtherFormat(const fs::path& file) {
   const std::string extension = extensionOf(file);
-  return extension == ".gltf" || extension == ".glb" || extension == ".obj";
+  return extension == ".gltf" || extension == ".glb" || extension == ".obj" || extension == ".xml";
 }
 
 ImportedScene readFiles(const std::vector<fs::path>& files, const ImportSettings& settings) {
@@ -28,7 +29,9 @@ ImportedScene readFiles(const std::vector<fs::path>& files, const ImportSettings
     throw InputError(other->string(), 0, "cannot be joined with other files into one scene",
                      "only several Radiance files make one scene");
   }
-  return extensionOf(*other) == ".obj" ? loadObj(*other, settings) : loadGltf(*other, settings);
+  const std::string extension = extensionOf(*other);
+  if (extension == ".xml") return loadMitsuba(*other, settings);
+  return extension == ".obj" ? loadObj(*other, settings) : loadGltf(*other, settings);
 }
 
 }  // namespace
@@ -38,7 +41,7 @@ ImportedScene readFiles(const std::vector<fs::path>& files, const ImportSettings
 namespace deltalux {
 
 ImportedScene loadScene(const std::vector<std::filesystem::path>& files, const ImportSettings& settings) {
-  if (files.empty()) throw InputError("", 0, "no scene is given", "name a .rad, .gltf, .glb or .obj file");
+  if (files.empty()) throw InputError("", 0, "no scene is given", "name a .rad, .gltf, .glb, .obj or .xml file");
   if (!(settings.metresPerUnit > 0) || !(settings.luminousEfficacy > 0)) {
     throw InputError(files[0].string(), 0, "metres per unit and luminous efficacy must be greater than zero");
   }

@@ -168,5 +168,42 @@ TEST(Info, DescribesALuminaireAndDrawsIt) {
   EXPECT_EQ(runCli({"info", folder / "disc & co.ies", "-o", folder / "none/polar.svg"}).exitCode, 4);
 }
 
+TEST(Info, DescribesALuminaireOfTm33) {
+  const test::TempFolder folder;
+  const std::string lamp = folder.write("lamp.xml",
+                                        R"(<?xml version="1.0"?>
+<IESTM33-22><Version>1.1</Version><Header><Description>Downlight</Description></Header>
+<Emitter><Quantity>1</Quantity><LuminousData><LuminousIntensity><Symm>Symm_Full</Symm>
+<IntData h="0" v="0">500</IntData><IntData h="0" v="45">250</IntData><IntData h="0" v="90">0</IntData>
+</LuminousIntensity></LuminousData></Emitter></IESTM33-22>)");
+  const CliResult result = runCli({"info", lamp, "-o", folder / "polar.svg"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  for (const char* part : {"lamp.xml: 1", " lm, 100 % of it downwards", "at most 500 cd"})
+    EXPECT_TRUE(contains(result.out, part)) << part << "\n" << result.out;
+  EXPECT_TRUE(contains(test::readText(folder / "polar.svg"), "<svg"));
+  const CliResult wrong = runCli({"info", folder.write("wrong.xml", "<IESTM33-22>\n<Emitter>")});
+  EXPECT_EQ(wrong.exitCode, 3);
+  EXPECT_TRUE(contains(wrong.err, "wrong.xml:2: is not XML")) << wrong.err;
+}
+
+TEST(Info, PutsADaylightOverAScene) {
+  const std::string scene = bundledScene("street/night.rad");
+  const CliResult lit =
+      runCli({"info", scene, "--sky", "perez:800,100", "--when", "2026-06-21T09:00+02:00", "--where", "47.37,8.54"});
+  EXPECT_EQ(lit.exitCode, 0) << lit.err;
+  EXPECT_TRUE(contains(lit.err, "daylight: the sun 3")) << lit.err;
+  for (const char* part : {"sun: sun", "sky: "}) EXPECT_TRUE(contains(lit.out, part)) << part << "\n" << lit.out;
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--sky", "cie:12"},
+                                                {"--sky", "cie:16", "--when", "2026-06-21T09:00", "--where", "0,0"},
+                                                {"--when", "2026-06-21T09:00"},
+                                                {"--sky", "cie:1", "--when", "noon", "--where", "0,0"},
+                                                {"--sky", "cie:1", "--when", "2026-06-21T09:00", "--where", "100,0"}}) {
+    std::vector<std::string> all{"info", scene};
+    all.insert(all.end(), wrong.begin(), wrong.end());
+    EXPECT_EQ(runCli(all).exitCode, 2) << wrong[0] << wrong[1];
+  }
+}
+
 }  // namespace
 }  // namespace deltalux

@@ -46,6 +46,18 @@ class Blocks(unittest.TestCase):
         np.testing.assert_allclose(places[0].max(axis=0), (2.4, 1.4, 0.7), atol=1e-6)
         np.testing.assert_allclose(places[1].mean(axis=0), places[0].mean(axis=0), atol=0.05)
 
+    def test_a_sky_is_an_edit(self):
+        solution = support.solved()
+        before = lux(solution)
+        with solution.edit() as e:
+            e.sky("cie:12", "2026-06-21T12:00+02:00", (47.4, 8.5))
+        self.assertTrue(solution.check().lines_identical)
+        self.assertTrue((lux(solution) >= before * 0.9).all())
+        for wrong in ({"sky": "cie:16"}, {"when": "noon"}, {"where": (91, 0)}):
+            given = {"sky": "cie:1", "when": "2026-06-21T12:00", "where": (0, 0), **wrong}
+            with self.assertRaises(ValueError), solution.edit() as e:
+                e.sky(**given)
+
     def test_an_exception_applies_nothing(self):
         solution = support.solved()
         before = lux(solution)

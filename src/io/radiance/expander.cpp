@@ -6,6 +6,7 @@
 
 #include "io/plain_text.hpp"
 #include "io/radiance/command_line.hpp"
+#include "io/radiance/compound.hpp"
 #include "io/radiance/generators.hpp"
 #include "io/radiance/lexer.hpp"
 #include "io/radiance/xform.hpp"
@@ -42,17 +43,43 @@ Expander::Objects Expander::expandItems(std::vector<RadItem> items, const fs::pa
   objects.reserve(items.size());
   double numbers = 0;
   for (RadItem& item : items) {
-    if (auto* object = std::get_if<RadObject>(&item)) {
+    auto* const object = std::get_if<RadObject>(&item);
+    std::optional<Objects> parts;
+    if (object && (object->type == Type::Instance || object->type == Type::Mesh))
+      parts = compound(*object, folder, objects);
+    if (object && !parts) {
       objects.push_back(std::move(*object));
       continue;
     }
-    const auto& command = std::get<RadCommand>(item);
-    Objects made = run(command, folder);
+    Objects made = object ? std::move(*parts) : run(std::get<RadCommand>(item), folder);
     numbers += static_cast<double>(numbersIn(made));
-    checkSize(static_cast<double>(objects.size() + made.size()), numbers, command.where);
+    checkSize(static_cast<double>(objects.size() + made.size()), numbers,
+              object ? object->where : std::get<RadCommand>(item).where);
     objects.insert(objects.end(), std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
   }
   return objects;
+}
+
+std::optional<Expander::Objects> Expander::compound(const RadObject& object, const fs::path& folder,
+                                                    const Objects& before) {
+  const std::string name = sourceOfCompound(object);
+  const auto file = name.empty() ? std::nullopt : files_.open(name, folder);
+  if (!file) return std::nullopt;
+  std::shared_ptr<const Objects> source;
+  if (object.type == Type::Instance)
+    source = include(*file, object.where);
+  else
+    source = std::make_shared<const Objects>(surfacesOfObj(file->text, file->name, object.where, before));
+  Objects result;
+  appendPlaced(result, *source, placementOfCompound(object), object.where);
+  return result;
+}
+
+std::shared_ptr<const Expander::Objects> Expander::include(const SourceFile& file, const SourceLine& where) {
+  if (std::find(open_.begin(), open_.end(), file.identity) != open_.end())
+    throw inputError(where, "'" + file.name + "' includes itself", "remove the cycle of files");
+  if (open_.size() >= limits_.depth) throw inputError(where, "files include each other too deeply");
+  return expand(file);
 }
 
 Expander::Objects Expander::run(const RadCommand& command, const fs::path& folder) {
@@ -99,12 +126,7 @@ Expander::Objects Expander::transformed(const std::vector<std::string>& words, c
   const XformCommand command = parseXform(std::span(words).subspan(1), limits_.objects, where);
   std::vector<std::shared_ptr<const Objects>> inputs;
   for (const std::string& name : command.files) {
-    const SourceFile file = open(name, where, folder);
-    if (std::find(open_.begin(), open_.end(), file.identity) != open_.end()) {
-      throw inputError(where, "'" + name + "' includes itself", "remove the cycle of files");
-    }
-    if (open_.size() >= limits_.depth) throw inputError(where, "files include each other too deeply");
-    inputs.push_back(expand(file));
+    inputs.push_back(include(open(name, where, folder), where));
   }
   if (inputs.empty() && piped == nullptr) {
     throw inputError(where, "xform has no input", "name a file after its options, or pipe a generator into it");

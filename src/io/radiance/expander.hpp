@@ -4,6 +4,7 @@
 // placed many times is read once. No shell is ever run.
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ class Expander {
 
  private:
   Objects expandItems(std::vector<RadItem>, const std::filesystem::path& folder);
+  /// What an instance or mesh stands for; nullopt where its source is not there.
+  std::optional<Objects> compound(const RadObject&, const std::filesystem::path& folder, const Objects& before);
+  std::shared_ptr<const Objects> include(const SourceFile&, const SourceLine&);
   Objects run(const RadCommand&, const std::filesystem::path& folder);
   Objects generate(const std::vector<std::string>& words, const SourceLine&, const std::filesystem::path& folder);
   Objects transformed(const std::vector<std::string>& words, const Objects* piped, const SourceLine&,

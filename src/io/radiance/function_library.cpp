@@ -68,13 +68,25 @@ off_z = noneg(abs(Pz - Ts * Dz) - A4 / 2);
 lboxcorr(v) = corr(v) * Ts / (A3 * A4 * off_x + A2 * A4 * off_y + A2 * A3 * off_z);
 )";
 
+// Pictures that lie in the x-y plane, the shorter side 1 long: once, side by side, and mirrored at every edge. A1 is
+// height over width.
+constexpr std::string_view kPicture = R"(
+pic_aspect = if(AC, A1, 1);
+pic_u = Px;  pic_v = Py;
+square_u = Px * max(1, 1 / pic_aspect);  square_v = Py * max(1, pic_aspect);
+tile_u = mod(Px, max(1, 1 / pic_aspect));  tile_v = mod(Py, max(1, pic_aspect));
+match_u = tri(Px, max(1, 1 / pic_aspect));  match_v = tri(Py, max(1, pic_aspect));
+)";
+
 }  // namespace
 
 std::string_view standardFunctions() { return kStandard; }
 
 std::optional<std::string_view> functionFile(std::string_view name) {
   const std::size_t slash = name.find_last_of('/');
-  if (name.substr(slash == std::string_view::npos ? 0 : slash + 1) == "source.cal") return kSource;
+  const std::string_view file = name.substr(slash == std::string_view::npos ? 0 : slash + 1);
+  if (file == "source.cal") return kSource;
+  if (file == "picture.cal") return kPicture;
   return std::nullopt;
 }
 

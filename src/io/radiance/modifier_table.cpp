@@ -45,21 +45,29 @@ Modifier ModifierTable::resolve(const RadObject& object) {
       return modifier;
     }
     case Type::Mixture: {
-      ++report_.ignored[object.typeName];
+      const bool evaluated = object.typeName == "mixfunc";
+      if (!evaluated) ++report_.ignored[object.typeName];
       if (object.strings.size() < 2) {
         throw inputError(object.where, object.typeName + " '" + object.name + "' names no two modifiers to mix");
       }
       const Modifier first = lookUp(object.strings[0], object);
-      return first.material.valid() || !first.unsupported.empty() ? first : lookUp(object.strings[1], object);
+      const bool ends = first.material.valid() || !first.unsupported.empty();
+      if (!evaluated) return ends ? first : lookUp(object.strings[1], object);
+      const Modifier second = lookUp(object.strings[1], object);
+      patterns_.push_back(&object);
+      Modifier mixed = ends ? first : second;
+      mixed.patterns = base.patterns;
+      mixed.mixture = std::make_shared<const Mixture>(Mixture{&object, first, second});
+      return mixed;
     }
     case Type::Alias: {
       const Modifier modifier = lookUp(object.strings[0], object);
       return base.patterns.empty() ? modifier : patterned(modifier, base);
     }
     case Type::Unsupported:
-      return {{}, object.type, object.typeName, {}};
+      return {{}, object.type, object.typeName, {}, nullptr};
     default:
-      return patterned({materialFor(object), object.type, {}, {}}, base);
+      return patterned({materialFor(object), object.type, {}, {}, nullptr}, base);
   }
 }
 
@@ -70,9 +78,12 @@ Modifier ModifierTable::patterned(Modifier modifier, const Modifier& base) {
   return modifier;
 }
 
-void ModifierTable::noteUnread(const std::function<bool(const RadObject&)>& read) {
-  for (const RadObject* pattern : patterns_)
-    if (!read(*pattern) || onSurfaces_.count(pattern) != 0) ++report_.ignored[pattern->typeName];
+void ModifierTable::noteUnread(const Asked& byLights, const Asked& bySurfaces) {
+  for (const RadObject* pattern : patterns_) {
+    const bool read =
+        onSurfaces_.count(pattern) != 0 ? bySurfaces(*pattern) : byLights(*pattern) || bySurfaces(*pattern);
+    if (!read) ++report_.ignored[pattern->typeName];
+  }
 }
 
 MaterialId ModifierTable::alternateOf(const RadObject& object) const {

@@ -2,6 +2,7 @@
 // The modifiers of a scene by name, resolved as they are defined: a name means its last definition before the use.
 #include <deltalux/io.hpp>
 #include <functional>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -11,12 +12,21 @@
 
 namespace deltalux::io::radiance {
 
+struct Mixture;
+
 /// What a modifier amounts to at the end of its chain of patterns, textures, mixtures and aliases.
 struct Modifier {
   MaterialId material;                     // invalid: none, or an unsupported one
   Type materialType = Type::Plastic;       // as defined
   std::string unsupported;                 // type word of the unsupported material that ends the chain
   std::vector<const RadObject*> patterns;  // on the way
+  std::shared_ptr<const Mixture> mixture;  // at the end of it; `material` is that of one of its parts then
+};
+
+/// A mixfunc of two modifiers.
+struct Mixture {
+  const RadObject* object;
+  Modifier first, second;
 };
 
 class ModifierTable {
@@ -25,8 +35,9 @@ class ModifierTable {
 
   /// Takes a definition; the object must outlive the table. Throws InputError for undefined references.
   void define(const RadObject&);
-  /// Counts the patterns that had no effect: `read` tells which a light took.
-  void noteUnread(const std::function<bool(const RadObject&)>& read);
+  using Asked = std::function<bool(const RadObject&)>;
+  /// Counts the patterns that had no effect, by which a light took and which a surface.
+  void noteUnread(const Asked& byLights, const Asked& bySurfaces);
   /// The modifier of `object` ("void" is an empty one). Throws InputError when it is not defined.
   Modifier modifierOf(const RadObject& object) const { return lookUp(object.modifier, object); }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "io/image/formats.hpp"
 #include "io/radiance/calc.hpp"
 #include "io/radiance/data_table.hpp"
 #include "io/radiance/function_library.hpp"
@@ -111,6 +112,23 @@ Values dataValues(Calc& calc, std::span<const std::string> names, std::vector<Da
   };
 }
 
+/// The channels of a picture over u and v: from its lower left corner, the shorter side is 1.
+std::vector<DataTable> tablesOf(const SourceFile& file) {
+  const Image image = decodeHdr(file.text, file.name);
+  const double side = std::min(image.width, image.height);
+  const auto dimension = [&](int count) {
+    return DataTable::Dimension{0.5 / side, (count - 0.5) / side, static_cast<std::size_t>(count), {}};
+  };
+  std::vector<DataTable> tables(3);
+  for (int c = 0; c < 3; ++c) {
+    DataTable& table = tables[static_cast<std::size_t>(c)];
+    table.dimensions = {dimension(image.width), dimension(image.height)};
+    for (int x = 0; x < image.width; ++x)
+      for (int y = image.height; y-- > 0;) table.values.push_back(image.at(x, y)[c] * image.exposure);
+  }
+  return tables;
+}
+
 glm::dmat3 axesOf(const Mat4& matrix) {
   glm::dmat3 axes(matrix);
   for (int i = 0; i < 3; ++i) axes[i] = glm::normalize(axes[i]);
@@ -127,7 +145,8 @@ bool isFinite(const Mat4& matrix) {
 
 bool PatternFunction::understands(const RadObject& object) {
   return isSkyPattern(object) || object.typeName == "brightfunc" || object.typeName == "colorfunc" ||
-         object.typeName == "brightdata" || object.typeName == "colordata";
+         object.typeName == "brightdata" || object.typeName == "colordata" || object.typeName == "colorpict" ||
+         object.typeName == "mixfunc";
 }
 
 PatternFunction::PatternFunction(const RadObject& object, FileAccess& files, long& calls) {
@@ -139,13 +158,17 @@ PatternFunction::PatternFunction(const RadObject& object, FileAccess& files, lon
     value_ = [dome](const PatternPoint& p) { return glm::dvec3(skyRadiance(dome, p.direction)); };
     return;
   }
-  const bool data = object.typeName.ends_with("data");
+  const bool picture = object.typeName == "colorpict", data = object.typeName.ends_with("data") || picture;
   const std::size_t channels = object.typeName.starts_with("color") ? 3 : 1;
-  const std::size_t file = data ? 2 * channels : channels;  // where the function file stands
-  const std::span<const std::string> words(object.strings);
+  const std::size_t file = picture ? channels + 1 : data ? 2 * channels : channels;  // where the function file stands
+  std::span<const std::string> words(object.strings);
+  constexpr std::size_t kMixed = 2;  // names of modifiers that a mixture has before the rest [layout]
+  if (object.typeName == "mixfunc") words = words.subspan(std::min(words.size(), kMixed));
   if (words.size() <= file) throw inputError(object.where, "it has too few arguments");
   std::vector<DataTable> tables;
-  for (std::size_t i = channels; i < file; ++i) tables.push_back(parseDataTable(openFile(words[i], object, files)));
+  for (std::size_t i = channels; i < file && !picture; ++i)
+    tables.push_back(parseDataTable(openFile(words[i], object, files)));
+  if (picture) tables = tablesOf(openFile(words[channels], object, files));
   const std::size_t coordinates = data ? tables[0].dimensions.size() : 0;
   for (const DataTable& table : tables)
     if (table.dimensions.size() != coordinates) throw inputError(object.where, "its data differ in their dimensions");

@@ -1,6 +1,7 @@
 #pragma once
-// Patterns that multiply what a light emits, evaluated natively: brightfunc, brightdata, colorfunc, colordata, and the
-// sky functions of gensky and gendaylit. [Radiance reference manual, "Patterns"]
+// Patterns that multiply what a light emits or a surface reflects, evaluated natively: brightfunc, brightdata,
+// colorfunc, colordata, colorpict, the sky functions of gensky and gendaylit; and the share of a mixfunc's first
+// modifier. [Radiance reference manual, "Patterns", "Mixtures"]
 //
 // Function files are read where the program finds them, beside the scene, or from function_library.hpp. A pattern's
 // coordinates are the world's, taken back through its own transform and those of the xforms around it. Departures: no

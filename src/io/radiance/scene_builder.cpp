@@ -6,6 +6,7 @@
 #include "io/radiance/modifier_table.hpp"
 #include "io/radiance/rad_shapes.hpp"
 #include "io/radiance/rad_sources.hpp"
+#include "io/radiance/surface_patterns.hpp"
 #include "scene/object_index.hpp"
 
 namespace deltalux::io::radiance {
@@ -17,6 +18,7 @@ class SceneBuilder {
   SceneBuilder(FileAccess& files, const ImportSettings& settings, const ExpansionLimits& limits)
       : modifiers_(result_.scene, result_.report),
         patterns_(result_.scene, result_.report, files, limits.patternCalls),
+        surfaces_(result_.scene, result_.report, files, limits.patternCalls),
         names_(result_.scene) {
     result_.scene.metresPerUnit = settings.metresPerUnit;
   }
@@ -33,7 +35,8 @@ class SceneBuilder {
 
   ImportedScene take() {
     addAreaLights(result_.scene);
-    modifiers_.noteUnread([&](const RadObject& pattern) { return patterns_.asked(pattern); });
+    modifiers_.noteUnread([&](const RadObject& pattern) { return patterns_.asked(pattern); },
+                          [&](const RadObject& pattern) { return surfaces_.asked(pattern); });
     warn();
     return std::move(result_);
   }
@@ -78,8 +81,13 @@ class SceneBuilder {
     if (shapes.size() > 1 && bent_++ == 0) firstBent_ = object.where;
     const ObjectId owner = names_.intern(object.name, '.');
     for (Shape& shape : shapes) {
-      const MaterialId material = patterns_.materialFor(modifier, shape);
-      result_.scene.primitives.push_back({std::move(shape), material, owner});
+      if (result_.scene[modifier.material].emission) {
+        const MaterialId material = patterns_.materialFor(modifier, shape);
+        result_.scene.primitives.push_back({std::move(shape), material, owner});
+      } else {
+        auto [surface, material] = surfaces_.apply(modifier, std::move(shape));
+        result_.scene.primitives.push_back({std::move(surface), material, owner});
+      }
     }
     ++result_.report.surfaces[object.typeName];
   }
@@ -100,6 +108,7 @@ class SceneBuilder {
   ImportedScene result_;
   ModifierTable modifiers_;
   EmissionPatterns patterns_;
+  SurfacePatterns surfaces_;
   scene::ObjectIndex names_;
   std::size_t bent_ = 0;
   SourceLine firstBent_;

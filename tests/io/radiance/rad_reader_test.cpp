@@ -67,7 +67,7 @@ TEST(RadReader, AModifierMeansItsLastDefinitionBeforeTheUse) {
   EXPECT_EQ(scene.materials.size(), 2u);
 }
 
-TEST(RadReader, PatternsAndMixturesAreSkippedAndCountedInOneWarning) {
+TEST(RadReader, PatternsThatCannotBeReadAreCountedInOneWarning) {
   const auto [scene, report] = read(kGrey +
                                     "void colorpict photo 7 red green blue x.hdr picture.cal u v 0 0\n"
                                     "photo plastic painted 0 0 5 1 1 1 0 0\n"
@@ -77,8 +77,14 @@ TEST(RadReader, PatternsAndMixturesAreSkippedAndCountedInOneWarning) {
                                     "half sphere t 0 0 4 0 0 0 1\n");
   EXPECT_EQ(scene.materialOf(PrimitiveId(0)).name, "painted");
   EXPECT_EQ(scene.materialOf(PrimitiveId(1)).name, "grey");
-  EXPECT_EQ(report.ignored, (std::map<std::string, std::size_t>{{"colorpict", 1}, {"texfunc", 1}, {"mixfunc", 1}}));
-  EXPECT_EQ(report.warnings, std::vector<std::string>{"ignored on import: 1 colorpict, 1 mixfunc, 1 texfunc"});
+  const auto rho = [&](std::size_t i) { return diffuseReflectance(scene.materialOf(PrimitiveId(i)), true).r; };
+  const float grey = diffuseReflectance(scene.materials[0], true).r;
+  EXPECT_FLOAT_EQ(rho(0), 1);
+  EXPECT_FLOAT_EQ(rho(1), 0.5f * (grey + 1));  // half of each
+  EXPECT_EQ(report.ignored,
+            (std::map<std::string, std::size_t>{{"colorpict of a surface (cannot find 'x.hdr')", 1}, {"texfunc", 1}}));
+  EXPECT_EQ(report.warnings,
+            std::vector<std::string>{"ignored on import: 1 colorpict of a surface (cannot find 'x.hdr'), 1 texfunc"});
 }
 
 TEST(RadReader, SurfacesWithoutAreaOrMaterialAreCounted) {
