@@ -5,6 +5,7 @@
 
 #include "direct/open_light.hpp"
 #include "direct/point_light.hpp"
+#include "direct/tuning.hpp"
 
 namespace deltalux::direct {
 
@@ -24,7 +25,7 @@ int raysToTell(double potential, double allowed) {
 LampMeter::LampMeter(const Scene& scene, const tracing::RayTracer& tracer, const std::vector<Rgb>& scales)
     : lamps_(scene, scales), tracer_(tracer) {}
 
-Rgb LampMeter::of(const Reaching& reaching, const hierarchy::PatchPoint& x, double allowed) const {
+Rgb LampMeter::of(const Reaching& reaching, const hierarchy::PatchPoint& x, double allowed, Doubt doubt) const {
   const LightId id = reaching.lamp->id;
   const scene::LightSampler& sampler = lamps_.sampler();
   const bool point = sampler.isPointLike(id);
@@ -32,7 +33,8 @@ Rgb LampMeter::of(const Reaching& reaching, const hierarchy::PatchPoint& x, doub
   if (known && isBlack(*known)) return Rgb(0.0f);
   const double potential = known ? double(gray(*known)) : reaching.potential;
   const int most = point ? 1 : raysToTell(potential, allowed);
-  const int pilots = static_cast<int>(std::ceil(std::sqrt(most)));
+  const int asked = static_cast<int>(std::ceil(std::sqrt(most)));
+  const int pilots = doubt == Doubt::Much ? asked : std::min(asked, tuning::kLampRays);
   const ScrambledSobol numbers(combineKeys(kMeterKey, id.value));
   RgbSum open(0.0), lit(0.0);
   double least = kInfinity, greatest = 0;  // of what passes
@@ -74,21 +76,15 @@ std::vector<LampMeter::Reaching> LampMeter::reaching(const Vec3& position, const
   return found;
 }
 
-double LampMeter::open(const Vec3& position, const Vec3& normal) const {
-  double all = 0;
-  for (const Reaching& r : reaching(position, normal)) all += r.potential;
-  return all;
-}
-
-Rgb LampMeter::at(const Vec3& position, const Vec3& normal, float ambient, double error) const {
+LampMeter::Reading LampMeter::read(const Vec3& position, const Vec3& normal, float ambient, double error,
+                                   Doubt doubt) const {
   const std::vector<Reaching> all = reaching(position, normal);
-  double potential = 0;
-  for (const Reaching& r : all) potential += r.potential;
+  Reading out;
+  for (const Reaching& r : all) out.open += r.potential;
   // In a penumbra about half of it is there.
-  const double allowed = error * (double(ambient) + 0.5 * potential);
-  Rgb sum(0.0f);
-  for (const Reaching& r : all) sum += of(r, {Vec3f(position), Vec3f(normal)}, allowed);
-  return sum;
+  const double allowed = error * (double(ambient) + 0.5 * out.open);
+  for (const Reaching& r : all) out.E += of(r, {Vec3f(position), Vec3f(normal)}, allowed, doubt);
+  return out;
 }
 
 }  // namespace deltalux::direct

@@ -17,10 +17,14 @@ class LampMeter {
   LampMeter(const Scene&, const tracing::RayTracer&, const std::vector<Rgb>& scales);
 
   bool dark() const { return lamps_.all().empty(); }
-  /// [W/m2] `ambient`: other light there [W/m2, gray]. `error`: about what may be wrong, relative to all of it.
-  Rgb at(const Vec3& position, const Vec3& normal, float ambient, double error) const;
-  /// About what all would bring unshadowed [W/m2, gray].
-  double open(const Vec3& position, const Vec3& normal) const;
+  struct Reading {
+    Rgb E{0.0f};      // [W/m2]
+    double open = 0;  // about what all would bring unshadowed [W/m2, gray]
+  };
+  /// How many rays have to agree on a lamp for no more to be asked: few where all around is known to be lit alike.
+  enum class Doubt { Much, Little };
+  /// `ambient`: other light there [W/m2, gray]. `error`: about what may be wrong, relative to all of it.
+  Reading read(const Vec3& position, const Vec3& normal, float ambient, double error, Doubt = Doubt::Much) const;
 
  private:
   struct Reaching {
@@ -28,7 +32,7 @@ class LampMeter {
     double potential;
   };
   std::vector<Reaching> reaching(const Vec3& position, const Vec3& normal) const;
-  Rgb of(const Reaching&, const hierarchy::PatchPoint&, double allowed) const;
+  Rgb of(const Reaching&, const hierarchy::PatchPoint&, double allowed, Doubt) const;
 
   Lamps lamps_;
   const tracing::RayTracer& tracer_;

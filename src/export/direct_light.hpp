@@ -22,13 +22,14 @@ class DirectLight {
   /// Whether the group is measured.
   bool measures(std::size_t group) const { return meters_[group] != nullptr; }
   bool any() const;
-  /// [W/m2] `other`: the group's other light there, and a share of that of all groups. `error`: relative to all of it.
-  Rgb at(std::size_t group, const Vec3& position, const Vec3& normal, float other, double error) const {
-    return meters_[group]->at(position, normal, other, error);
+  /// `other`: the group's other light there, and a share of that of all groups [W/m2, gray]. `error`: relative to all
+  /// of it.
+  direct::LampMeter::Reading read(std::size_t group, const Vec3& position, const Vec3& normal, float other,
+                                  double error, direct::LampMeter::Doubt doubt = direct::LampMeter::Doubt::Much) const {
+    return meters_[group]->read(position, normal, other, error, doubt);
   }
-  /// About what the group would bring unshadowed [W/m2, gray].
-  double open(std::size_t group, const Vec3& position, const Vec3& normal) const {
-    return meters_[group]->open(position, normal);
+  Rgb at(std::size_t group, const Vec3& position, const Vec3& normal, float other, double error) const {
+    return read(group, position, normal, other, error).E;
   }
 
  private:

@@ -21,8 +21,7 @@ namespace {
 
 using namespace exporting;
 
-constexpr std::size_t kMostMeasured = 2'000'000;  // vertices times groups: direct light of more takes minutes [limit]
-constexpr double kOverlap = 3e-4;                 // of sides over their outlines [m] [shown]
+constexpr double kOverlap = 3e-4;                         // of sides over their outlines [m] [shown]
 constexpr int kExposureWidth = 96, kExposureHeight = 72;  // of the picture that the exposure is chosen from [shown]
 
 std::vector<View> viewsOf(const Scene& scene, const PageSettings& settings) {
@@ -52,11 +51,17 @@ std::vector<SolutionMesh> readGroups(const SolutionView& solution, const std::ve
   if (!points.empty())
     for (const ProbeResult& r : probe(solution, points, meters)) whole.emplace_back(r.irradiance);
   std::vector<SolutionMesh> meshes;
+  GroupLight light(solution);
+  std::optional<SolutionReader> reader;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     advance(progress, "export", static_cast<double>(g) / static_cast<double>(groups.size() + 1));
-    SolutionReader reader(lightOf(solution, g));
-    meshes.push_back(reader.mesh());
-    if (!points.empty()) page.pointLight.push_back(groupAtPoints(reader, points, whole, meters));
+    light.show(g);
+    if (reader)
+      reader->refresh();
+    else
+      reader.emplace(light.view());
+    meshes.push_back(reader->mesh());
+    if (!points.empty()) page.pointLight.push_back(groupAtPoints(*reader, points, whole, meters));
   }
   return meshes;
 }
@@ -83,9 +88,10 @@ void exportPage(const SolutionView& solution, const std::filesystem::path& path,
   }
   const std::vector<char> whole = sidesUnderTextures(page.mesh, meshes);
   const double error = kShareOfError * solution.settings().error;
-  if (page.mesh.vertices.size() * groups.size() <= kMostMeasured)
-    refineDirect(page.mesh, page.layers, direct, scene, DirectLight(solution), Refinement::of(scene, error), whole);
-  simplify(page.mesh, page.layers, {error}, whole);
+  Refinement refinement = Refinement::of(scene, error);
+  refinement.floors = floorsOf(page.mesh, page.layers);
+  refineDirect(page.mesh, page.layers, direct, scene, DirectLight(solution), refinement, whole);
+  simplify(page.mesh, page.layers, {error, refinement.floors}, whole);
   widenSides(page.mesh, kOverlap / scene.metresPerUnit);
   page.skies = pageSkies(scene, groups, !page.byLight), page.suns = pageSuns(scene, groups, !page.byLight);
   advance(progress, "export", static_cast<double>(groups.size()) / static_cast<double>(groups.size() + 1));

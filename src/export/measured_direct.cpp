@@ -104,19 +104,22 @@ MeasuredLight measuredLight(const SolutionView& view, const SolutionMesh& mesh, 
     if (at(s)) floors.add(sides[s]);
   Refinement refinement = Refinement::of(view.get().scene, error);
   refinement.floors = floors.floors();
-  parallelFor(sides.size(), 1, [&](std::size_t s) {
-    LitSide& side = sides[s];
-    if (!at(s) || std::ranges::all_of(side.all[0], [](const Rgb& E) { return isBlack(E); })) return;
+  std::vector<SideToRefine> lit;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    if (!at(s) || std::ranges::all_of(sides[s].all[0], [](const Rgb& E) { return isBlack(E); })) continue;
     auto rest = std::make_shared<SurfaceMesh>(*mesh.surfaces[s]);
-    for (std::size_t v = 0; v < rest->vertices.size(); ++v) rest->vertices[v].direct -= side.direct[0][v];
-    refine(side, (*mesh.scene)[rest->primitive].shape, rest->front, light, refinement);
+    for (std::size_t v = 0; v < rest->vertices.size(); ++v) rest->vertices[v].direct -= sides[s].direct[0][v];
+    lit.push_back({&sides[s], &(*mesh.scene)[rest->primitive].shape, rest->front});
+    out.mesh.surfaces[s] = std::move(rest);
+  }
+  refine(lit, light, refinement);
+  for (const SideToRefine& of : lit) {
+    LitSide& side = *of.side;
     std::vector<Vec3f> corners;
     for (const MeshVertex& v : side.vertices) corners.push_back(v.position);
-    out.sides[s] =
+    out.sides[static_cast<std::size_t>(&side - sides.data())] =
         std::make_shared<const SideDirect>(std::move(corners), std::move(side.triangles), std::move(side.direct[0]));
-    out.mesh.surfaces[s] = std::move(rest);
-    side = {};
-  });
+  }
   return out;
 }
 

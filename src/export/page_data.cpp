@@ -18,8 +18,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kSteps = 1 << 22;  // of positions over the longest side of the scene [layout]
 
-constexpr float kFaint = 0.1f, kVeryFaint = 0.01f;            // of all light: kept to 0.8 and 1.6 % of itself [shown]
-constexpr std::uint8_t kFaintSlack = 2, kVeryFaintSlack = 4;  // the same in steps of a mantissa [layout]
+constexpr float kFaint = 0.1f, kVeryFaint = 0.01f, kHardlyThere = 3e-3f;  // of all light: kept to 0.8, 1.6, 6 % [shown]
+constexpr std::uint8_t kFaintSlack = 2, kVeryFaintSlack = 4, kHardlyThereSlack = 16,
+                       kFirstPictureSlack = 8;  // steps of a mantissa [layout]
 
 template <class V>
 Json three(const V& v) {
@@ -143,7 +144,10 @@ void addLayers(Sections& sections, const std::vector<std::vector<Rgb>>& layers) 
     for (std::size_t v = 0; v < total.size(); ++v) {
       const float share = maxChannel(layers[g][v]) / std::max(total[v], 1e-30f);
       words.push_back(packRgb9e5(layers[g][v]));
-      slack.push_back(share < kVeryFaint ? kVeryFaintSlack : share < kFaint ? kFaintSlack : 0);
+      slack.push_back(share < kHardlyThere ? kHardlyThereSlack
+                      : share < kVeryFaint ? kVeryFaintSlack
+                      : share < kFaint     ? kFaintSlack
+                                           : 0);
     }
     sections.add("layer" + std::to_string(g), rgb9e5Planes(words, slack));
   }
@@ -157,7 +161,7 @@ void addSum(Sections& sections, const PageData& page) {
     for (std::size_t g = 0; g < page.layers.size(); ++g) sum += page.groups[g].weight * page.layers[g][v];
     words.push_back(packRgb9e5(sum));
   }
-  sections.add("sum", rgb9e5Planes(words, std::vector<std::uint8_t>(words.size(), kVeryFaintSlack)));
+  sections.add("sum", rgb9e5Planes(words, std::vector<std::uint8_t>(words.size(), kFirstPictureSlack)));
 }
 
 int groupNumber(const std::optional<std::size_t>& group) { return group ? static_cast<int>(*group) : -1; }

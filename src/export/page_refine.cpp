@@ -31,6 +31,13 @@ bool isLitAnywhere(const LitSide& side) {
 
 }  // namespace
 
+std::vector<double> floorsOf(const PageMesh& mesh, const std::vector<std::vector<Rgb>>& layers) {
+  LightFloors floors(layers.size());
+  for (const SideTriangles& of : trianglesOfSides(mesh))
+    for (const auto& t : of) floors.add({&mesh.vertices[t[0]], &mesh.vertices[t[1]], &mesh.vertices[t[2]]}, t, layers);
+  return floors.floors();
+}
+
 void refineDirect(PageMesh& mesh, std::vector<std::vector<Rgb>>& layers, const std::vector<std::vector<Rgb>>& direct,
                   const Scene& scene, const DirectLight& light, const Refinement& settings,
                   const std::vector<char>& whole) {
@@ -40,16 +47,12 @@ void refineDirect(PageMesh& mesh, std::vector<std::vector<Rgb>>& layers, const s
   parallelFor(sides.size(), 1, [&](std::size_t s) {
     sides[s] = litSideOf(mesh, mesh.sides[s], std::move(triangles[s]), layers, direct);
   });
-  LightFloors floors(layers.size());
-  for (const LitSide& side : sides) floors.add(side);
-  Refinement bounded = settings;
-  bounded.floors = floors.floors();
-  parallelFor(sides.size(), 1, [&](std::size_t s) {
-    if (!isLitAnywhere(sides[s])) return;
-    Refinement own = bounded;
-    own.keepsShape = whole[s];
-    refine(sides[s], scene[PrimitiveId(mesh.sides[s].side / 2)].shape, mesh.sides[s].side % 2 == 0, light, own);
-  });
+  std::vector<SideToRefine> lit;
+  for (std::size_t s = 0; s < sides.size(); ++s)
+    if (isLitAnywhere(sides[s]))
+      lit.push_back(
+          {&sides[s], &scene[PrimitiveId(mesh.sides[s].side / 2)].shape, mesh.sides[s].side % 2 == 0, whole[s] != 0});
+  refine(lit, light, settings);
   std::vector<std::uint32_t> firsts;
   std::uint32_t next = 0;
   for (std::size_t s = 0; s < sides.size(); ++s) {

@@ -6,6 +6,9 @@
 
 namespace deltalux::exporting {
 
+/// Floors of the layers (LightFloors) over the mesh.
+std::vector<double> floorsOf(const PageMesh&, const std::vector<std::vector<Rgb>>& layers);
+
 /// `layers`, `direct`: by group and vertex, as pageLayer() and pageDirect() have them; layers are brought up to date.
 /// `whole`: by side, those whose triangles stay as they are (sidesUnderTextures()). The mesh has no `source` then.
 void refineDirect(PageMesh&, std::vector<std::vector<Rgb>>& layers, const std::vector<std::vector<Rgb>>& direct,

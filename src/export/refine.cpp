@@ -1,6 +1,8 @@
 #include "export/refine.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -17,13 +19,15 @@ constexpr double kShadowEdge = 3e-3;           // size of what is left of a shad
 constexpr double kBorderInset = 1e-3;          // inside of borders, where corners on them are measured [m] [rounding]
 constexpr double kVisible = 10;                // times that: edges from which on all that is not allowed shows [shown]
 constexpr int kMostCuts = 32;                  // of cuts of cuts [limit]
-constexpr std::size_t kMostAdded = 16384,
-                      kMostPerVertex = 8;  // corners that a side gets, and more by those it has [limit]
-constexpr std::size_t kMeasured = 64;      // places of a task [task]
-constexpr float kChannels = 3;             // whose sum light is compared by [layout]
-constexpr int kLooks = 8;                  // parts of an edge that is cut [task]
-constexpr double kLeastWay = 0.05;         // of the way inside that a border's corner is moved at most [rounding]
-constexpr double kOnePlane = 0.9999;       // cosine between normals of a flat triangle [rounding]
+constexpr std::size_t kRoom = 16384;           // for corners that are added to all sides, [limit]
+constexpr std::size_t kVerticesPerRoom = 64;   // and one more for so many that are there [limit]
+constexpr std::size_t kMeasured = 64;          // places of a task [task]
+constexpr float kChannels = 3;                 // whose sum light is compared by [layout]
+constexpr int kLooks = 8;                      // parts of an edge that is cut [task]
+constexpr double kLeastWay = 0.05;             // of the way inside that a border's corner is moved at most [rounding]
+constexpr double kOfScene = 5e-4;              // of a scene's diagonal: finer than that nothing is cut [limit]
+constexpr float kAlike = 0.5f;                 // of the most light around a corner: above it no shadow is there [task]
+constexpr double kOnePlane = 0.9999;           // cosine between normals of a flat triangle [rounding]
 
 float sumOf(const Rgb& c) { return c.r + c.g + c.b; }
 float differenceOf(const Rgb& a, const Rgb& b) {
@@ -36,29 +40,85 @@ T between(const T& a, const T& b, Weight t) {
 
 class SideRefiner {
  public:
-  SideRefiner(LitSide& side, const Shape& shape, bool front, const DirectLight& light, const Refinement& settings)
-      : side_(side), shape_(shape), front_(front), light_(light), settings_(settings), groups_(side.all.size()) {
-    room_ = kMostAdded + kMostPerVertex * side.vertices.size();
-    flat_ = std::holds_alternative<Polygon>(shape) || std::holds_alternative<Ring>(shape);
-    mesh_ = std::holds_alternative<Mesh>(shape);
+  SideRefiner(const SideToRefine& to, const DirectLight& light, const Refinement& settings)
+      : side_(*to.side),
+        shape_(*to.shape),
+        front_(to.front),
+        keepsShape_(to.keepsShape),
+        light_(light),
+        settings_(settings),
+        groups_(to.side->all.size()) {
+    flat_ = std::holds_alternative<Polygon>(shape_) || std::holds_alternative<Ring>(shape_);
+    mesh_ = std::holds_alternative<Mesh>(shape_);
   }
 
-  void run() {
+  /// Measures light at the corners that are there.
+  void begin() {
     registerEdges(side_.triangles);
     measureCorners();
     if (!mayBeCut()) return;
-    std::vector<std::array<std::uint32_t, 3>> active = side_.triangles, done;
-    for (int pass = 0; pass < kMostCuts && !active.empty() && room_ > 0; ++pass) {
-      cutEdges();
-      std::vector<std::array<std::uint32_t, 3>> whole, next;
-      for (const auto& t : active)
-        if (!cut(t, next)) whole.push_back(t);
-      cutMiddles(whole, next, done);
-      registerEdges(next);
-      active = std::move(next);
+    active_ = side_.triangles, activeFrom_.resize(active_.size());
+    std::iota(activeFrom_.begin(), activeFrom_.end(), 0u);
+    besides_.resize(side_.vertices.size());
+    std::iota(besides_.begin(), besides_.end(), 0u);
+  }
+  bool done() const { return active_.empty(); }
+
+  // A pass: first all edges that nobody has looked at yet, then the middles of triangles whose edges are as they should
+  // be. Of what is proposed, those places are taken that are worth more than the least.
+
+  void proposeEdges() {
+    proposed_.assign(fresh_.size(), std::nullopt);
+    if (done()) return proposed_.clear();
+    parallelFor(fresh_.size(), kMeasured, [&](std::size_t i) { proposed_[i] = cutOf(edges_[fresh_[i]]); });
+  }
+  void takeEdges(double least) {
+    for (std::size_t i = 0; i < proposed_.size(); ++i) {
+      edges_[fresh_[i]].known = true;
+      if (proposed_[i] && proposed_[i]->worth > least)
+        edges_[fresh_[i]].corner = add(*proposed_[i], edges_[fresh_[i]].a);
     }
-    done.insert(done.end(), active.begin(), active.end());
-    side_.triangles = std::move(done);
+    whole_.clear(), next_.clear(), wholeFrom_.clear(), nextFrom_.clear();
+    for (std::size_t i = 0; i < active_.size(); ++i) {
+      if (!cut(active_[i], next_)) whole_.push_back(active_[i]), wholeFrom_.push_back(activeFrom_[i]);
+      nextFrom_.resize(next_.size(), activeFrom_[i]);
+    }
+  }
+  void proposeMiddles() {
+    proposed_.assign(whole_.size(), std::nullopt);
+    parallelFor(whole_.size(), kMeasured, [&](std::size_t i) { proposed_[i] = middleOf(whole_[i]); });
+  }
+  void takeMiddles(double least) {
+    for (std::size_t i = 0; i < whole_.size(); ++i) {
+      const auto& t = whole_[i];
+      if (!proposed_[i] || !(proposed_[i]->worth > least)) {
+        done_.push_back(t), doneFrom_.push_back(wholeFrom_[i]);
+        continue;
+      }
+      const std::uint32_t m = add(*proposed_[i], t[0]);
+      next_.insert(next_.end(), {{t[0], t[1], m}, {t[1], t[2], m}, {t[2], t[0], m}});
+      nextFrom_.resize(next_.size(), wholeFrom_[i]);
+    }
+    registerEdges(next_);
+    active_ = std::move(next_), activeFrom_ = std::move(nextFrom_);
+  }
+  void worths(std::vector<double>& out) const {
+    for (const std::optional<Place>& p : proposed_)
+      if (p) out.push_back(p->worth);
+  }
+
+  void end() {
+    if (done_.empty() && active_.empty()) return;
+    done_.insert(done_.end(), active_.begin(), active_.end());
+    doneFrom_.insert(doneFrom_.end(), activeFrom_.begin(), activeFrom_.end());
+    // Parts of a triangle stand where it stood: neighbours follow each other, and pack well.
+    std::vector<std::uint32_t> order(done_.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return doneFrom_[i]; });
+    side_.triangles.clear();
+    for (const std::uint32_t i : order) side_.triangles.push_back(done_[i]);
+    done_.clear(), active_.clear();
+    orderCorners();
   }
 
  private:
@@ -136,17 +196,20 @@ class SideRefiner {
   float floorOf(std::size_t g) const {
     return settings_.floors.empty() ? 0.0f : static_cast<float>(settings_.floors[g]);
   }
-  /// Of one group; `rest` is all groups' there.
-  Rgb measured(std::size_t g, const Place& place) const {
+  /// What else there is of a group's light: its own that is not measured, or what of all is worth as much.
+  float ambientOf(std::size_t g, const std::vector<Rgb>& rest) const {
     float all = 0;
-    for (const Rgb& r : place.rest) all += gray(r);
-    const float other = std::max({gray(place.rest[g]), static_cast<float>(settings_.share) * all, floorOf(g)});
-    return light_.at(g, place.inside, Vec3(place.vertex.normal), other, settings_.error);
+    for (const Rgb& r : rest) all += gray(r);
+    return std::max({gray(rest[g]), static_cast<float>(settings_.share) * all, floorOf(g)});
   }
-  void measure(Place& place) const {
-    place.direct.assign(groups_, Rgb(0.0f));
-    for (std::size_t g = 0; g < groups_; ++g)
-      if (light_.measures(g)) place.direct[g] = measured(g, place);
+  float ambientAt(std::size_t g, std::uint32_t v) const {
+    float all = 0;
+    for (std::size_t i = 0; i < groups_; ++i) all += gray(restAt(i, v));
+    return std::max({gray(restAt(g, v)), static_cast<float>(settings_.share) * all, floorOf(g)});
+  }
+  using Doubt = direct::LampMeter::Doubt;
+  direct::LampMeter::Reading measured(std::size_t g, const Place& place, Doubt doubt = Doubt::Much) const {
+    return light_.read(g, place.inside, Vec3(place.vertex.normal), ambientOf(g, place.rest), settings_.error, doubt);
   }
 
   void measureCorners() {
@@ -160,22 +223,51 @@ class SideRefiner {
     std::vector<int> counts(side_.vertices.size(), 0);
     for (const auto& t : side_.triangles)
       for (const std::uint32_t v : t) middles[v] += (at(t[0]) + at(t[1]) + at(t[2])) / 3.0, ++counts[v];
+    const std::vector<std::vector<Corner>> corners = cornersByGroup();
     std::vector<std::vector<Rgb>> found(groups_, std::vector<Rgb>(side_.vertices.size(), Rgb(0.0f)));
     parallelFor(side_.vertices.size(), kMeasured, [&](std::size_t v) {
-      Place place{side_.vertices[v], Vec3(side_.vertices[v].position), {}, {}};
+      Place place{side_.vertices[v], Vec3(side_.vertices[v].position), {}, {}, 0};
       if (border[v] && counts[v] > 0) place.inside = moved(place.vertex, middles[v] / double(counts[v]));
       for (std::size_t g = 0; g < groups_; ++g) place.rest.push_back(restAt(g, static_cast<std::uint32_t>(v)));
-      measure(place);
-      for (std::size_t g = 0; g < groups_; ++g) found[g][v] = place.direct[g];
+      for (std::size_t g = 0; g < groups_; ++g)
+        if (corners[g][v] != Corner::Dark)
+          found[g][v] = measured(g, place, corners[g][v] == Corner::Lit ? Doubt::Little : Doubt::Much).E;
     });
     for (std::size_t g = 0; g < groups_; ++g)
       for (std::size_t v = 0; v < side_.vertices.size() && light_.measures(g); ++v)
         side_.all[g][v] += found[g][v] - side_.direct[g][v], side_.direct[g][v] = found[g][v];
   }
 
+  /// What the solution's own rays have found of a group at a corner and at those around it: nothing, which costs no
+  /// rays; light everywhere; or both, or nobody knows.
+  enum class Corner : char { Dark, Lit, Mixed };
+  std::vector<std::vector<Corner>> cornersByGroup() const {
+    const std::size_t count = side_.vertices.size();
+    std::vector<char> known(count, 0);
+    for (std::size_t g = 0; g < groups_; ++g)
+      for (std::size_t v = 0; v < count; ++v) known[v] |= !isBlack(side_.all[g][v]);
+    std::vector<std::vector<Corner>> out(groups_, std::vector<Corner>(count, Corner::Dark));
+    for (std::size_t g = 0; g < groups_; ++g) {
+      if (!light_.measures(g)) continue;
+      std::vector<float> least(count, std::numeric_limits<float>::infinity()), most(count, 0.0f);
+      for (const auto& t : side_.triangles)
+        for (const std::uint32_t v : t)
+          for (const std::uint32_t w : t) {
+            const float E = known[w] ? sumOf(side_.direct[g][w]) : -1;
+            least[v] = std::min(least[v], E), most[v] = std::max(most[v], E);
+          }
+      for (std::size_t v = 0; v < count; ++v)
+        if (least[v] < 0 || (most[v] > 0 && least[v] < kAlike * most[v]))
+          out[g][v] = Corner::Mixed;
+        else if (most[v] > 0)
+          out[g][v] = Corner::Lit;
+    }
+    return out;
+  }
+
   /// Not where normals bend between corners, which light does with them, and shadows do not.
   bool mayBeCut() const {
-    if (settings_.keepsShape) return false;
+    if (keepsShape_) return false;
     return !mesh_ || std::ranges::all_of(side_.triangles, [&](const std::array<std::uint32_t, 3>& t) {
       const Vec3 n = glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
       return std::ranges::all_of(
@@ -183,12 +275,18 @@ class SideRefiner {
     });
   }
 
+  /// Its light is linear between the ends.
   Place placeOn(const Edge& e, double t) const {
-    Place place{vertexBetween(e.a, e.b, t), {}, {}, {}};
-    place.inside = e.border ? moved(place.vertex, at(e.opposite)) : Vec3(place.vertex.position);
-    for (std::size_t g = 0; g < groups_; ++g)
+    Place place{vertexBetween(e.a, e.b, t), {}, {}, {}, 0};
+    place.inside = insideAt(e, place.vertex);
+    for (std::size_t g = 0; g < groups_; ++g) {
       place.rest.push_back(between(restAt(g, e.a), restAt(g, e.b), static_cast<float>(t)));
+      place.direct.push_back(between(side_.direct[g][e.a], side_.direct[g][e.b], static_cast<float>(t)));
+    }
     return place;
+  }
+  Vec3 insideAt(const Edge& e, const MeshVertex& v) const {
+    return e.border ? moved(v, at(e.opposite)) : Vec3(v.position);
   }
   /// Light of a group at a place or at corners around it, whichever is most: what is next to it is what an eye
   /// compares.
@@ -202,15 +300,19 @@ class SideRefiner {
            std::max(
                {there, lightAround(g, corners), static_cast<float>(settings_.share) * total, kChannels * floorOf(g)});
   }
-  Disagreement disagreement(const Place& place, std::span<const std::uint32_t> corners, const auto& linear) const {
+  /// Measures these groups at a place that has linear light: how far off that was.
+  Disagreement disagreement(Place& place, std::span<const std::uint32_t> corners,
+                            std::span<const std::size_t> groups) const {
     Disagreement worst;
     const float total = totalOf(place.rest, place.direct);
-    for (std::size_t g = 0; g < groups_; ++g) {
-      const float off = differenceOf(place.direct[g], linear(g));
+    for (const std::size_t g : groups) {
+      const direct::LampMeter::Reading read = measured(g, place);
+      const float off = differenceOf(read.E, place.direct[g]);
+      place.direct[g] = read.E;
       if (!(off > 0)) continue;
       // Rays tell light in a shadow to so much of what would be there without it, and an eye sees no less beside it.
-      const auto open = static_cast<float>(light_.open(g, place.inside, Vec3(place.vertex.normal)));
-      const float there = std::max(sumOf(place.rest[g]) + sumOf(place.direct[g]), kChannels * 0.5f * open);
+      const float there =
+          std::max(sumOf(place.rest[g]) + sumOf(place.direct[g]), kChannels * 0.5f * static_cast<float>(read.open));
       const float allowed = allowedFor(g, corners, there, total);
       if (off / allowed > worst.most) worst = {off / allowed, g};
     }
@@ -220,22 +322,29 @@ class SideRefiner {
   /// How far off light has to be for an edge of that length to be cut, over what is allowed: of short ones, only what
   /// stands out is worth it, and what rays are off by would never end.
   double threshold(double length) const { return std::max(1.0, kVisible * settings_.smallest / length); }
-  /// Whether corners tell light apart by so much that there is something to look for between them.
-  bool mayStep(std::span<const std::uint32_t> corners, double length) const {
+  /// Groups whose light corners tell apart by so much that there is something to look for between them.
+  std::vector<std::size_t> groupsThatMayStep(std::span<const std::uint32_t> corners, double length) const {
     float total = 0;
     for (std::size_t g = 0; g < groups_; ++g) total += sumOf(side_.all[g][corners[0]]);
-    for (std::size_t g = 0; g < groups_; ++g)
-      for (const std::uint32_t v : corners)
-        if (differenceOf(side_.direct[g][v], side_.direct[g][corners[0]]) >
-            threshold(length) * allowedFor(g, corners, 0, total))
-          return true;
-    return false;
+    std::vector<std::size_t> found;
+    for (std::size_t g = 0; g < groups_; ++g) {
+      const auto least = static_cast<float>(threshold(length)) * allowedFor(g, corners, 0, total);
+      if (std::ranges::any_of(corners, [&](std::uint32_t v) {
+            return differenceOf(side_.direct[g][v], side_.direct[g][corners[0]]) > least;
+          }))
+        found.push_back(g);
+    }
+    return found;
   }
 
   /// Where an edge is to be cut for this group: at a step, or where its light is furthest from linear.
   double cutFor(std::size_t g, const Edge& e, double length) const {
     const Rgb first = side_.direct[g][e.a], last = side_.direct[g][e.b];
-    const auto lookAt = [&](double t) { return measured(g, placeOn(e, t)); };
+    const float ambient = std::max(ambientAt(g, e.a), ambientAt(g, e.b));
+    const auto lookAt = [&](double t) {
+      const MeshVertex v = vertexBetween(e.a, e.b, t);
+      return light_.read(g, insideAt(e, v), Vec3(v.normal), ambient, settings_.error).E;
+    };
     const auto off = [&](const Rgb& E, double t) {
       return differenceOf(E, between(first, last, static_cast<float>(t)));
     };
@@ -268,48 +377,46 @@ class SideRefiner {
   std::optional<Place> cutOf(const Edge& e) const {
     const double length = glm::length(at(e.b) - at(e.a));
     if (length < 2 * settings_.smallest) return std::nullopt;
-    if (!mayStep(std::array{e.a, e.b}, length)) return std::nullopt;
-    Place middle = placeOn(e, 0.5);
-    measure(middle);
-    const Disagreement worst = disagreement(middle, std::array{e.a, e.b}, [&](std::size_t g) {
-      return between(side_.direct[g][e.a], side_.direct[g][e.b], 0.5f);
-    });
+    const std::array ends{e.a, e.b};
+    const std::vector<std::size_t> groups = groupsThatMayStep(ends, length);
+    if (groups.empty()) return std::nullopt;
+    Place place = placeOn(e, 0.5);
+    const Disagreement worst = disagreement(place, ends, groups);
     if (!(worst.most > threshold(length))) return std::nullopt;
     const double least = 0.5 * settings_.smallest / length;
-    Place place = placeOn(e, std::clamp(cutFor(worst.group, e, length), least, 1 - least));
-    measure(place);
+    const double t = std::clamp(cutFor(worst.group, e, length), least, 1 - least);
+    if (t != 0.5) {
+      place = placeOn(e, t);
+      for (const std::size_t g : groups) place.direct[g] = measured(g, place).E;
+    }
     place.worth = worst.most * length;
     return place;
   }
 
-  /// Leaves those out that are worth least where there are more than there is room for.
-  void fitIntoRoom(std::vector<std::optional<Place>>& places) {
-    std::vector<std::size_t> order;
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (places[i]) order.push_back(i);
-    if (order.size() > room_) {
-      std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return places[i]->worth; });
-      for (std::size_t k = room_; k < order.size(); ++k) places[order[k]].reset();
-      order.resize(room_);
-    }
-    room_ -= order.size();
-  }
-
-  std::uint32_t add(const Place& place) {
+  std::uint32_t add(const Place& place, std::uint32_t beside) {
+    besides_.push_back(besides_[beside]);
     side_.vertices.push_back(place.vertex);
     for (std::size_t g = 0; g < groups_; ++g)
       side_.all[g].push_back(place.rest[g] + place.direct[g]), side_.direct[g].push_back(place.direct[g]);
     return static_cast<std::uint32_t>(side_.vertices.size() - 1);
   }
 
-  void cutEdges() {
-    std::vector<std::optional<Place>> cuts(fresh_.size());
-    parallelFor(fresh_.size(), kMeasured, [&](std::size_t i) { cuts[i] = cutOf(edges_[fresh_[i]]); });
-    fitIntoRoom(cuts);
-    for (std::size_t i = 0; i < fresh_.size(); ++i) {
-      edges_[fresh_[i]].known = true;
-      if (cuts[i]) edges_[fresh_[i]].corner = add(*cuts[i]);
-    }
+  /// Added corners follow those that they were added beside.
+  void orderCorners() {
+    std::vector<std::uint32_t> order(side_.vertices.size()), number(order.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t v) { return besides_[v]; });
+    for (std::uint32_t i = 0; i < order.size(); ++i) number[order[i]] = i;
+    const auto put = [&](auto& values) {
+      auto now = values;
+      for (std::size_t i = 0; i < order.size(); ++i) now[i] = values[order[i]];
+      values = std::move(now);
+    };
+    put(side_.vertices);
+    for (auto& layer : side_.all) put(layer);
+    for (auto& layer : side_.direct) put(layer);
+    for (auto& t : side_.triangles)
+      for (std::uint32_t& v : t) v = number[v];
   }
 
   /// False: none of its edges is cut.
@@ -346,67 +453,66 @@ class SideRefiner {
     const Vec3 a = at(t[0]), b = at(t[1]), c = at(t[2]);
     const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
     if (glm::length(glm::cross(b - a, c - a)) < 2 * settings_.smallest * longest) return std::nullopt;
-    if (!mayStep(t, longest)) return std::nullopt;
-    Place place{side_.vertices[t[0]], {}, {}, {}};
+    const std::vector<std::size_t> groups = groupsThatMayStep(t, longest);
+    if (groups.empty()) return std::nullopt;
+    Place place{side_.vertices[t[0]], {}, {}, {}, 0};
     place.vertex.position = Vec3f((a + b + c) / 3.0);
     const auto mean = [&](const auto& of) { return (of(t[0]) + of(t[1]) + of(t[2])) / 3.0f; };
     place.vertex.normal = glm::normalize(mean([&](std::uint32_t v) { return side_.vertices[v].normal; }));
     place.vertex.uv = mean([&](std::uint32_t v) { return side_.vertices[v].uv; });
     place.vertex = onSurface(place.vertex);
     place.inside = Vec3(place.vertex.position);
-    for (std::size_t g = 0; g < groups_; ++g) place.rest.push_back(mean([&](std::uint32_t v) { return restAt(g, v); }));
-    measure(place);
-    const Disagreement worst = disagreement(
-        place, t, [&](std::size_t g) { return mean([&](std::uint32_t v) { return side_.direct[g][v]; }); });
+    for (std::size_t g = 0; g < groups_; ++g) {
+      place.rest.push_back(mean([&](std::uint32_t v) { return restAt(g, v); }));
+      place.direct.push_back(mean([&](std::uint32_t v) { return side_.direct[g][v]; }));
+    }
+    const Disagreement worst = disagreement(place, t, groups);
     if (!(worst.most > threshold(longest))) return std::nullopt;
     place.worth = worst.most * longest;
     return place;
   }
-  void cutMiddles(const std::vector<std::array<std::uint32_t, 3>>& whole,
-                  std::vector<std::array<std::uint32_t, 3>>& next, std::vector<std::array<std::uint32_t, 3>>& done) {
-    std::vector<std::optional<Place>> middles(whole.size());
-    parallelFor(whole.size(), kMeasured, [&](std::size_t i) { middles[i] = middleOf(whole[i]); });
-    fitIntoRoom(middles);
-    for (std::size_t i = 0; i < whole.size(); ++i) {
-      const auto& t = whole[i];
-      if (!middles[i]) {
-        done.push_back(t);
-        continue;
-      }
-      const std::uint32_t m = add(*middles[i]);
-      next.insert(next.end(), {{t[0], t[1], m}, {t[1], t[2], m}, {t[2], t[0], m}});
-    }
-  }
-
   LitSide& side_;
   const Shape& shape_;
-  const bool front_;
+  const bool front_, keepsShape_;
   const DirectLight& light_;
   const Refinement& settings_;
   const std::size_t groups_;
   bool flat_ = false, mesh_ = false;
-  std::size_t room_ = 0;  // for corners that may be added yet
   std::vector<Edge> edges_;
   std::unordered_map<std::uint64_t, std::uint32_t> edgeOf_;
-  std::vector<std::uint32_t> fresh_;  // edges that nobody has looked at yet
+  std::vector<std::uint32_t> fresh_;                                        // edges that nobody has looked at yet
+  std::vector<std::array<std::uint32_t, 3>> active_, whole_, next_, done_;  // triangles
+  std::vector<std::uint32_t> besides_;  // by corner: the one that was there before that it follows
+  std::vector<std::uint32_t> activeFrom_, wholeFrom_, nextFrom_, doneFrom_;  // the triangles that they are parts of
+  std::vector<std::optional<Place>> proposed_;                               // by fresh edge, or by whole triangle
 };
 
 }  // namespace
 
 Refinement Refinement::of(const Scene& scene, double error) {
   Refinement out;
-  out.error = error, out.smallest = kShadowEdge / scene.metresPerUnit, out.border = kBorderInset / scene.metresPerUnit;
+  out.error = error, out.border = kBorderInset / scene.metresPerUnit;
+  Box box;
+  for (const Primitive& p : scene.primitives) {
+    const Box own = bounds(p.shape);
+    if (!own.empty()) box.extend(own.lower), box.extend(own.upper);
+  }
+  out.smallest = std::max(kShadowEdge / scene.metresPerUnit, box.empty() ? 0.0 : kOfScene * box.diagonal());
   return out;
 }
 
 void LightFloors::add(const LitSide& side) {
-  for (const auto& t : side.triangles) {
-    const auto at = [&](std::size_t k) { return Vec3(side.vertices[t[k]].position); };
-    const double area = 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
-    area_ += area;
-    for (std::size_t g = 0; g < light_.size(); ++g)
-      for (const std::uint32_t v : t) light_[g] += area / 3 * double(gray(side.all[g][v]));
-  }
+  for (const auto& t : side.triangles)
+    add({&side.vertices[t[0]], &side.vertices[t[1]], &side.vertices[t[2]]}, t, side.all);
+}
+
+void LightFloors::add(const std::array<const MeshVertex*, 3>& corners, const std::array<std::uint32_t, 3>& numbers,
+                      const std::vector<std::vector<Rgb>>& layers) {
+  const auto at = [&](std::size_t k) { return Vec3(corners[k]->position); };
+  const double area = 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
+  area_ += area;
+  for (std::size_t g = 0; g < light_.size(); ++g)
+    for (const std::uint32_t v : numbers) light_[g] += area / 3 * double(gray(layers[g][v]));
 }
 
 std::vector<double> LightFloors::floors() const {
@@ -415,8 +521,44 @@ std::vector<double> LightFloors::floors() const {
   return out;
 }
 
+void refine(std::span<const SideToRefine> sides, const DirectLight& light, const Refinement& settings) {
+  std::vector<std::unique_ptr<SideRefiner>> work(sides.size());
+  std::size_t room = kRoom;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    work[s] = std::make_unique<SideRefiner>(sides[s], light, settings);
+    room += sides[s].side->vertices.size() / kVerticesPerRoom;
+  }
+  const auto each = [&](const auto& step) { parallelFor(work.size(), 1, [&](std::size_t s) { step(*work[s]); }); };
+  // The worth of proposals that there is no room for any more.
+  const auto least = [&] {
+    std::vector<double> worths;
+    for (const auto& side : work) side->worths(worths);
+    const std::size_t taken = std::min(room, worths.size());
+    room -= taken;
+    if (taken == worths.size()) return -kInfinity;
+    const auto first = worths.begin() + static_cast<std::ptrdiff_t>(taken);
+    std::ranges::nth_element(worths, first, std::ranges::greater());
+    return *first;
+  };
+  each([](SideRefiner& side) { side.begin(); });
+  for (int pass = 0; pass < kMostCuts && room > 0; ++pass) {
+    std::erase_if(work, [](const auto& side) {
+      if (side->done()) side->end();
+      return side->done();
+    });
+    if (work.empty()) break;
+    each([](SideRefiner& side) { side.proposeEdges(); });
+    const double edges = least();
+    each([&](SideRefiner& side) { side.takeEdges(edges), side.proposeMiddles(); });
+    const double middles = least();
+    each([&](SideRefiner& side) { side.takeMiddles(middles); });
+  }
+  each([](SideRefiner& side) { side.end(); });
+}
+
 void refine(LitSide& side, const Shape& shape, bool front, const DirectLight& light, const Refinement& settings) {
-  SideRefiner(side, shape, front, light, settings).run();
+  const SideToRefine one{&side, &shape, front, settings.keepsShape};
+  refine(std::span(&one, 1), light, settings);
 }
 
 }  // namespace deltalux::exporting

@@ -9,6 +9,7 @@
 // what stands there ends in them.
 // Cost: about six measurements a vertex, and some fifteen for each that is added.
 #include <deltalux/solution_mesh.hpp>
+#include <span>
 #include <vector>
 
 #include "export/direct_light.hpp"
@@ -26,7 +27,7 @@ struct LitSide {
 
 struct Refinement {
   double error = 0.01;  // of a group's light at a place, or of `share` of all light there if that is more
-  double share = 0.01;
+  double share = 0.03;
   std::vector<double> floors;  // by group: light below it is not told more finely [W/m2, gray]; empty: 0
   double smallest = 0;         // edges shorter than twice that are not cut [scene units]
   double border = 0;           // how far inside corners on borders are measured [scene units]
@@ -41,6 +42,8 @@ class LightFloors {
  public:
   explicit LightFloors(std::size_t groups) : light_(groups, 0.0) {}
   void add(const LitSide&);
+  void add(const std::array<const MeshVertex*, 3>& corners, const std::array<std::uint32_t, 3>& numbers,
+           const std::vector<std::vector<Rgb>>& layers);
   std::vector<double> floors() const;
 
  private:
@@ -48,6 +51,14 @@ class LightFloors {
   double area_ = 0;
 };
 
+/// Caustic textures lie on the triangles of one that keeps its shape.
+struct SideToRefine {
+  LitSide* side;
+  const Shape* shape;
+  bool front = true, keepsShape = false;
+};
+/// All sides of a scene: corners are added where they are worth most, some ten thousands in all.
+void refine(std::span<const SideToRefine>, const DirectLight&, const Refinement&);
 /// Puts what is measured in the place of `direct`, in `all` too.
 void refine(LitSide&, const Shape&, bool front, const DirectLight&, const Refinement&);
 

@@ -19,7 +19,8 @@ constexpr double kBend = 0.003;       // of a side's size: how far curved surfac
 constexpr double kSameNormal = 0.99;  // cosine between normals of vertices that may be one [shown]
 constexpr double kTurn = 0.7;         // cosine between a triangle and its neighbourhood, at least [shown]
 constexpr double kSliver = 1e-3;      // twice a triangle's area over that size squared, at least [rounding]
-constexpr float kLeastShare = 0.01f;  // of all light at a point: a group's below it is not told apart from it [shown]
+constexpr float kChannelCount = 3;    // whose sum light is compared by [layout]
+constexpr float kLeastShare = 0.03f;  // of all light at a point: a group's below it is not told apart from it [shown]
 
 struct Triangle {
   std::array<std::uint32_t, 3> corners{kNone, kNone, kNone};
@@ -30,8 +31,15 @@ struct Triangle {
 /// One side's triangles, and light by vertex, numbered within the side.
 class SideMesh {
  public:
-  SideMesh(std::span<const MeshVertex> vertices, const std::vector<std::span<const Rgb>>& layers, double tolerance)
-      : vertices_(vertices), layers_(layers), tolerance_(static_cast<float>(tolerance)), around_(vertices.size()) {
+  SideMesh(std::span<const MeshVertex> vertices, const std::vector<std::span<const Rgb>>& layers,
+           const LightTolerance& tolerance)
+      : vertices_(vertices),
+        layers_(layers),
+        tolerance_(static_cast<float>(tolerance.relative)),
+        floors_(layers.size(), 0.0f),
+        around_(vertices.size()) {
+    for (std::size_t g = 0; g < tolerance.floors.size(); ++g)
+      floors_[g] = kChannelCount * static_cast<float>(tolerance.floors[g]);
     Box box;
     for (const MeshVertex& v : vertices) box.extend(Vec3(v.position));
     bend_ = kBend * box.diagonal();
@@ -150,9 +158,11 @@ class SideMesh {
   float errorAt(std::uint32_t v, const std::array<std::uint32_t, 3>& c, const glm::vec3& w) const {
     float total = 0, most = 0;
     for (const auto& layer : layers_) total += layer[v].r + layer[v].g + layer[v].b;
-    for (const auto& layer : layers_) {
+    for (std::size_t g = 0; g < layers_.size(); ++g) {
+      const auto& layer = layers_[g];
       const Rgb off = w.x * layer[c[0]] + w.y * layer[c[1]] + w.z * layer[c[2]] - layer[v];
-      const float allowed = tolerance_ * std::max(layer[v].r + layer[v].g + layer[v].b, kLeastShare * total);
+      const float allowed =
+          tolerance_ * std::max({layer[v].r + layer[v].g + layer[v].b, kLeastShare * total, floors_[g]});
       const float is = std::abs(off.r) + std::abs(off.g) + std::abs(off.b);
       if (is > 0) most = std::max(most, allowed > 0 ? is / allowed : std::numeric_limits<float>::infinity());
     }
@@ -225,6 +235,7 @@ class SideMesh {
   std::span<const MeshVertex> vertices_;
   const std::vector<std::span<const Rgb>>& layers_;
   const float tolerance_;
+  std::vector<float> floors_;                       // by group, sum of channels
   double bend_ = 0;                                 // how far a vertex that was left out may be from its triangle
   std::vector<std::uint32_t> same_;                 // by vertex: the one that it is one with
   std::vector<std::vector<std::uint32_t>> around_;  // by vertex: its triangles
@@ -233,7 +244,7 @@ class SideMesh {
 
 /// The triangles that sides keep, numbered within them. A side is in several draws with the same triangles.
 std::vector<SideTriangles> keptTriangles(const PageMesh& mesh, const std::vector<std::vector<Rgb>>& layers,
-                                         double tolerance, const std::vector<char>& whole) {
+                                         const LightTolerance& tolerance, const std::vector<char>& whole) {
   std::vector<SideTriangles> of = trianglesOfSides(mesh);
   parallelFor(mesh.sides.size(), 1, [&](std::size_t s) {
     for (auto& t : of[s])
@@ -256,7 +267,7 @@ void simplify(PageMesh& mesh, std::vector<std::vector<Rgb>>& layers, const Light
               const std::vector<char>& whole) {
   std::vector<std::uint32_t> firsts;
   for (const PageMesh::Side& side : mesh.sides) firsts.push_back(side.first);
-  replaceTriangles(mesh, keptTriangles(mesh, layers, tolerance.relative, whole), firsts);
+  replaceTriangles(mesh, keptTriangles(mesh, layers, tolerance, whole), firsts);
   // Vertices that any of them has, in their order.
   std::vector<std::uint32_t> number(mesh.vertices.size(), kNone);
   for (const std::uint32_t v : mesh.triangles) number[v] = 0;

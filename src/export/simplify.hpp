@@ -18,6 +18,7 @@ namespace deltalux::exporting {
 /// if that is more.
 struct LightTolerance {
   double relative = 0.01;
+  std::vector<double> floors = {};  // by group: light below it is not told more finely [W/m2, gray]; empty: 0
 };
 
 /// Leaves vertices out of the mesh and of `layers`, which are by group and vertex [W/m2]. `whole`: by side of the page,

@@ -44,6 +44,41 @@ const std::string& groupOf(const Light& light, const std::vector<LightPattern>& 
   return of == patterns.end() ? light.name : of->group;
 }
 
+/// Of a solution that need not hold the columns.
+void addUp(Solution& s, const LightColumns& all, std::span<const Rgb> weights) {
+  const hierarchy::LeafTable leaves(s.elements);
+  const std::vector<LightColumn>& columns = all.of;
+  DELTALUX_CHECK(weights.size() == columns.size(), "a weight a group");
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    if (!isBlack(weights[k])) shown.push_back(k);
+  s.deviation.resize(leaves.size());
+  parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
+    hierarchy::ElementLight& l = s.elements.radiometry[leaves[i].index()];
+    l.direct = l.indirect = l.particle = Rgb(0.0f);
+    double variance = 0;
+    for (const std::size_t k : shown) {
+      const LightColumn& c = columns[k];
+      l.direct += weights[k] * c.direct[i], l.indirect += weights[k] * c.indirect[i];
+      l.particle += weights[k] * c.particle[i];
+      const double deviation = double(gray(weights[k])) * c.deviation[i];
+      variance += deviation * deviation;
+    }
+    s.deviation[i] = static_cast<float>(std::sqrt(variance));
+  });
+  hierarchy::pull(s.elements);
+}
+
+/// A copy without the light of groups, and what only an engine uses.
+std::shared_ptr<Solution> withoutColumns(const Solution& s) {
+  auto out = std::make_shared<Solution>();
+  out->scene = s.scene, out->settings = s.settings, out->tracer = s.tracer;
+  out->elements = s.elements, out->links = s.links, out->particles = s.particles;
+  out->lines = s.lines, out->deviation = s.deviation;
+  out->sampledScale = s.sampledScale, out->caustics = s.caustics, out->report = s.report;
+  return out;
+}
+
 std::vector<LightId> allLights(const Scene& scene) {
   std::vector<LightId> all;
   for (std::size_t i = 0; i < scene.lights.size(); ++i) all.emplace_back(i);
@@ -97,26 +132,7 @@ std::size_t LightColumns::memoryBytes() const {
   return bytes;
 }
 
-void addUp(Solution& s, std::span<const Rgb> weights) {
-  const hierarchy::LeafTable leaves(s.elements);
-  const std::vector<LightColumn>& columns = s.columns.of;
-  DELTALUX_CHECK(weights.size() == columns.size(), "a weight a group");
-  s.deviation.resize(leaves.size());
-  parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
-    hierarchy::ElementLight& l = s.elements.radiometry[leaves[i].index()];
-    l.direct = l.indirect = l.particle = Rgb(0.0f);
-    double variance = 0;
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      const LightColumn& c = columns[k];
-      l.direct += weights[k] * c.direct[i], l.indirect += weights[k] * c.indirect[i];
-      l.particle += weights[k] * c.particle[i];
-      const double deviation = double(gray(weights[k])) * c.deviation[i];
-      variance += deviation * deviation;
-    }
-    s.deviation[i] = static_cast<float>(std::sqrt(variance));
-  });
-  hierarchy::pull(s.elements);
-}
+void addUp(Solution& s, std::span<const Rgb> weights) { addUp(s, s.columns, weights); }
 
 void validate(const LightColumns& columns, const Scene& scene, std::size_t leaves) {
   const auto require = [](bool holds, const char* what) {
@@ -149,21 +165,29 @@ std::vector<LightGroup> lightGroups(const SolutionView& view) {
   return {LightGroup{"all", allLights(s.scene)}};
 }
 
-SolutionView lightOf(const SolutionView& view, std::size_t group) {
-  if (view.get().columns.empty()) return view;
-  auto alone = std::make_shared<Solution>(view.get());
-  std::vector<Rgb> weights(alone->columns.of.size(), Rgb(0.0f));
+GroupLight::GroupLight(const SolutionView& view)
+    : whole_(view),
+      alone_(view.get().columns.empty() ? nullptr : withoutColumns(view.get())),
+      view_(alone_ ? SolutionView(alone_) : view) {}
+
+void GroupLight::show(std::size_t group) {
+  if (!alone_) return;
+  const LightColumns& columns = whole_.get().columns;
+  std::vector<Rgb> weights(columns.of.size(), Rgb(0.0f));
   weights.at(group) = Rgb(1.0f);
-  for (Light& light : alone->scene.lights) light.scale = Rgb(0.0f);
-  const std::vector<LightId>& own = alone->columns.groups[group].lights;
-  for (std::size_t i = 0; i < own.size(); ++i)
-    alone->scene.lights[own[i].index()].scale = alone->columns.of[group].scales[i];
-  addUp(*alone, weights);
-  alone->caustics = alone->columns.of[group].caustics;
-  alone->columns = {}, alone->memory.reset();
-  for (const hierarchy::ElementId e : hierarchy::elementsOf(alone->elements, allLights(alone->scene)))
-    hierarchy::setEmission(alone->elements, alone->scene, e);
-  return SolutionView(std::move(alone));
+  for (Light& light : alone_->scene.lights) light.scale = Rgb(0.0f);
+  const std::vector<LightId>& own = columns.groups[group].lights;
+  for (std::size_t i = 0; i < own.size(); ++i) alone_->scene.lights[own[i].index()].scale = columns.of[group].scales[i];
+  addUp(*alone_, columns, weights);
+  alone_->caustics = columns.of[group].caustics;
+  for (const hierarchy::ElementId e : hierarchy::elementsOf(alone_->elements, allLights(alone_->scene)))
+    hierarchy::setEmission(alone_->elements, alone_->scene, e);
+}
+
+SolutionView lightOf(const SolutionView& view, std::size_t group) {
+  GroupLight light(view);
+  light.show(group);
+  return light.view();
 }
 
 }  // namespace deltalux
