@@ -96,6 +96,7 @@ TEST(Sheet, MeasuresAndRates) {
   const MeasuredArea& area = sheet.areas.at(0);
   EXPECT_TRUE(area.passes());
   EXPECT_EQ(area.lux.size(), 8u);
+  EXPECT_EQ(area.covered, 0u);
   for (const SheetRow& row : area.rows) {
     if (row.unit == "lx") {
       EXPECT_NEAR(row.reached, lux, 0.02 * lux) << row.quantity;
