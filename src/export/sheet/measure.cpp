@@ -98,9 +98,12 @@ class Measurer {
   std::vector<double> lux(const std::vector<ProbePoint>& points, std::size_t together = 1) const {
     ProbeSettings probing = settings_.probe;
     probing.error = std::min(0.5, probing.error * std::sqrt(static_cast<double>(together)));
+    if (progress_ && progress_->stopRequested()) throw Interrupted();
+    if (progress_) progress_->report("measure", 0);
     std::vector<double> all;
-    for (const ProbeResult& r : probe(solution_, points, probing, progress_))
+    for (const ProbeResult& r : reader_.probe(points, probing))
       all.push_back(request_.maintenanceFactor * photometric(r.irradiance, solution_.scene().luminousEfficacy));
+    if (progress_) progress_->report("measure", 1);
     return all;
   }
   void add(MeasuredArea& to, const std::string& quantity, const char* unit, double reached,
