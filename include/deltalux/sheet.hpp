@@ -32,8 +32,9 @@ struct SheetArea {
   std::string name, kind;                                     // kind: of en12464(), or empty
   std::variant<std::string, GridArea, std::vector<Vec3>> on;  // an object's surface, a rectangle, a polygon
   GridSettings grid;
-  double eyeHeight = 1.2;  // above what it is on [m]
-  int directions = 4;      // lines of sight from each place
+  double eyeHeight = 1.2;    // above what it is on [m]
+  int directions = 4;        // lines of sight from each place
+  bool skipCovered = false;  // points with something less than 0.1 m before them are left out
   AreaRequirements required;
   std::vector<std::string> walls, ceiling;  // objects
   int line = 0;                             // of the file that asks for it
@@ -80,6 +81,7 @@ struct MeasuredArea {
   std::vector<SheetRow> rows;
   std::optional<UnifiedGlare> worst;  // of all places and lines of sight, where a limit is set
   std::size_t glareEyes = 0;
+  std::size_t covered = 0;  // points with something less than 0.1 m before them, left out or not
 
   bool passes() const;
 };

@@ -75,14 +75,14 @@ void drawValues(Canvas& canvas, const PlanFrame& frame, const PlanField& field) 
 }
 
 void drawScale(Canvas& canvas, const Vec2& at, double height, const FalseColorSettings& colours) {
-  constexpr int kSteps = 48;  // [shown]
-  const auto lux = [&](int, int j) { return colours.top * std::pow(10, -colours.decades * (j + 0.5) / kSteps); };
-  const DisplayImage legend = falseColor(imageOfLux(1, kSteps, lux), colours);
-  DisplayImage ramp{1, kSteps, {}};
-  for (int j = 0; j < kSteps; ++j) ramp.pixels.push_back(legend.at(legend.width - 1, j));
-  for (int j = 0; j < kSteps; ++j) {
+  constexpr int kScaleSteps = 48;  // [shown]
+  const auto lux = [&](int, int j) { return colours.top * std::pow(10, -colours.decades * (j + 0.5) / kScaleSteps); };
+  const DisplayImage legend = falseColor(imageOfLux(1, kScaleSteps, lux), colours);
+  DisplayImage ramp{1, kScaleSteps, {}};
+  for (int j = 0; j < kScaleSteps; ++j) ramp.pixels.push_back(legend.at(legend.width - 1, j));
+  for (int j = 0; j < kScaleSteps; ++j) {
     const auto& c = ramp.at(0, j);
-    canvas.fill({at.x, at.y + j * height / kSteps}, {10, height / kSteps + 0.3},
+    canvas.fill({at.x, at.y + j * height / kScaleSteps}, {10, height / kScaleSteps + 0.3},
                 {c[0] / 255.0, c[1] / 255.0, c[2] / 255.0});
   }
   const auto value = [&](int mark) { return colours.top * std::pow(10, -colours.decades * mark / kMarks); };

@@ -18,7 +18,7 @@ double inPlaneOf(const Photometry& p, double plane, double angle) {
 }  // namespace
 
 void drawPolar(Canvas& canvas, const Vec2& at, double side, const Photometry& p) {
-  constexpr int kSteps = 120;  // around a curve [shown]
+  constexpr int kCurveSteps = 120;  // around a curve [shown]
   const Vec2 middle = at + Vec2(side / 2, side / 2);
   const double radius = side / 2 - 10, most = std::ranges::max(p.candela);
   if (!(most > 0)) return;
@@ -28,7 +28,8 @@ void drawPolar(Canvas& canvas, const Vec2& at, double side, const Photometry& p)
   };
   const auto curve = [&](const auto& r) {
     std::vector<Vec2> points;
-    for (int i = 0; i < kSteps; ++i) points.push_back(place(360.0 * i / kSteps - 180, r(360.0 * i / kSteps - 180)));
+    for (int i = 0; i < kCurveSteps; ++i)
+      points.push_back(place(360.0 * i / kCurveSteps - 180, r(360.0 * i / kCurveSteps - 180)));
     return points;
   };
   for (double circle = step; circle <= rim * 1.0001; circle += step) {

@@ -44,10 +44,17 @@ double fluxOf(const Scene&, const LambertPointLight& light) { return kPi * gray(
 double fluxOf(const Scene&, const SunLight&) { return 0; }
 double fluxOf(const Scene&, const DomeLight&) { return 0; }
 
-/// "panel-12" and "panel.3" are of the kind "panel".
+/// "panel-12" and "panel.3" are of the kind "panel", "wheel.3.lamp" is of the kind "wheel.lamp".
 std::string kindOf(const std::string& name) {
-  const std::size_t end = name.find_last_not_of("0123456789-_.");
-  return end == std::string::npos ? name : name.substr(0, end + 1);
+  std::string kind;
+  for (std::size_t from = 0; from <= name.size();) {
+    const std::size_t dot = std::min(name.find('.', from), name.size());
+    const std::string part = name.substr(from, dot - from);
+    if (part.find_first_not_of("0123456789") != std::string::npos) kind += (kind.empty() ? "" : ".") + part;
+    from = dot + 1;
+  }
+  const std::size_t end = kind.find_last_not_of("0123456789-_");
+  return end == std::string::npos ? name : kind.substr(0, end + 1);
 }
 
 bool sameLight(const std::shared_ptr<const Photometry>& a, const std::shared_ptr<const Photometry>& b) {

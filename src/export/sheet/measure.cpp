@@ -71,12 +71,14 @@ class Measurer {
  public:
   Measurer(const SolutionView& solution, const SheetRequest& request, const SheetSettings& settings, Progress* progress)
       : solution_(solution), request_(request), settings_(settings), progress_(progress) {
-    error_ = solution.report().error.estimatedMedian.value_or(solution.settings().error);
+    error_ =
+        std::max(solution.report().error.estimatedMedian.value_or(solution.settings().error), settings.probe.error);
   }
 
   MeasuredArea measure(const SheetArea& area) const {
     const Scene& scene = solution_.scene();
-    MeasuredArea measured{area, gridOfArea(scene, area, area.grid), {}, {}, {}, 0};
+    MeasuredArea measured{area, gridOfArea(scene, area, area.grid), {}, {}, {}, 0, 0};
+    noteCovered(measured);
     measured.lux = lux(measured.grid.points);
     const GridStatistics s = statisticsOf(measured.lux);
     const AreaRequirements& wanted = area.required;
@@ -92,15 +94,31 @@ class Measurer {
   }
 
  private:
-  std::vector<double> lux(const std::vector<ProbePoint>& points) const {
+  /// `together`: of so many points in a row, only the mean is wanted.
+  std::vector<double> lux(const std::vector<ProbePoint>& points, std::size_t together = 1) const {
+    ProbeSettings probing = settings_.probe;
+    probing.error = std::min(0.5, probing.error * std::sqrt(static_cast<double>(together)));
+    if (progress_ && progress_->stopRequested()) throw Interrupted();
+    if (progress_) progress_->report("measure", 0);
     std::vector<double> all;
-    for (const ProbeResult& r : probe(solution_, points, settings_.probe, progress_))
+    for (const ProbeResult& r : reader_.probe(points, probing))
       all.push_back(request_.maintenanceFactor * photometric(r.irradiance, solution_.scene().luminousEfficacy));
+    if (progress_) progress_->report("measure", 1);
     return all;
   }
   void add(MeasuredArea& to, const std::string& quantity, const char* unit, double reached,
            std::optional<double> required) const {
     to.rows.push_back({quantity, unit, reached, required, false, error_ * reached});
+  }
+  /// Counts the points that something lies on, and leaves them out where that is asked for.
+  void noteCovered(MeasuredArea& measured) const {
+    MeasuringGrid free = measured.grid;
+    free.points.clear(), free.cells.clear();
+    for (std::size_t i = 0; i < measured.grid.points.size(); ++i)
+      if (!hidden(reader_, measured.grid.points[i], solution_.scene().metresPerUnit))
+        free.points.push_back(measured.grid.points[i]), free.cells.push_back(measured.grid.cells[i]);
+    measured.covered = measured.grid.points.size() - free.points.size();
+    if (measured.area.skipCovered && !free.points.empty()) measured.grid = std::move(free);
   }
   /// At the height of eyes, above the same points.
   double cylindrical(const SheetArea& area, const MeasuredArea& measured) const {
@@ -111,7 +129,7 @@ class Measurer {
       p.position += (area.eyeHeight - area.grid.height) / scene.metresPerUnit * up;
       for (const ProbePoint& side : cylinderAt(p, up)) points.push_back(side);
     }
-    return statisticsOf(lux(points)).mean;
+    return statisticsOf(lux(points, points.size() / measured.grid.points.size())).mean;
   }
   void surroundings(MeasuredArea& to, const char* what, const std::vector<std::string>& surfaces,
                     std::optional<double> required, const Vec3& middle) const {

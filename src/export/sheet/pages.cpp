@@ -226,6 +226,13 @@ class Layout {
            {7, kGrey});
       y_ += 14;
     }
+    if (area.covered > 0) {
+      text(0,
+           fmt::format("{} points have something less than 0.1 m before them{}.", area.covered,
+                       area.area.skipCovered ? ", and are left out" : ""),
+           {7, kGrey});
+      y_ += 14;
+    }
     y_ += 6;
     quantityAt_ = 0;
     tableHead({"", "Quantity"});

@@ -94,7 +94,7 @@ AreaRequirements requirements(const JsonView& value, AreaRequirements required) 
 
 SheetArea area(const JsonView& value) {
   only(value, {"name", "kind", "surface", "rectangle", "polygon", "height", "border", "spacing", "eye_height",
-               "directions", "required", "walls", "ceiling"});
+               "directions", "skip_covered", "required", "walls", "ceiling"});
   SheetArea area;
   area.line = value.line();
   value.member("name").expectPresent("what the sheet calls this area");
@@ -123,6 +123,8 @@ SheetArea area(const JsonView& value) {
   area.eyeHeight = number(value.member("eye_height"), 0, kMostHeight).value_or(area.eyeHeight);
   value.member("directions").expectInteger(1, 360);
   if (value.member("directions").present()) area.directions = value.member("directions").value().get<int>();
+  value.member("skip_covered").expectBool();
+  if (value.member("skip_covered").present()) area.skipCovered = value.member("skip_covered").value().get<bool>();
   area.walls = names(value.member("walls")), area.ceiling = names(value.member("ceiling"));
   return area;
 }
