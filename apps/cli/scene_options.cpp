@@ -46,7 +46,7 @@ constexpr double kDegree = kPi / 180;  // [defined]
 std::string describe(const Daylighting& daylight, const Scene& scene) {
   const SunSighting sun = sightSun(daylight.time, daylight.place);
   const SunAndSky lights = sunAndSky(daylight, scene.up, scene.luminousEfficacy);
-  const double beam = solidAngle(lights.sun) * photometric(Vec3(lights.sun.radiance), scene.luminousEfficacy);
+  const double beam = solidAngle(lights.sun) * photometric(glm::dvec3(lights.sun.radiance), scene.luminousEfficacy);
   return fmt::format("daylight: the sun {:.2f} degrees high, {:.2f} degrees from north; across its beam {:.0f} lx",
                      sun.altitude / kDegree, sun.azimuth / kDegree, beam);
 }
