@@ -91,7 +91,10 @@ std::string rating(double ugr) {
   return ugr > 0 ? "without bound: all around is black" : "none: no luminaire is seen";
 }
 
-std::string triple(const Vec3& v) { return fmt::format("{:.4g} {:.4g} {:.4g}", v.x, v.y, v.z); }
+std::string triple(const Vec3& v) {
+  const auto shown = [](double x) { return std::abs(x) < 1e-9 ? 0.0 : x; };
+  return fmt::format("{:.4g} {:.4g} {:.4g}", shown(v.x), shown(v.y), shown(v.z));
+}
 
 void describe(const GlareSource& s) {
   fmt::print("L {:9.4g} cd/m2, {:9.3g} sr, P {:6.2f}", s.luminance, s.solidAngle, s.positionIndex);
