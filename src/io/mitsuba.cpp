@@ -18,7 +18,7 @@ using namespace mitsuba;
 
 constexpr int kDeepestInclude = 8;  // of files within files, and instances [limit]
 constexpr std::size_t kMostPrimitives = 5'000'000, kMostShapes = 500'000, kMostFiles = 1000;  // [limit]
-constexpr const char* kHint = "compare the scene with Mitsuba's documentation";
+constexpr const char* kMitsubaHint = "compare the scene with Mitsuba's documentation";
 
 /// Puts values of <default> in place of $names.
 void substitute(XmlElement& element, std::map<std::string, std::string>& defaults) {
@@ -44,7 +44,8 @@ class MitsubaBuilder {
 
   void add(XmlElement root) {
     if (root.name != "scene")
-      throw InputError(name_, root.line, "is no scene of Mitsuba: it is a <" + root.name.substr(0, 40) + ">", kHint);
+      throw InputError(name_, root.line, "is no scene of Mitsuba: it is a <" + root.name.substr(0, 40) + ">",
+                       kMitsubaHint);
     substitute(root, defaults_);
     roots_.push_back(std::move(root));
     include(roots_.back(), 0);
@@ -56,7 +57,7 @@ class MitsubaBuilder {
   }
 
   ImportedScene finish() {
-    if (scene().primitives.empty()) throw InputError(name_, 0, "has no shape that is read", kHint);
+    if (scene().primitives.empty()) throw InputError(name_, 0, "has no shape that is read", kMitsubaHint);
     warnOfIgnored(imported_.report);
     addAreaLights(scene());
     return std::move(imported_);
@@ -73,7 +74,8 @@ class MitsubaBuilder {
       const std::string* file = child.attribute("filename");
       if (!file || depth >= kDeepestInclude || roots_.size() > kMostFiles)
         throw InputError(name_, child.line,
-                         file ? "files include each other too deeply, or too many" : "<include> names no file", kHint);
+                         file ? "files include each other too deeply, or too many" : "<include> names no file",
+                         kMitsubaHint);
       const auto path = resolveReference(*file, folder_, name_, child.line, false);
       XmlElement inner = parseXml(readInputFile(path), path.string());
       substitute(inner, defaults_);
@@ -91,7 +93,7 @@ class MitsubaBuilder {
     const auto found = id ? ids_.find(*id) : ids_.end();
     if (found == ids_.end())
       throw InputError(name_, reference.line, "refers to '" + (id ? id->substr(0, 60) : "") + "', which is not there",
-                       kHint);
+                       kMitsubaHint);
     return found->second;
   }
 

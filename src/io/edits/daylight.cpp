@@ -4,7 +4,7 @@ namespace deltalux::io {
 
 namespace {
 
-std::string wordsOf(const JsonView& value) {
+std::string wordsIn(const JsonView& value) {
   value.expectString();
   return value.value().get<std::string>();
 }
@@ -13,12 +13,12 @@ std::string wordsOf(const JsonView& value) {
 
 Daylighting daylightOf(const JsonView& json, Daylighting daylight) {
   if (const JsonView sky = json.member("sky"); sky.present()) {
-    const auto model = parseSkyModel(wordsOf(sky));
+    const auto model = parseSkyModel(wordsIn(sky));
     if (!model) sky.fail("is no sky: \"cie:TYPE\" with 1 to 15, \"cie:TYPE,LUX\" or \"perez:DIRECT_NORMAL,DIFFUSE\"");
     daylight.sky = *model;
   }
   if (const JsonView when = json.member("when"); when.present()) {
-    const auto time = parseCivilTime(wordsOf(when));
+    const auto time = parseCivilTime(wordsIn(when));
     if (!time) when.fail("is no time as 2026-06-21T09:00+02:00, of 1900 to 2100");
     daylight.time = *time;
   }

@@ -45,7 +45,7 @@ std::vector<double> Properties::numbers(const XmlElement& at, const std::string&
     const std::size_t end = std::min(text.find_first_of(" \t\r\n,", first), text.size());
     const std::string word = text.substr(first, end - first);
     const std::optional<double> value = parseDecimal(word);
-    if (!value || !(std::abs(*value) <= kLargest)) fail(at, "<" + at.name + ">: " + notANumber(word));
+    if (!value || !(std::abs(*value) <= kMostNumber)) fail(at, "<" + at.name + ">: " + notANumber(word));
     all.push_back(*value);
     if (all.size() > most) break;
     begin = end;
@@ -163,7 +163,7 @@ Mat4 Properties::toWorld() const {
   if (!transform) return result;
   for (const XmlElement& child : transform->children) result = step(child) * result;
   for (int i = 0; i < 16; ++i)
-    if (!(std::abs(result[i / 4][i % 4]) <= kLargest)) fail(*transform, "a transform overflows");
+    if (!(std::abs(result[i / 4][i % 4]) <= kMostNumber)) fail(*transform, "a transform overflows");
   return result;
 }
 

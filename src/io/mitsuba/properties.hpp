@@ -11,7 +11,7 @@
 
 namespace deltalux::io::mitsuba {
 
-constexpr double kLargest = 1e15;  // of all numbers [limit]
+constexpr double kMostNumber = 1e15;  // of all numbers [limit]
 
 /// One file's elements, read. Throws InputError with the line everywhere.
 class Properties {

@@ -41,7 +41,7 @@ std::vector<Shape> objFile(const Context& context, const Properties& p) {
 std::optional<std::vector<Shape>> shapesOf(const Context& context, const Properties& p) {
   const std::string type = p.type();
   const auto positive = [&](double radius) {
-    if (!(radius > 1e-12 && radius <= kLargest)) p.fail(p.element(), "its radius is not above 0");
+    if (!(radius > 1e-12 && radius <= kMostNumber)) p.fail(p.element(), "its radius is not above 0");
     return radius;
   };
   if (type == "rectangle") return std::vector<Shape>{quad(Vec3(0), {1, 0, 0}, {0, 1, 0})};
