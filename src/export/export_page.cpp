@@ -21,7 +21,7 @@ namespace {
 
 using namespace exporting;
 
-constexpr double kOverlap = 3e-4;                         // of sides over their outlines [m] [shown]
+constexpr double kOverlap = 1e-4;                         // of sides over their outlines [m] [shown]
 constexpr int kExposureWidth = 96, kExposureHeight = 72;  // of the picture that the exposure is chosen from [shown]
 
 std::vector<View> viewsOf(const Scene& scene, const PageSettings& settings) {

@@ -1,12 +1,12 @@
 # blender -b --factory-startup --python-exit-code 1 -P blender_lux.py -- FILE.glb POINTS.csv: reads a file of `deltalux export`
-# in Blender and prints the lux that its .exr has at points, as tests/export/three_lux.cjs does in three.js. Right for files
-# of one page alone: it reads the first.
+# in Blender and prints the lux that its .exr have at points, as tests/export/three_lux.cjs does in three.js.
 import csv
 import json
 import math
 import pathlib
 import struct
 import sys
+import tempfile
 
 import bpy
 import numpy
@@ -23,6 +23,21 @@ def document(path):
     return json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
 
 
+def numbered(path, folder):
+    """The file with its materials named by number: Blender does not keep MOZ_lightmap, which tells their pages."""
+    data = pathlib.Path(path).read_bytes()
+    length = struct.unpack_from("<I", data, 12)[0]
+    json_ = json.loads(data[20:20 + length])
+    for i, material in enumerate(json_["materials"]):
+        material["name"] = "m%d" % i
+    text = json.dumps(json_).encode()
+    text += b" " * (-len(text) % 4)
+    rest = data[20 + length:]
+    out = pathlib.Path(folder) / "numbered.glb"
+    out.write_bytes(data[:8] + struct.pack("<II", 20 + len(text) + len(rest), len(text)) + data[16:20] + text + rest)
+    return str(out)
+
+
 def bilinear(pixels, width, height, u, v):
     """Rows run upwards in Blender, and so does its v."""
     x, y = u * width - 0.5, v * height - 0.5
@@ -35,6 +50,11 @@ def bilinear(pixels, width, height, u, v):
             for c in range(3):
                 total[c] += weight * pixels[i + c]
     return total
+
+
+def page_of(name):
+    light = materials[int(name[1:])]["extensions"]["MOZ_lightmap"]
+    return next(i for i, page in enumerate(extras["lightmap"]["pages"]) if page["texture"] == light["index"])
 
 
 def find(meshes, at, along):
@@ -57,8 +77,9 @@ def texcoord(mesh, index, position):
 
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
-bpy.ops.import_scene.gltf(filepath=FILE)
-extras = document(FILE)["asset"]["extras"]["deltalux"]
+with tempfile.TemporaryDirectory() as folder:
+    bpy.ops.import_scene.gltf(filepath=numbered(FILE, folder))
+extras, materials = document(FILE)["asset"]["extras"]["deltalux"], document(FILE)["materials"]
 pages = []
 for page in extras["lightmap"]["pages"]:
     image = bpy.data.images.load(str(pathlib.Path(FILE).resolve().parent / page["exr"]))
@@ -95,7 +116,7 @@ for row in csv.DictReader(line for line in open(POINTS) if not line.startswith("
         print(number, "nothing there")
         continue
     uv = texcoord(hit[1], hit[2], hit[3])
-    E = bilinear(*pages[0], uv.x, uv.y)
+    E = bilinear(*pages[page_of(hit[1].materials[hit[1].polygons[hit[2]].material_index].name)], uv.x, uv.y)
     lux = extras["luminousEfficacy"] * sum(e * w for e, w in zip(E, extras["luminanceWeights"]))
     if number.get("lux", 0) > 0:
         worst = max(worst, abs(lux / number["lux"] - 1))
