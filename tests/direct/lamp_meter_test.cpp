@@ -16,7 +16,7 @@ struct Above {
       : scene(std::move(s)),
         tracer(tracing::makeBruteForceTracer(scene)),
         meter(scene, *tracer, scene::scalesOf(scene)) {}
-  double at(const Vec3& p, double error = 0.01) const { return gray(meter.at(p, {0, 0, 1}, 0, error)); }
+  double at(const Vec3& p, double error = 0.01) const { return gray(meter.read(p, {0, 0, 1}, 0, error).E); }
 
   Scene scene;
   std::shared_ptr<const tracing::RayTracer> tracer;
@@ -84,7 +84,7 @@ TEST(LampMeter, ScalesCount) {
   const Scene scene = lampOverScreen(false);
   const auto tracer = tracing::makeBruteForceTracer(scene);
   const direct::LampMeter dimmed(scene, *tracer, {Rgb(0.25f)}), off(scene, *tracer, {Rgb(0.0f)});
-  EXPECT_NEAR(gray(dimmed.at({0, 0, 0}, {0, 0, 1}, 0, 0.01)), 0.25 * Above(scene).at({0, 0, 0}), 1e-5);
+  EXPECT_NEAR(gray(dimmed.read({0, 0, 0}, {0, 0, 1}, 0, 0.01).E), 0.25 * Above(scene).at({0, 0, 0}), 1e-5);
   EXPECT_TRUE(off.dark());
 }
 

@@ -69,7 +69,7 @@ TEST(SolvedCie171, Case58Interreflection) {
 // The references themselves: closed forms, and twice as fine.
 
 TEST(Cie171Panorama, OpenGroundHasTheClosedForms) {
-  const auto open = [](const GeneralSky& sky, const Vec3& normal) {
+  const auto open = [](const test::cie171::GeneralSky& sky, const Vec3& normal) {
     return Panorama({}, sky, sky.sun).illuminance(Vec3(0), normal);
   };
   EXPECT_NEAR(open({5}, {0, 0, 1}) / kPi, 1, 1e-9);
@@ -97,7 +97,7 @@ TEST(Cie171Panorama, PanesAreTheLibrarys) {
 
 TEST(Cie171Panorama, SkiesAreTheLibrarys) {
   for (int type = 1; type <= kSkies; ++type) {
-    const GeneralSky sky{type, glm::normalize(Vec3(-1, -1, 2.4))};
+    const test::cie171::GeneralSky sky{type, glm::normalize(Vec3(-1, -1, 2.4))};
     const DomeLight light = skyLight(sky, kLuminousEfficacy);
     for (int i = 0; i < 64; ++i) {
       const double z = (i + 0.5) / 64, turn = 2.4 * i;
