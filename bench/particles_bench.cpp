@@ -119,7 +119,7 @@ void run(int argc, char** argv) {
     raw = std::min(raw, rawSeconds(*tracer, rays));
   }
   validate(p, scene);
-  const auto all = static_cast<double>(p.rays + p.looks);
+  const auto all = static_cast<double>(p.rays + p.pilots);
   const double rawOfAll = raw * all / static_cast<double>(segments);
   row("links", static_cast<double>(p.links.size()), "");
   row("samples", static_cast<double>(p.paths()), "");

@@ -229,13 +229,13 @@ TEST(IesReader, NumbersBreakLinesAnywhere) {
   EXPECT_EQ(read(dos + "\x1a").photometry.candela, read(text).photometry.candela);
 }
 
-TEST(IesReader, OpeningInMetresWhateverItsSign) {
+TEST(IesReader, OpeningInMetresNegativeWhereItIsRound) {
   IesText text;
   text.units = 1;
   text.dimensions = "-1 -1 0";
   const Vec3 opening = read(text).photometry.opening;
-  EXPECT_NEAR(opening.x, 0.3048, 1e-12);
-  EXPECT_NEAR(opening.y, 0.3048, 1e-12);
+  EXPECT_NEAR(opening.x, -0.3048, 1e-12);
+  EXPECT_NEAR(opening.y, -0.3048, 1e-12);
   EXPECT_EQ(opening.z, 0);
 }
 
