@@ -167,8 +167,8 @@ TEST(LdtReader, ALongLuminaireLiesAlongC90) {
   EXPECT_DOUBLE_EQ(found.opening.y, 0.12);  // along C0
   text.area = "300\n0\n50\n0\n50\n0";
   const Photometry round = read(text).photometry;
-  EXPECT_DOUBLE_EQ(round.opening.x, 0.3);
-  EXPECT_DOUBLE_EQ(round.opening.y, 0.3);
+  EXPECT_DOUBLE_EQ(round.opening.x, -0.3);  // as in LM-63
+  EXPECT_DOUBLE_EQ(round.opening.y, -0.3);
   EXPECT_DOUBLE_EQ(round.opening.z, 0.05);
 }
 

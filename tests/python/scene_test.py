@@ -204,12 +204,12 @@ class Refused(unittest.TestCase):
         with support.folder() as folder:
             file = folder / "s.rad"
             file.write_text(
-                "void colorpict p 7 red green blue p.hdr . frac(U) frac(V) 0 0\n"
+                "void texfunc p 4 dx dy dz bumps.cal 0 0\n"
                 "p plastic white 0 0 5 .5 .5 .5 0 0\nwhite sphere s 0 0 4 0 0 0 1\n"
             )
             with self.assertWarns(dl.SceneWarning):
                 scene = dl.load(file)
-            self.assertIn("colorpict", scene.ignored)
+            self.assertIn("texfunc", scene.ignored)
             self.assertEqual(len(scene.warnings), 1)
 
     def test_an_option_that_a_format_does_not_heed_is_refused(self):
