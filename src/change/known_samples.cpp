@@ -57,34 +57,44 @@ bool mayShadow(const MovedSpace& space, const direct::Lamp& lamp, const BoxF& fr
                        static_cast<float>(std::tan(lamp.halfAngle)));
 }
 
+std::uint64_t lampsThrough(const MovedSpace& space, const direct::Lamps& lamps, const BoxF& from, std::uint64_t among) {
+  std::uint64_t through = 0;
+  for (const direct::Lamp& lamp : lamps.all()) {
+    const std::uint64_t bit = direct::lampBit(lamp.id);
+    if ((among & ~through & bit) != 0 && mayShadow(space, lamp, from)) through |= bit;
+  }
+  return through;
+}
+
 /// visit(lamp) of suns and lamps that may shine on a patch through where something has moved.
 template <class Visit>
 void forEachMayShadow(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::ElementGeometry& g,
-                      const Visit& visit) {
+                      std::uint64_t through, const Visit& visit) {
+  if (through == 0) return;
   const auto ask = [&](std::uint32_t i, double potential) {
     const direct::Lamp& lamp = lamps.all()[i];
-    if (potential > 0 && mayShadow(space, lamp, boxOf(g))) visit(lamp);
+    if (potential > 0 && (through & direct::lampBit(lamp.id)) != 0 && mayShadow(space, lamp, boxOf(g))) visit(lamp);
   };
   for (const std::uint32_t i : lamps.suns()) ask(i, direct::potential(lamps.all()[i], g));
   lamps.tree().reaching(g, ask);
 }
 
 bool holdAllShadowRays(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::Elements& elements,
-                       hierarchy::ElementId patch) {
+                       hierarchy::ElementId patch, std::uint64_t through) {
   const hierarchy::ElementGeometry& g = elements.shape(patch);
   if (space.moved(elements.domain[patch.index()].primitive) || space.touches(boxOf(g))) return false;
   bool holds = true;
-  forEachMayShadow(space, lamps, g, [&](const direct::Lamp&) { holds = false; });
+  forEachMayShadow(space, lamps, g, through, [&](const direct::Lamp&) { holds = false; });
   return holds;
 }
 
 bool holdShadowRays(const MovedSpace& space, const direct::DirectSampler& sampler, const hierarchy::Elements& elements,
                     hierarchy::ElementId patch, const direct::KnownPoints& known, const direct::LampSight& above,
-                    const direct::LeafDirect& before) {
+                    const direct::LeafDirect& before, std::uint64_t through) {
   if (space.moved(elements.domain[patch.index()].primitive)) return false;
   const auto stops = [&](const tracing::Ray& ray) { return space.crosses(at(ray.origin), ray.direction, ray.tFar); };
   bool holds = true, drawn = false;
-  forEachMayShadow(space, sampler.lamps(), elements.shape(patch), [&](const direct::Lamp& lamp) {
+  forEachMayShadow(space, sampler.lamps(), elements.shape(patch), through, [&](const direct::Lamp& lamp) {
     if (!holds) return;
     const auto asked = std::ranges::find_if(
         before.lamps, [&](const direct::LampLight& l) { return l.lamp == lamp.id && l.points > 0; });

@@ -16,12 +16,17 @@ bool holdFirstLines(const MovedSpace&, const hierarchy::Elements&, const Scene&,
 bool holdWalks(const MovedSpace&, const lines::LightWalks&);
 /// Whether a shadow ray from anywhere in a box to a sun or lamp may pass where something has moved.
 bool mayShadow(const MovedSpace&, const direct::Lamp&, const BoxF& from);
+/// Lamps of which mayShadow() is true, by their lampBit(), out of those in `among`: what is so of no patch is so of
+/// none of its parts.
+std::uint64_t lampsThrough(const MovedSpace&, const direct::Lamps&, const BoxF& from, std::uint64_t among);
 /// Whether all shadow rays that points of a patch may shoot at suns and lamps are, which all count for what they did.
-bool holdAllShadowRays(const MovedSpace&, const direct::Lamps&, const hierarchy::Elements&, hierarchy::ElementId patch);
+/// `through`: lampsThrough() of it.
+bool holdAllShadowRays(const MovedSpace&, const direct::Lamps&, const hierarchy::Elements&, hierarchy::ElementId patch,
+                       std::uint64_t through);
 /// The same of those that its light has come about by; `above`: what was known of lamps then.
 bool holdShadowRays(const MovedSpace&, const direct::DirectSampler&, const hierarchy::Elements&,
                     hierarchy::ElementId patch, const direct::KnownPoints&, const direct::LampSight& above,
-                    const direct::LeafDirect&);
+                    const direct::LeafDirect&, std::uint64_t through);
 
 /// Tells the visibility of those shadow rays of a patch to the sky that are as they were, by their codes in the order
 /// of its sequence. Returns whether all of them are. Sizes must agree.

@@ -119,14 +119,15 @@ bool MovedSpace::crosses(const BoxF& from, const Vec3f& direction, float length,
 
 bool MovedSpace::between(const BoxF& a, const BoxF& b) const {
   // On the way the box that holds all segments' points grows from one to the other.
-  return std::ranges::any_of(boxes_, [&](const BoxF& box) {
+  const auto passes = [&](const BoxF& box) {
     float begin = 0, end = 1;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3 && begin <= end; ++axis) {
       keepBelow(a.lower[axis] - box.upper[axis], b.lower[axis] - box.upper[axis], begin, end);
       keepBelow(box.lower[axis] - a.upper[axis], box.lower[axis] - b.upper[axis], begin, end);
     }
     return begin <= end;
-  });
+  };
+  return !boxes_.empty() && passes(all_) && std::ranges::any_of(boxes_, passes);
 }
 
 }  // namespace deltalux::change

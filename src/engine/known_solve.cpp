@@ -11,6 +11,11 @@ namespace {
 
 constexpr std::size_t kLeavesOfTask = 1024;  // [task]
 constexpr std::size_t kSkyRays = direct::tuning::kManyRays;
+constexpr std::uint64_t kUnasked = ~std::uint64_t(0);  // of lamps: all [sentinel]
+
+bool holds(const hierarchy::ElementGeometry& whole, const hierarchy::ElementGeometry& part) {
+  return glm::all(glm::lessThanEqual(whole.lower, part.lower)) && glm::all(glm::lessThanEqual(part.upper, whole.upper));
+}
 
 bool sameSight(const direct::LampSight& a, const direct::LampSight& b) {
   return a.asked == b.asked && a.seen == b.seen && a.drawnAsked == b.drawnAsked && a.drawnSeen == b.drawnSeen;
@@ -101,42 +106,58 @@ std::uint32_t KnownSolve::findLit(const hierarchy::Elements& elements, hierarchy
   return before.covered == scale.covered && before.known == scale.known ? old : kNone;
 }
 
-const direct::LeafDirect* KnownSolve::whole(const hierarchy::Elements& elements, const direct::DirectSampler& sampler,
-                                            hierarchy::ElementId e, const lines::LeafScale& scale,
-                                            const direct::LampSight& above) const {
+std::uint64_t KnownSolve::through(const hierarchy::Elements& elements, const direct::Lamps& lamps,
+                                  hierarchy::ElementId e) {
+  const bool kept = e.index() < through_.size();
+  if (kept && through_[e.index()] != kUnasked) return through_[e.index()];
+  const hierarchy::ElementGeometry& g = elements.shape(e);
+  std::uint64_t among = kUnasked;
+  if (const hierarchy::ElementId whole = elements.at(e).parent;
+      elements.at(e).depth > 0 && whole.index() < through_.size() && holds(elements.shape(whole), g))
+    among = through_[whole.index()];
+  const std::uint64_t found = change::lampsThrough(space_, lamps, {g.lower, g.upper}, among);
+  if (kept) through_[e.index()] = found;
+  return found;
+}
+
+std::unique_ptr<WholeLight> KnownSolve::takeWhole(const hierarchy::Elements& elements,
+                                                  const direct::DirectSampler& sampler, hierarchy::ElementId e,
+                                                  const lines::LeafScale& scale, const direct::LampSight& above) {
   const std::uint32_t old = findLit(elements, e, scale);
   if (old == kNone) return nullptr;
-  const WholeLight* whole = memory_.samples.whole[old].get();
+  std::unique_ptr<WholeLight>& whole = memory_.samples.whole[old];
   if (!whole || !sameSight(whole->above, above)) return nullptr;
-  const bool holds =
-      change::holdShadowRays(space_, sampler, elements, e, {scale.covered, scale.known}, above, whole->light);
-  return holds ? &whole->light : nullptr;
+  const bool holds = change::holdShadowRays(space_, sampler, elements, e, {scale.covered, scale.known}, above,
+                                            whole->light, through(elements, sampler.lamps(), e));
+  return holds ? std::move(whole) : nullptr;
 }
 
 KnownSolve::Evaluated KnownSolve::evaluated(const hierarchy::Elements& elements, const direct::DirectSampler& sampler,
                                             hierarchy::ElementId e, const lines::LeafScale& scale,
-                                            const direct::LampSight& above) const {
+                                            const direct::LampSight& above) {
   const std::uint32_t old = findLit(elements, e, scale);
   if (old == kNone || !memory_.samples.evaluated[old] || !sameSight(memory_.samples.evaluated[old]->above, above))
     return {};
-  const direct::LeafDirect& light = memory_.samples.direct[old];
-  if (!change::holdShadowRays(space_, sampler, elements, e, {scale.covered, scale.known}, above, light)) return {};
-  return {memory_.samples.evaluated[old].get(), &light};
+  direct::LeafDirect& light = memory_.samples.direct[old];
+  const bool holds = change::holdShadowRays(space_, sampler, elements, e, {scale.covered, scale.known}, above, light,
+                                            through(elements, sampler.lamps(), e));
+  return holds ? Evaluated{&memory_.samples.evaluated[old], &light} : Evaluated{};
 }
 
 const direct::DimDirect* KnownSolve::dim(const hierarchy::Elements& elements, const direct::Lamps& lamps,
-                                         hierarchy::ElementId leaf, std::uint64_t points) const {
+                                         hierarchy::ElementId leaf, std::uint64_t points) {
   const std::uint32_t old = lights_.same ? find(elements, leaf) : kNone;
   if (old == kNone) return nullptr;
   const auto at = std::ranges::lower_bound(memory_.dim, hierarchy::ElementId(old), {}, &DimLeaf::leaf);
   if (at == memory_.dim.end() || at->leaf != hierarchy::ElementId(old) || at->points != points) return nullptr;
-  return change::holdAllShadowRays(space_, lamps, elements, leaf) ? &at->light : nullptr;
+  const bool holds = change::holdAllShadowRays(space_, lamps, elements, leaf, through(elements, lamps, leaf));
+  return holds ? &at->light : nullptr;
 }
 
 hierarchy::KnownParts* KnownSolve::parts(const hierarchy::Elements& elements,
                                          std::span<const hierarchy::ElementId> patches) {
   parts_.before = &elements_;
-  parts_.of.resize(elements.size(), kNone);
+  parts_.of.resize(elements.size(), kNone), through_.resize(elements.size(), kUnasked);
   parallelFor(patches.size(), kLeavesOfTask, [&](std::size_t i) {
     if (elements.receives(patches[i])) parts_.of[patches[i].index()] = find(elements, patches[i]);
   });

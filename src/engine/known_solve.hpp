@@ -27,19 +27,20 @@ class KnownSolve {
   hierarchy::KnownParts* parts(const hierarchy::Elements&, std::span<const hierarchy::ElementId> patches);
   /// Takes what is known of a patch's surroundings; false where that may have changed.
   bool takeScale(const hierarchy::Elements&, const Scene&, hierarchy::ElementId, PatchSamples& to);
-  /// Direct light without a choice, likewise; nullptr.
-  const direct::LeafDirect* whole(const hierarchy::Elements&, const direct::DirectSampler&, hierarchy::ElementId,
-                                  const lines::LeafScale&, const direct::LampSight& above) const;
+  /// Direct light without a choice, likewise, to be taken; nullptr.
+  std::unique_ptr<WholeLight> takeWhole(const hierarchy::Elements&, const direct::DirectSampler&, hierarchy::ElementId,
+                                        const lines::LeafScale&, const direct::LampSight& above);
+  /// What the memory has of it, so that whoever stays with the choice takes it.
   struct Evaluated {
-    const EvaluatedLight* how = nullptr;
-    const direct::LeafDirect* light = nullptr;
+    std::unique_ptr<EvaluatedLight>* how = nullptr;
+    direct::LeafDirect* light = nullptr;
   };
   /// With one.
   Evaluated evaluated(const hierarchy::Elements&, const direct::DirectSampler&, hierarchy::ElementId,
-                      const lines::LeafScale&, const direct::LampSight& above) const;
+                      const lines::LeafScale&, const direct::LampSight& above);
   /// Direct light from those points of a leaf, likewise; nullptr.
   const direct::DimDirect* dim(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId leaf,
-                               std::uint64_t points) const;
+                               std::uint64_t points);
   /// Light of a leaf by way of others as it was; nullopt where it was none [W/m2].
   std::optional<Rgb> indirect(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
   /// The lines, as they are now; once.
@@ -61,6 +62,9 @@ class KnownSolve {
   /// The same where its light was asked for from the same points.
   std::uint32_t findLit(const hierarchy::Elements&, hierarchy::ElementId, const lines::LeafScale&) const;
 
+  /// change::lampsThrough() of a patch: out of those of the patch that it is a part of.
+  std::uint64_t through(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId);
+
   static constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone;
   SolveMemory memory_;
   hierarchy::Elements elements_;
@@ -71,6 +75,7 @@ class KnownSolve {
   bool holds_ = true;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> byKey_;  // ascending
   hierarchy::KnownParts parts_;                                 // followed from patch to patch
+  std::vector<std::uint64_t> through_;                          // by element: through(), where it was asked; kUnasked
 };
 
 }  // namespace deltalux::engine

@@ -49,36 +49,43 @@ struct Samplers {
     const lines::LeafScale& scale = x.samples.scale[e];
     const direct::LampSight above = sightAbove(x.samples, x.s.elements, patch);
     x.samples.evaluated[e].reset();
-    const direct::LeafDirect* before = x.known ? x.known->whole(x.s.elements, direct, patch, scale, above) : nullptr;
-    x.samples.direct[e] = before ? *before : direct.at(patch, {scale.covered, scale.known}, above);
-    x.samples.whole[e] = std::make_unique<WholeLight>(WholeLight{x.samples.direct[e], above});
-    return before ? 0 : x.samples.direct[e].rays;
+    std::unique_ptr<WholeLight> light =
+        x.known ? x.known->takeWhole(x.s.elements, direct, patch, scale, above) : nullptr;
+    const bool known = light != nullptr;
+    if (!known)
+      light = std::make_unique<WholeLight>(WholeLight{direct.at(patch, {scale.covered, scale.known}, above), above});
+    x.samples.direct[e] = light->light;
+    x.samples.whole[e] = std::move(light);
+    return known ? 0 : x.samples.direct[e].rays;
   }
   /// Direct light, or what of it tells that the patch is to be split: by `choose`.
   std::uint64_t light(hierarchy::ElementId patch, const direct::DirectSampler::Splits& choose) const {
     using enum direct::DirectSampler::Choice;
     const std::size_t e = patch.index();
     const lines::LeafScale& scale = x.samples.scale[e];
-    auto evaluated =
-        std::make_unique<EvaluatedLight>(EvaluatedLight{{}, sightAbove(x.samples, x.s.elements, patch), Whole});
-    const KnownSolve::Evaluated before =
-        x.known ? x.known->evaluated(x.s.elements, direct, patch, scale, evaluated->above) : KnownSolve::Evaluated{};
-    std::uint64_t rays = 0;
-    const auto choice = before.how ? choose(before.how->found) : Whole;
-    if (before.how && (choice == Split || choice == before.how->choice)) {
-      *evaluated = *before.how, evaluated->choice = choice;
-      x.samples.direct[e] = choice == before.how->choice ? *before.light : before.how->found;
-      x.samples.direct[e].lamps = before.light->lamps, x.samples.direct[e].drawn = before.light->drawn;  // asked so far
-    } else {
-      x.samples.direct[e] =
-          direct.at(patch, {scale.covered, scale.known}, evaluated->above, [&](const direct::LeafDirect& found) {
-            evaluated->found = found;
-            return evaluated->choice = choose(found);
-          });
-      rays = x.samples.direct[e].rays;
+    const direct::LampSight above = sightAbove(x.samples, x.s.elements, patch);
+    std::unique_ptr<EvaluatedLight>& evaluated = x.samples.evaluated[e];
+    if (x.known) {
+      const KnownSolve::Evaluated before = x.known->evaluated(x.s.elements, direct, patch, scale, above);
+      const auto choice = before.how ? choose((*before.how)->found) : Whole;
+      if (before.how && choice == (*before.how)->choice) {
+        evaluated = std::move(*before.how), x.samples.direct[e] = std::move(*before.light);
+        return 0;
+      }
+      if (before.how && choice == Split) {  // by what was asked so far
+        evaluated = std::move(*before.how), evaluated->choice = choice;
+        const direct::LeafDirect& found = evaluated->found;
+        x.samples.direct[e] = {found.E,    found.deviation, found.variation,     found.tooWideForBeam,
+                               found.rays, found.sight,     before.light->drawn, std::move(before.light->lamps)};
+        return 0;
+      }
     }
-    x.samples.evaluated[e] = std::move(evaluated);
-    return rays;
+    evaluated = std::make_unique<EvaluatedLight>(EvaluatedLight{{}, above, Whole});
+    x.samples.direct[e] = direct.at(patch, {scale.covered, scale.known}, above, [&](const direct::LeafDirect& found) {
+      evaluated->found = found;
+      return evaluated->choice = choose(found);
+    });
+    return x.samples.direct[e].rays;
   }
 
   LineSolve& x;
