@@ -4,12 +4,10 @@
 #include <deltalux/render.hpp>
 
 #include "base/check.hpp"
-#include "base/parallel.hpp"
 #include "glare/fisheye.hpp"
 #include "glare/luminaires.hpp"
 #include "glare/sight_frame.hpp"
 #include "render/painter.hpp"
-#include "render/work_progress.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux {
@@ -47,21 +45,8 @@ Image fisheyeImage(const Solution& s, const Eye& eye, const GlareSettings& setti
     return ViewRay{eye.position, besideSuns(s.scene, fisheyeDirection(eye, u / r, v / r).value())};
   };
   const rendering::Painter painter(s, reconstruction, ray, render);
-  rendering::WorkProgress work(progress, "picture", painter.tiles());
-  parallelFor(painter.tiles(), 1, [&](std::size_t index) {
-    work.begin();
-    const rendering::Painter::Tile tile = painter.tile(index);
-    rendering::Sights sights = painter.lookAround(tile);
-    for (int y = tile.y0; y < tile.y1; ++y)
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        if (!glare::fisheyePixel(eye, settings.size, x, y)) continue;
-        RgbSum sum(0.0);
-        for (int i = 0; i < render.samplesPerPixel; ++i)
-          sum += RgbSum(painter.radiance(x, y, static_cast<std::uint32_t>(i), sights));
-        image.at(x, y) = Rgb(sum / double(render.samplesPerPixel));
-      }
-    work.done();
-  });
+  rendering::paint(painter, image, progress, "picture",
+                   [&](int x, int y) { return glare::fisheyePixel(eye, settings.size, x, y).has_value(); });
   const View view{"", View::Kind::Perspective, eye.position, eye.direction, eye.up, 180, 180};
   image.view = viewOptions(view, s.scene.origin).replace(0, 4, "-vta");
   return image;

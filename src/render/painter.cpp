@@ -4,8 +4,10 @@
 
 #include "base/check.hpp"
 #include "base/morton.hpp"
+#include "base/parallel.hpp"
 #include "base/sobol.hpp"
 #include "render/tuning.hpp"
+#include "render/work_progress.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::rendering {
@@ -79,6 +81,25 @@ EyeRay Painter::eyeRay(int x, int y, std::uint32_t index, std::uint64_t key) con
   eye.key = key;
   eye.index = index;
   return eye;
+}
+
+void paint(const Painter& painter, Image& image, Progress* progress, std::string_view phase,
+           const PixelChoice& chosen) {
+  const auto samples = static_cast<std::uint32_t>(painter.settings().samplesPerPixel);
+  WorkProgress work(progress, phase, painter.tiles());
+  parallelFor(painter.tiles(), 1, [&](std::size_t index) {
+    work.begin();
+    const Painter::Tile tile = painter.tile(index);
+    Sights sights = painter.lookAround(tile);
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        if (chosen && !chosen(x, y)) continue;
+        RgbSum sum(0.0);
+        for (std::uint32_t s = 0; s < samples; ++s) sum += RgbSum(painter.radiance(x, y, s, sights));
+        image.at(x, y) = Rgb(sum / double(samples));
+      }
+    work.done();
+  });
 }
 
 }  // namespace deltalux::rendering

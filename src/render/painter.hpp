@@ -2,6 +2,7 @@
 // How a picture is put together from camera rays, whoever draws it and in whichever order: a picture is cut into tiles,
 // each tile looks around first (sight.hpp), and every pixel then has a fixed list of rays.
 #include <deltalux/image.hpp>
+#include <deltalux/progress.hpp>
 #include <deltalux/render.hpp>
 #include <functional>
 
@@ -45,5 +46,11 @@ class Painter {
   int across_, down_;
   EyePaths paths_;
 };
+
+/// Which pixels of a picture have rays.
+using PixelChoice = std::function<bool(int x, int y)>;
+/// All rays of the pixels, or of those chosen, tile by tile on all threads; `image` is of the painter's size. `phase`:
+/// of the progress. Throws Interrupted.
+void paint(const Painter&, Image& image, Progress*, std::string_view phase, const PixelChoice& chosen = {});
 
 }  // namespace deltalux::rendering
