@@ -66,19 +66,13 @@ struct EmissionPatterns::Sampled {
 };
 
 EmissionPatterns::EmissionPatterns(Scene& scene, ImportReport& report, FileAccess& files, long calls)
-    : scene_(scene), report_(report), files_(files), calls_(calls) {}
+    : scene_(scene), report_(report), functions_("light", report, files, calls) {}
 EmissionPatterns::~EmissionPatterns() = default;
 
 const PatternFunction* EmissionPatterns::functionOf(const RadObject& object) {
-  if (const auto known = functions_.find(&object); known != functions_.end()) return known->second.get();
-  std::unique_ptr<PatternFunction>& function = functions_[&object];
-  try {
-    function = std::make_unique<PatternFunction>(object, files_, calls_);
-    if (function->usesDistance()) note("distance in patterns of lights");
-  } catch (const InputError& error) {
-    note(object.typeName + " of a light (" + error.message() + ")");
-  }
-  return function.get();
+  return functions_.of(object, [&](const PatternFunction& function) {
+    if (function.usesDistance()) note("distance in patterns of lights");
+  });
 }
 
 EmissionPatterns::Chain EmissionPatterns::readable(const Modifier& modifier) {
@@ -169,8 +163,7 @@ double EmissionPatterns::meanFactor(const DirectionTable& table, const glm::dmat
   const std::size_t columns = table.columns > 1 ? table.columns
                               : around          ? 1
                                                 : 2 * (table.rows - 1);  // as tables have them
-  calls_ -= static_cast<long>(table.rows * columns * places.size()) / kEvaluationsOfACall;
-  if (calls_ < 0) throw InputError("", 0, "its evaluation takes too long");
+  functions_.spend(static_cast<long>(table.rows * columns * places.size()) / kEvaluationsOfACall);
   const double step = kPi / static_cast<double>(table.rows - 1);
   double sum = 0;
   for (std::size_t row = 0; row + 1 < table.rows; ++row) {

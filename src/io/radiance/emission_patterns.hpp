@@ -28,7 +28,7 @@ class EmissionPatterns {
   /// Gives a source at infinity the patterns of its modifier.
   void apply(const Modifier&, Light&);
   /// Whether a light asked for the pattern: it is read, or what is wrong with it is in the report.
-  bool asked(const RadObject& pattern) const { return functions_.count(&pattern) != 0; }
+  bool asked(const RadObject& pattern) const { return functions_.asked(pattern); }
 
  private:
   using Chain = std::vector<const RadObject*>;
@@ -45,9 +45,7 @@ class EmissionPatterns {
 
   Scene& scene_;
   ImportReport& report_;
-  FileAccess& files_;
-  long calls_;
-  std::map<const RadObject*, std::unique_ptr<PatternFunction>> functions_;  // null: cannot be evaluated
+  PatternFunctions functions_;
   std::map<Chain, std::unique_ptr<Product>> products_;
   std::map<std::tuple<MaterialId, Chain, std::array<double, 3>>, MaterialId> made_;  // by a flat surface's normal
 };

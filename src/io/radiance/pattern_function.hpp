@@ -6,7 +6,10 @@
 // Function files are read where the program finds them, beside the scene, or from function_library.hpp. A pattern's
 // coordinates are the world's, taken back through its own transform and those of the xforms around it. Departures: no
 // noise, no recursion; the distance to what is lit (T, Ts) is taken to be large.
+#include <deltalux/error.hpp>
+#include <deltalux/io.hpp>
 #include <functional>
+#include <map>
 #include <memory>
 
 #include "io/radiance/file_access.hpp"
@@ -46,6 +49,41 @@ class PatternFunction {
   std::function<glm::dvec3(const PatternPoint&)> value_;
   bool usesNormal_ = false, usesCosine_ = false, usesPosition_ = false, usesDistance_ = false;
   glm::dmat3 frame_{1.0};
+};
+
+/// The functions of patterns, each made when it is first asked for.
+class PatternFunctions {
+ public:
+  /// `user`: of the patterns, in reports: a light, a surface. `calls` bounds the work of all evaluations.
+  PatternFunctions(std::string user, ImportReport& report, FileAccess& files, long calls)
+      : user_(std::move(user)), report_(report), files_(files), calls_(calls) {}
+
+  /// made(function) is told of each once; null where it cannot be evaluated, which is then in the report.
+  template <class Made>
+  const PatternFunction* of(const RadObject& object, const Made& made) {
+    const auto [at, added] = made_.try_emplace(&object);
+    if (!added) return at->second.get();
+    try {
+      at->second = std::make_unique<PatternFunction>(object, files_, calls_);
+      made(*at->second);
+    } catch (const InputError& error) {
+      ++report_.ignored[object.typeName + " of a " + user_ + " (" + error.message() + ")"];
+    }
+    return at->second.get();
+  }
+  bool asked(const RadObject& pattern) const { return made_.contains(&pattern); }
+  /// Counts work done beside calls. Throws InputError when all of it is used up.
+  void spend(long calls) {
+    calls_ -= calls;
+    if (calls_ < 0) throw InputError("", 0, "its evaluation takes too long");
+  }
+
+ private:
+  std::string user_;
+  ImportReport& report_;
+  FileAccess& files_;
+  long calls_;
+  std::map<const RadObject*, std::unique_ptr<PatternFunction>> made_;
 };
 
 }  // namespace deltalux::io::radiance

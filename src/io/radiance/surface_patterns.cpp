@@ -67,19 +67,13 @@ struct SurfacePatterns::Paint {
 };
 
 SurfacePatterns::SurfacePatterns(Scene& scene, ImportReport& report, FileAccess& files, long calls)
-    : scene_(scene), report_(report), files_(files), calls_(calls) {}
+    : scene_(scene), report_(report), functions_("surface", report, files, calls) {}
 SurfacePatterns::~SurfacePatterns() = default;
 
 const PatternFunction* SurfacePatterns::functionOf(const RadObject& object) {
-  if (const auto known = functions_.find(&object); known != functions_.end()) return known->second.get();
-  std::unique_ptr<PatternFunction>& function = functions_[&object];
-  try {
-    function = std::make_unique<PatternFunction>(object, files_, calls_);
-    if (function->usesCosine() || function->usesDistance()) note("directions and distances in patterns of surfaces");
-  } catch (const InputError& error) {
-    note(object.typeName + " of a surface (" + error.message() + ")");
-  }
-  return function.get();
+  return functions_.of(object, [&](const PatternFunction& function) {
+    if (function.usesCosine() || function.usesDistance()) note("directions and distances in patterns of surfaces");
+  });
 }
 
 std::shared_ptr<const SurfacePatterns::Paint> SurfacePatterns::paintOf(const Modifier& modifier) {

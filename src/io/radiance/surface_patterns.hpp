@@ -24,7 +24,7 @@ class SurfacePatterns {
   /// The surface as its modifier has it: the shape, or a mesh in its place, and its material.
   std::pair<Shape, MaterialId> apply(const Modifier&, Shape);
   /// Whether a surface has the pattern or mixture, or what is wrong with it is in the report.
-  bool asked(const RadObject& pattern) const { return functions_.count(&pattern) != 0; }
+  bool asked(const RadObject& pattern) const { return functions_.asked(pattern); }
 
  private:
   struct Look;
@@ -38,10 +38,8 @@ class SurfacePatterns {
 
   Scene& scene_;
   ImportReport& report_;
-  FileAccess& files_;
-  long calls_;
   std::size_t texels_ = 0;
-  std::map<const RadObject*, std::unique_ptr<PatternFunction>> functions_;  // null: cannot be evaluated
+  PatternFunctions functions_;
   using Key = std::pair<MaterialId, std::vector<const RadObject*>>;
   std::map<Key, MaterialId> made_;  // of paints that are everywhere the same
 };
