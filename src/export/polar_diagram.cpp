@@ -18,14 +18,9 @@ constexpr int kCurve = 360;            // points of a plane [layout]
 constexpr double kSearch = 0.25;       // between directions that are looked at [degrees] [limit]
 constexpr double kStepUp = 1e-6;       // from light to darkness [degrees] [rounding]
 
-/// From side to side of a plane, through gamma 0: angle in (-180, 180].
-double inPlane(const Photometry& p, double plane, double angle) {
-  return candela(p, std::abs(angle), angle >= 0 ? plane : plane + 180);
-}
-
 double greatest(const Photometry& p, double plane) {
   double most = 0;
-  for (double a = -180; a <= 180; a += kSearch) most = std::max(most, inPlane(p, plane, a));
+  for (double a = -180; a <= 180; a += kSearch) most = std::max(most, exporting::candelaInPlane(p, plane, a));
   return most;
 }
 
@@ -35,7 +30,7 @@ double halfPeakAngle(const Photometry& p, double plane) {
   const auto reach = [&](double sign) {
     double last = 0;
     for (double a = 0; a <= 180; a += kSearch)
-      if (inPlane(p, plane, sign * a) >= half) last = a;
+      if (exporting::candelaInPlane(p, plane, sign * a) >= half) last = a;
     return last;
   };
   return reach(1) + reach(-1);
@@ -104,7 +99,7 @@ std::string polarDiagram(const Photometry& p, const std::string& title) {
                        plane > 0 ? "#1b6ca8" : "#c1440e", plane > 0 ? " stroke-dasharray=\"6 4\"" : "");
     for (int i = 0; i < kCurve; ++i) {
       const double angle = 360.0 * i / kCurve - 180, a = angle * kPi / 180,
-                   r = kRadius * inPlane(p, plane, angle) / rim;
+                   r = kRadius * exporting::candelaInPlane(p, plane, angle) / rim;
       svg += fmt::format("{:.1f},{:.1f} ", x0 + r * std::sin(a), y0 + r * std::cos(a));
     }
     svg += "\"/>\n";

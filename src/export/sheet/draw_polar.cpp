@@ -8,15 +8,6 @@
 
 namespace deltalux::exporting {
 
-namespace {
-
-/// Intensity in the plane that C lies in, at `angle` in (-180, 180] from nadir. [cd]
-double inPlaneOf(const Photometry& p, double plane, double angle) {
-  return candela(p, std::abs(angle), angle >= 0 ? plane : std::fmod(plane + 180, 360));
-}
-
-}  // namespace
-
 void drawPolar(Canvas& canvas, const Vec2& at, double side, const Photometry& p) {
   constexpr int kCurveSteps = 120;  // around a curve [shown]
   const Vec2 middle = at + Vec2(side / 2, side / 2);
@@ -40,9 +31,9 @@ void drawPolar(Canvas& canvas, const Vec2& at, double side, const Photometry& p)
   for (int angle = 0; angle <= 180; angle += 30)
     canvas.text(place(angle, radius + 7) + Vec2(0, 2), fmt::format("{}", angle),
                 {5.5, kGrey, false, TextStyle::Align::Middle, false});
-  canvas.path(curve([&](double angle) { return radius * inPlaneOf(p, 90, angle) / rim; }), true,
+  canvas.path(curve([&](double angle) { return radius * candelaInPlane(p, 90, angle) / rim; }), true,
               {1.2, {0.1, 0.42, 0.66}, true});
-  canvas.path(curve([&](double angle) { return radius * inPlaneOf(p, 0, angle) / rim; }), true,
+  canvas.path(curve([&](double angle) { return radius * candelaInPlane(p, 0, angle) / rim; }), true,
               {1.2, {0.76, 0.27, 0.05}, false});
 }
 
