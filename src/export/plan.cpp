@@ -40,8 +40,12 @@ DisplayImage planImage(const Plan& plan) {
   const auto [width, height] = sizeOf(plan.grid);
   const GridStatistics s = statisticsOf(plan.lux);
   const std::vector<double> levels = exporting::levelsOf(s);
-  const auto lux = [&, w = width, h = height](int x, int y) {
-    return field.at((x + 0.5) / w * field.columns(), (h - y - 0.5) / h * field.rows());
+  std::vector<double> values;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      values.push_back(field.at((x + 0.5) / width * field.columns(), (height - y - 0.5) / height * field.rows()));
+  const auto lux = [&, w = width](int x, int y) {
+    return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)];
   };
   DisplayImage shown =
       falseColor(exporting::imageOfLux(width, height, lux), exporting::coloursOf(s, exporting::kLabelled));

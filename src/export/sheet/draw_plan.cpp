@@ -29,12 +29,14 @@ struct PlanFrame {
 void drawColours(Canvas& canvas, const PlanFrame& frame, const PlanField& field, const FalseColorSettings& colours) {
   const int across = field.columns() * kTint, down = field.rows() * kTint;
   const auto lux = [&](int i, int j) { return field.at((i + 0.5) / kTint, (down - j - 0.5) / kTint); };
-  const DisplayImage legend = falseColor(imageOfLux(across, down, lux), colours);
+  const Image image = imageOfLux(across, down, lux);
+  const DisplayImage legend = falseColor(image, colours);
   DisplayImage shown{across, down, {}};
   const int left = legend.width - across;
   for (int j = 0; j < down; ++j)
     for (int i = 0; i < across; ++i)
-      shown.pixels.push_back(lux(i, j) < 0 ? std::array<std::uint8_t, 3>{255, 255, 255} : legend.at(left + i, j));
+      shown.pixels.push_back(image.at(i, j).r < 0 ? std::array<std::uint8_t, 3>{255, 255, 255}
+                                                  : legend.at(left + i, j));
   canvas.image(frame.at, frame.size, shown);
 }
 
@@ -78,10 +80,8 @@ void drawScale(Canvas& canvas, const Vec2& at, double height, const FalseColorSe
   constexpr int kScaleSteps = 48;  // [shown]
   const auto lux = [&](int, int j) { return colours.top * std::pow(10, -colours.decades * (j + 0.5) / kScaleSteps); };
   const DisplayImage legend = falseColor(imageOfLux(1, kScaleSteps, lux), colours);
-  DisplayImage ramp{1, kScaleSteps, {}};
-  for (int j = 0; j < kScaleSteps; ++j) ramp.pixels.push_back(legend.at(legend.width - 1, j));
   for (int j = 0; j < kScaleSteps; ++j) {
-    const auto& c = ramp.at(0, j);
+    const auto& c = legend.at(legend.width - 1, j);
     canvas.fill({at.x, at.y + j * height / kScaleSteps}, {10, height / kScaleSteps + 0.3},
                 {c[0] / 255.0, c[1] / 255.0, c[2] / 255.0});
   }
