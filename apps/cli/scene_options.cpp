@@ -45,8 +45,10 @@ constexpr double kDegree = kPi / 180;  // [defined]
 /// What sun and sky come to, for a reader to find mistakes of time and place by.
 std::string describe(const Daylighting& daylight, const Scene& scene) {
   const SunSighting sun = sightSun(daylight.time, daylight.place);
-  const SunAndSky lights = sunAndSky(daylight, scene.up, scene.luminousEfficacy);
-  const double beam = solidAngle(lights.sun) * photometric(glm::dvec3(lights.sun.radiance), scene.luminousEfficacy);
+  double beam = 0;  // of the one sun that setDaylight() has left
+  for (const Light& light : scene.lights)
+    if (const auto* lit = std::get_if<SunLight>(&light.emitter))
+      beam += solidAngle(*lit) * photometric(glm::dvec3(lit->radiance), scene.luminousEfficacy);
   return fmt::format("daylight: the sun {:.2f} degrees high, {:.2f} degrees from north; across its beam {:.0f} lx",
                      sun.altitude / kDegree, sun.azimuth / kDegree, beam);
 }
