@@ -12,10 +12,10 @@
 //   - light that became more or less as a whole, as of a dimmed lamp, is taken for a change only of what is left after
 //   a
 //     common factor; textures are multiplied by it;
-//   - all other sides are evaluated and made anew (adaptive_textures.hpp), and so are those where other light has
+//   - all other sides are evaluated and made again (adaptive_textures.hpp), and so are those where other light has
 //   changed so
 //     much that noise matters more, or less, than it did. [GD01 4: textures whose particles changed]
-// Cost: some nanoseconds an impact, and 0.25 microseconds a texel of what is made anew. Memory: 12 bytes an impact.
+// Cost: some nanoseconds an impact, and 0.25 microseconds a texel of what is made again. Memory: 12 bytes an impact.
 #include "caustics/caustics.hpp"
 #include "caustics/surface_tiles.hpp"
 #include "particles/transfer.hpp"
@@ -31,7 +31,7 @@ class TextureUpdate {
   };
   struct Report {
     std::uint64_t evaluated = 0;  // sides whose light has changed
-    std::uint64_t rebuilt = 0;    // textures made anew
+    std::uint64_t rebuilt = 0;    // textures made again
     std::uint64_t scaled = 0;     // sides whose textures were multiplied
   };
 
@@ -39,7 +39,7 @@ class TextureUpdate {
   /// this.
   TextureUpdate(const Parts&, const particles::ParticleTransfer&, double error);
 
-  /// Brings the textures up to what was traced anew, and to today's light. `transfer` has taken it in. Not for updates
+  /// Brings the textures up to what was traced again, and to today's light. `transfer` has taken it in. Not for updates
   /// of all particles, or compacted ones: then make new textures, and a new one of these.
   Report follow(const particles::ParticleUpdate&, const particles::ParticleTransfer&, Caustics&);
 

@@ -117,13 +117,13 @@ std::uint32_t LinkDescent::raysOf(hierarchy::LinkId id) const {
 /// other links of the level read.
 bool LinkDescent::finish(const Task& task, const Evaluation& v, Block& block) {
   const hierarchy::Link& link = links_[task.link];
-  const bool anew = task.mark > LinkMark::Path, interior = link.state == hierarchy::LinkState::Interior;
-  const bool same = anew && sameTransfer(link, v.link);
-  block.report.changed += anew && !same;
+  const bool disturbed = task.mark > LinkMark::Path, interior = link.state == hierarchy::LinkState::Interior;
+  const bool same = disturbed && sameTransfer(link, v.link);
+  block.report.changed += disturbed && !same;
   // A link collapses for what a move has changed, not for light that has converged since it was refined. One that shows
   // nothing any more stays refined for when what hides it moves on: until then that costs no more than its place.
-  if (interior && (!anew || same || v.split != Split::None || !v.refined || v.link.unseen())) {
-    if (anew && !same) links_.evaluated(task.link, v.link);
+  if (interior && (!disturbed || same || v.split != Split::None || !v.refined || v.link.unseen())) {
+    if (disturbed && !same) links_.evaluated(task.link, v.link);
     descend(task, v, block.next, false);
     return true;
   }

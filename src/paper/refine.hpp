@@ -26,7 +26,7 @@ void makeRootLinks(hierarchy::Links&, const hierarchy::Elements&);
 /// Makes the root links between what has grown and everything, itself included.
 void addRootLinks(hierarchy::Links&, const hierarchy::Elements&, hierarchy::ElementId grown);
 
-/// Evaluates the marked links anew after a move: active ones whose ends or visibility changed, interior ones that may
+/// Evaluates the marked links again after a move: active ones whose ends or visibility changed, interior ones that may
 /// no longer need to be refined, which collapse (`collapsing` is told each of them before it does); and refines root
 /// links that were made since the marks were.
 RefineReport evaluateAgain(hierarchy::Links&, hierarchy::Elements&, const Scene&, const tracing::RayTracer&,

@@ -25,7 +25,7 @@ struct Newcomers {
 /// It comes to its new place, and newcomers with it: adds the links of these to the marks.
 void arrive(const Parts&, LinkMarks&, const Newcomers&);
 
-/// Evaluates the marked links anew. `lists`: of the light that they bring.
+/// Evaluates the marked links again. `lists`: of the light that they bring.
 RefineReport follow(const Parts&, LinkMarks&, const OracleSettings&, IrradianceLists& lists);
 
 }  // namespace deltalux::paper
