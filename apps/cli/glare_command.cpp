@@ -74,15 +74,11 @@ Eye eyeIn(const Scene& scene, const GlareOptions& options) {
 
 /// At the points of a grid, looking level all round.
 std::vector<Eye> eyesIn(const Scene& scene, const GlareOptions& options) {
-  const Frame frame(glm::normalize(scene.up));
+  const Vec3 up = glm::normalize(scene.up), height = options.eyeHeight / scene.metresPerUnit * up;
   std::vector<Eye> eyes;
   for (const ProbePoint& p : options.place.grid(scene).points)
-    for (int d = 0; d < options.directions; ++d) {
-      const double angle = 2 * kPi * d / options.directions;
-      const Vec3 up = glm::normalize(scene.up);
-      eyes.push_back({p.position + options.eyeHeight / scene.metresPerUnit * up,
-                      frame.toWorld({std::cos(angle), std::sin(angle), 0}), up});
-    }
+    for (const Eye& eye : eyesAllRound(p.position + height, Frame(up).tangent, up, options.directions))
+      eyes.push_back(eye);
   return eyes;
 }
 

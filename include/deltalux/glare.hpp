@@ -18,6 +18,10 @@ struct Eye {
   Vec3 position{0}, direction{0, 1, 0}, up{0, 0, 1};  // [scene units]
 };
 
+/// Level lines of sight from a place, all round in equal steps, `along` first; `along` and `up` are unit, at right
+/// angles.
+std::vector<Eye> eyesAllRound(const Vec3& position, const Vec3& along, const Vec3& up, int directions);
+
 /// Something bright, seen from an eye.
 struct GlareSource {
   Vec3 direction{0, 1, 0};   // unit, towards its middle by luminance

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "base/parallel.hpp"
 #include "glare/background_meter.hpp"
 #include "glare/luminaires.hpp"
@@ -6,6 +8,16 @@
 #include "solution/solution.hpp"
 
 namespace deltalux {
+
+std::vector<Eye> eyesAllRound(const Vec3& position, const Vec3& along, const Vec3& up, int directions) {
+  const Vec3 across = glm::cross(up, along);
+  std::vector<Eye> eyes;
+  for (int d = 0; d < directions; ++d) {
+    const double angle = 2 * kPi * d / directions;
+    eyes.push_back({position, std::cos(angle) * along + std::sin(angle) * across, up});
+  }
+  return eyes;
+}
 
 std::vector<UnifiedGlare> unifiedGlare(const SolutionView& solution, std::span<const Eye> eyes,
                                        const GlareSettings& settings, Progress* progress) {

@@ -33,13 +33,10 @@ std::vector<Eye> eyesOf(const Scene& scene, const SheetArea& area, double spacin
   settings.height = area.eyeHeight, settings.border = 0, settings.spacing = std::max(spacing, kEyesApart);
   const MeasuringGrid grid = gridOfArea(scene, area, settings);
   const Vec3 up = glm::normalize(scene.up), u = grid.area.u - glm::dot(grid.area.u, up) * up;
-  const Vec3 along = glm::length(u) > 0 ? glm::normalize(u) : Frame(up).tangent, across = glm::cross(up, along);
+  const Vec3 along = glm::length(u) > 0 ? glm::normalize(u) : Frame(up).tangent;
   std::vector<Eye> eyes;
   for (const ProbePoint& p : grid.points)
-    for (int d = 0; d < area.directions; ++d) {
-      const double angle = 2 * kPi * d / area.directions;
-      eyes.push_back({p.position, std::cos(angle) * along + std::sin(angle) * across, up});
-    }
+    for (const Eye& eye : eyesAllRound(p.position, along, up, area.directions)) eyes.push_back(eye);
   return eyes;
 }
 
