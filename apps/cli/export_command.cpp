@@ -27,6 +27,7 @@ struct ExportOptions {
   std::vector<std::string> views;
   // Of geometry.
   GlbSettings glb;
+  std::string lightmap = "moz";
   bool unlit = false;
   std::vector<const char*> pageOnly, glbOnly;  // options
 
@@ -45,6 +46,8 @@ void checkOptions(const ExportOptions& options, const CLI::App& command) {
       throw CLI::ValidationError(fmt::format("{}: {} has no such thing", name, options.isPage() ? ".html" : ".glb"));
   if (options.isPage()) return;
   if (options.ev && !options.unlit) throw CLI::ValidationError("--ev: of a .glb, it is the exposure of --unlit");
+  if (options.unlit && command.get_option("--lightmap")->count() > 0)
+    throw CLI::ValidationError("--lightmap: --unlit has none");
   if (options.unlit && options.source.byLight())
     throw CLI::ValidationError("--unlit: what is tone-mapped is no sum; leave out --by-light");
 }
@@ -109,6 +112,7 @@ void exportGeometry(const ExportOptions& options, Run& run) {
 
 void runExport(ExportOptions& options, const CLI::App& command) {
   checkOptions(options, command);
+  options.glb.lightmap = options.lightmap == "mx" ? LightmapExtension::Mx : LightmapExtension::Moz;
   Run run("export", options.run);
   checkWritable(options.output);
   if (options.isPage()) {
@@ -132,7 +136,13 @@ std::vector<const char*> addGlbOptions(CLI::App& command, ExportOptions& options
   command.add_flag("--unlit", options.unlit, "Shown as it is by any viewer: tone-mapped colours");
   options.source.readByLight(command, "An .exr more for each group of lights; of a .glb");
   command.add_flag("--meshopt", options.glb.meshopt, "Geometry packed without loss (EXT_meshopt_compression)");
-  return {"--texels-per-metre", "--atlas-size", "--unlit", "--by-light", "--meshopt"};
+  command
+      .add_option("--lightmap", options.lightmap,
+                  "MOZ_lightmap (8 linear bits, by material) or MX_lightmap (RGBM, by node: dark parts are as exact)")
+      ->type_name("moz|mx")
+      ->check(CLI::IsMember({"moz", "mx"}))
+      ->capture_default_str();
+  return {"--texels-per-metre", "--atlas-size", "--unlit", "--by-light", "--meshopt", "--lightmap"};
 }
 
 /// Returns their names.

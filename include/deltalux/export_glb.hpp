@@ -11,6 +11,12 @@
 
 namespace deltalux {
 
+/// How a file says that its textures are light.
+enum class LightmapExtension {
+  Moz,  // MOZ_lightmap of materials: 8 linear bits of a page's full scale
+  Mx    // MX_lightmap of nodes: RGBM, so that bright and dark share a page; an object is a node per page
+};
+
 struct GlbSettings {
   double texelsPerMetre = 0;  // of the atlas; 0: as many as one page holds, but no more than show something
   int atlasSize = 2048;       // side of the largest page [texels], 64 to 16384
@@ -19,6 +25,7 @@ struct GlbSettings {
   double clipped = 0.01;      // share of the lit texels that the 8-bit lightmap may clip, in [0, 1)
   double range = 8;           // brightness of charts that share a page, over each other, above 1
   bool meshopt = false;       // geometry by EXT_meshopt_compression, without loss
+  LightmapExtension lightmap = LightmapExtension::Moz;  // of a lit file
 };
 
 struct GlbReport {
@@ -29,7 +36,7 @@ struct GlbReport {
   double ev = 0;              // exposure of an unlit one [stops]
 };
 
-/// Writes FILE.glb with the light in TEXCOORD_1 lightmaps (MOZ_lightmap, 8-bit linear), and beside it FILE.lightmap.exr
+/// Writes FILE.glb with the light in TEXCOORD_1 lightmaps, and beside it FILE.lightmap.exr
 /// (page n from 1: FILE.lightmap.n.exr): irradiance E [W/m2], 32-bit float, direct, indirect and caustics, as the
 /// lights are dimmed now. All files are written, then put in place, atomically one by one. Throws OutputError,
 /// Interrupted.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "export/lightmap.hpp"
 
@@ -27,6 +28,7 @@ struct VertexArrays {
 /// The range of the arrays that is one primitive.
 struct PrimitiveRange {
   std::size_t object = 0, material = 0;
+  std::optional<std::uint32_t> page;  // where nodes tell it
   std::size_t firstVertex = 0, vertices = 0, firstIndex = 0, indices = 0;
 };
 
@@ -75,14 +77,16 @@ class GeometryWriter {
   VertexArrays& arrays_;
 };
 
-/// What one primitive of the file holds, by object and material.
-using PiecesByMaterial = std::map<std::pair<std::size_t, std::size_t>, std::vector<Piece>>;
+/// What one primitive of the file holds, by object, page where nodes tell it, and material.
+using PiecesByMaterial =
+    std::map<std::tuple<std::size_t, std::optional<std::uint32_t>, std::size_t>, std::vector<Piece>>;
 
-PiecesByMaterial piecesOf(const SolutionMesh& mesh, const Atlas& atlas, const MaterialOfSide& materialOf) {
+PiecesByMaterial piecesOf(const SolutionMesh& mesh, const Atlas& atlas, const MaterialOfSide& materialOf, bool byPage) {
   PiecesByMaterial pieces;
   const auto put = [&](const SurfaceMesh& side, std::optional<std::size_t> chart) {
     const std::optional<std::uint32_t> page = chart ? std::optional(atlas.places[*chart].page) : std::nullopt;
-    pieces[{(*mesh.scene)[side.primitive].object.value, materialOf(side, page)}].push_back({&side, chart});
+    pieces[{(*mesh.scene)[side.primitive].object.value, byPage ? page : std::nullopt, materialOf(side, page)}]
+        .push_back({&side, chart});
   };
   std::size_t chart = 0;  // they are in the order of the sides
   for (std::size_t s = 0; s < mesh.surfaces.size(); ++s) {
@@ -135,6 +139,14 @@ GlbJson rotationOf(const Vec3& up) {
   return {q.x, q.y, q.z, q.w};
 }
 
+/// A node by itself, or one that holds them.
+std::size_t addObject(GlbContainer& glb, const std::string& name, std::vector<GlbJson> nodes) {
+  if (nodes.size() == 1) return glb.add("nodes", std::move(nodes.front()));
+  GlbJson children = GlbJson::array();
+  for (GlbJson& node : nodes) children.push_back(glb.add("nodes", std::move(node)));
+  return glb.add("nodes", {{"name", name}, {"children", std::move(children)}});
+}
+
 }  // namespace
 
 bool isShown(const SolutionMesh& mesh, std::size_t side) {
@@ -145,13 +157,14 @@ bool isShown(const SolutionMesh& mesh, std::size_t side) {
 }
 
 GeometryCounts addGeometry(GlbContainer& glb, const SolutionMesh& mesh, const Atlas& atlas, AtlasSet set,
-                           const MaterialOfSide& materialOf, AddView addView) {
+                           const MaterialOfSide& materialOf, AddView addView, const PageOfNode& pageOfNode) {
   VertexArrays arrays;
   GeometryWriter writer(atlas, arrays);
   std::vector<PrimitiveRange> ranges;
-  for (const auto& [key, pieces] : piecesOf(mesh, atlas, materialOf)) {
+  for (const auto& [key, pieces] : piecesOf(mesh, atlas, materialOf, bool(pageOfNode))) {
     ranges.push_back(writer.write(pieces));
-    ranges.back().object = key.first, ranges.back().material = key.second;
+    PrimitiveRange& range = ranges.back();
+    std::tie(range.object, range.page, range.material) = key;
   }
   const Scene& scene = *mesh.scene;
   glb.json["scene"] = 0;
@@ -173,13 +186,19 @@ GeometryCounts addGeometry(GlbContainer& glb, const SolutionMesh& mesh, const At
 
   GlbJson children = GlbJson::array();
   for (std::size_t i = 0; i < ranges.size();) {
-    GlbJson primitives = GlbJson::array();
     const ObjectId object(ranges[i].object);
-    for (; i < ranges.size() && ObjectId(ranges[i].object) == object; ++i)
-      primitives.push_back(primitiveOf(glb, arrays, ranges[i], views, set));
     const std::string name = object.valid() ? scene[object].name : "scene";
-    const std::size_t index = glb.add("meshes", {{"name", name}, {"primitives", std::move(primitives)}});
-    children.push_back(glb.add("nodes", {{"name", name}, {"mesh", index}}));
+    std::vector<GlbJson> nodes;  // by page
+    while (i < ranges.size() && ObjectId(ranges[i].object) == object) {
+      GlbJson primitives = GlbJson::array();
+      const std::optional<std::uint32_t> page = ranges[i].page;
+      for (; i < ranges.size() && ObjectId(ranges[i].object) == object && ranges[i].page == page; ++i)
+        primitives.push_back(primitiveOf(glb, arrays, ranges[i], views, set));
+      nodes.push_back(
+          {{"name", name}, {"mesh", glb.add("meshes", {{"name", name}, {"primitives", std::move(primitives)}})}});
+      if (page) nodes.back()["extensions"] = pageOfNode(*page);
+    }
+    children.push_back(addObject(glb, name, std::move(nodes)));
   }
   root["children"] = std::move(children);
   const std::size_t rootIndex = glb.add("nodes", std::move(root));

@@ -20,6 +20,8 @@ enum class AtlasSet {
 
 /// What of a .glb a side becomes: the number of its material. `page`: of the atlas; nullopt: no light falls on it.
 using MaterialOfSide = std::function<std::size_t(const SurfaceMesh&, std::optional<std::uint32_t> page)>;
+/// Extensions of a node whose sides have their light on this page of the atlas; empty: nodes do not say.
+using PageOfNode = std::function<GlbJson(std::uint32_t page)>;
 using AddView = std::size_t (GlbContainer::*)(std::string_view bytes, std::size_t stride, int target);
 
 struct GeometryCounts {
@@ -29,7 +31,9 @@ struct GeometryCounts {
 /// Whether a side is exported.
 bool isShown(const SolutionMesh&, std::size_t side);
 
-/// Adds accessors, meshes, nodes and the scene. The root node turns the scene's up to +y and its units to metres.
-GeometryCounts addGeometry(GlbContainer&, const SolutionMesh&, const Atlas&, AtlasSet, const MaterialOfSide&, AddView);
+/// Adds accessors, meshes, nodes and the scene. The root node turns the scene's up to +y and its units to metres. Where
+/// nodes say on which page their light is, an object on several pages is a node with one child a page.
+GeometryCounts addGeometry(GlbContainer&, const SolutionMesh&, const Atlas&, AtlasSet, const MaterialOfSide&, AddView,
+                           const PageOfNode& = {});
 
 }  // namespace deltalux::exporting

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "export/rgbm.hpp"
 #include "io/image/formats.hpp"
 
 namespace deltalux::exporting {
@@ -11,8 +12,7 @@ namespace {
 
 constexpr int kLinear = 9729, kClampToEdge = 33071, kRepeat = 10497, kLinearMipmapLinear = 9987;  // [defined]
 
-std::size_t addTexture(GlbContainer& glb, const DisplayImage& picture, const std::string& name, GlbJson sampler) {
-  const std::string png = io::encodePng(picture);
+std::size_t addTexture(GlbContainer& glb, const std::string& png, const std::string& name, GlbJson sampler) {
   const std::size_t view = glb.addView(png, 1, 0);
   const std::size_t image = glb.add("images", {{"name", name}, {"bufferView", view}, {"mimeType", "image/png"}});
   GlbJson& samplers = glb.json["samplers"];
@@ -26,8 +26,8 @@ std::uint8_t byteOf(double value) { return static_cast<std::uint8_t>(std::lround
 
 }  // namespace
 
-std::size_t addAtlasTexture(GlbContainer& glb, const DisplayImage& picture, const std::string& name) {
-  return addTexture(glb, picture, name,
+std::size_t addAtlasTexture(GlbContainer& glb, const std::string& png, const std::string& name) {
+  return addTexture(glb, png, name,
                     {{"magFilter", kLinear}, {"minFilter", kLinear}, {"wrapS", kClampToEdge}, {"wrapT", kClampToEdge}});
 }
 
@@ -37,17 +37,24 @@ std::size_t addSceneTexture(GlbContainer& glb, const Texture& texture) {
   for (const Rgb& texel : texture.texels)
     picture.pixels.push_back({byteOf(encodeSrgb(texel.r)), byteOf(encodeSrgb(texel.g)), byteOf(encodeSrgb(texel.b))});
   return addTexture(
-      glb, picture, texture.name,
+      glb, io::encodePng(picture), texture.name,
       {{"magFilter", kLinear}, {"minFilter", kLinearMipmapLinear}, {"wrapS", kRepeat}, {"wrapT", kRepeat}});
 }
 
-DisplayImage linearPicture(const Image& image, float white) {
+std::string linearPng(const Image& image, float white) {
   DisplayImage picture;
   picture.width = image.width, picture.height = image.height;
   picture.pixels.reserve(image.pixels.size());
   for (const Rgb& p : image.pixels)
     picture.pixels.push_back({byteOf(p.r / white), byteOf(p.g / white), byteOf(p.b / white)});
-  return picture;
+  return io::encodePng(picture);
+}
+
+std::string rgbmPng(const Image& image, float intensity) {
+  std::vector<std::array<std::uint8_t, 4>> texels;
+  texels.reserve(image.pixels.size());
+  for (const Rgb& p : image.pixels) texels.push_back(packRgbm(p / intensity));
+  return io::encodePng(image.width, image.height, texels);
 }
 
 }  // namespace deltalux::exporting

@@ -12,6 +12,7 @@
 #include "export/glb_images.hpp"
 #include "export/glb_material.hpp"
 #include "export/lightmap.hpp"
+#include "export/rgbm.hpp"
 #include "io/image/formats.hpp"
 #include "scene/texture_tint.hpp"
 
@@ -21,10 +22,10 @@ namespace exporting {
 
 namespace {
 
-/// The pages of an atlas in the file, and the irradiance that their full scale stands for [W/m2].
+/// The pages of an atlas in the file, and what a decoded texel is multiplied by to be irradiance [W/m2].
 struct LightmapTextures {
   std::vector<std::size_t> textures;
-  std::vector<float> whites;
+  std::vector<float> intensities;
 };
 
 /// The value that all but a share of the covered pixels' channels stay within; 1 where all is dark.
@@ -39,12 +40,15 @@ float whiteOf(const Image& page, const std::vector<char>& covered, double clippe
 }
 
 LightmapTextures addLightmaps(GlbContainer& glb, const std::vector<Image>& pages,
-                              const std::vector<std::vector<char>>& covered, double clipped) {
+                              const std::vector<std::vector<char>>& covered, const GlbSettings& settings) {
+  const bool linear = settings.lightmap == LightmapExtension::Moz;
   LightmapTextures result;
   for (std::size_t i = 0; i < pages.size(); ++i) {
-    result.whites.push_back(whiteOf(pages[i], covered[i], clipped));
-    result.textures.push_back(
-        addAtlasTexture(glb, linearPicture(pages[i], result.whites[i]), fmt::format("lightmap {}", i)));
+    // RGBM has steps to spare for the brightest.
+    const float white = whiteOf(pages[i], covered[i], linear ? settings.clipped : 0.0);
+    result.intensities.push_back(linear ? white : white / kRgbmRange);
+    result.textures.push_back(addAtlasTexture(glb, (linear ? linearPng : rgbmPng)(pages[i], result.intensities[i]),
+                                              fmt::format("lightmap {}", i)));
   }
   return result;
 }
@@ -52,28 +56,32 @@ LightmapTextures addLightmaps(GlbContainer& glb, const std::vector<Image>& pages
 /// The materials of the file: one per material, what a side of it has, and page.
 class LitMaterials {
  public:
-  LitMaterials(GlbContainer& glb, const Scene& scene, const LightmapTextures& lightmaps)
+  /// `lightmaps`: that materials name; null: nodes do.
+  LitMaterials(GlbContainer& glb, const Scene& scene, const LightmapTextures* lightmaps)
       : glb_(glb), scene_(scene), lightmaps_(lightmaps) {}
 
   std::size_t of(const SurfaceMesh& side, std::optional<std::uint32_t> page) {
     const Rgb &a = side.albedo, &L = side.radiance;
     const bool back = !side.front && std::holds_alternative<Mirror>(scene_.materialOf(side.primitive).surface);
-    const Key key{scene_[side.primitive].material.value, page ? int(*page) : -1, back, a.r, a.g, a.b, L.r, L.g, L.b};
+    const int named = lightmaps_ && page ? int(*page) : kNone;
+    const Key key{scene_[side.primitive].material.value, named, back, a.r, a.g, a.b, L.r, L.g, L.b};
     const auto [place, fresh] = known_.try_emplace(key, 0);
-    if (fresh) place->second = add(side, page);
+    if (fresh) place->second = add(side, named);
     return place->second;
   }
 
  private:
+  static constexpr int kNone = -1;  // [sentinel]
   using Key = std::tuple<std::uint32_t, int, bool, float, float, float, float, float, float>;
 
-  std::size_t add(const SurfaceMesh& side, std::optional<std::uint32_t> page) {
+  std::size_t add(const SurfaceMesh& side, int page) {
     GlbJson json = litMaterial(glb_, scene_, side);
     if (const TextureId texture = scene::diffuseTexture(scene_, side.primitive); texture.valid())
       json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", textureOf(texture)}};
-    if (page) {
+    if (page != kNone) {
+      const auto at = static_cast<std::size_t>(page);
       json["extensions"]["MOZ_lightmap"] = {
-          {"index", lightmaps_.textures[*page]}, {"texCoord", 1}, {"intensity", lightmaps_.whites[*page]}};
+          {"index", lightmaps_->textures[at]}, {"texCoord", 1}, {"intensity", lightmaps_->intensities[at]}};
       glb_.use("MOZ_lightmap");
     }
     return glb_.add("materials", std::move(json));
@@ -87,7 +95,7 @@ class LitMaterials {
 
   GlbContainer& glb_;
   const Scene& scene_;
-  const LightmapTextures& lightmaps_;
+  const LightmapTextures* lightmaps_;
   std::map<Key, std::size_t> known_;
   std::map<std::uint32_t, std::size_t> textures_;
 };
@@ -109,18 +117,34 @@ std::string pageSuffix(std::size_t page) { return page == 0 ? "" : fmt::format("
 
 Rgb irradianceAt(const BakedTexel& texel) { return texel.irradiance; }
 
-GlbJson lightmapExtras(const std::filesystem::path& glb, const LightmapTextures& lightmaps, double clipped) {
-  GlbJson extras{{"quantity", "irradiance E of direct, indirect and caustic light, without 1/pi"},
-                 {"units", "W/m2"},
-                 {"factor", 1},
-                 {"encoding", "linear, 8 bits: E = texel / 255 * intensity of the material's MOZ_lightmap * factor"},
-                 {"clippedShare", clipped},
-                 {"texCoord", 1}};
+GlbJson lightmapExtras(const std::filesystem::path& glb, const LightmapTextures& lightmaps,
+                       const GlbSettings& settings) {
+  const bool linear = settings.lightmap == LightmapExtension::Moz;
+  GlbJson extras{
+      {"quantity", "irradiance E of direct, indirect and caustic light, without 1/pi"},
+      {"units", "W/m2"},
+      {"factor", 1},
+      {"encoding", linear ? "linear, 8 bits: E = texel / 255 * intensity of the material's MOZ_lightmap * factor"
+                          : fmt::format("RGBM, linear: E = {} * (a / 255)^{} * rgb / 255 * intensity of the "
+                                        "node's MX_lightmap * factor",
+                                        kRgbmRange, kRgbmPower)},
+      {"clippedShare", linear ? settings.clipped : 0},
+      {"texCoord", 1}};
   for (std::size_t i = 0; i < lightmaps.textures.size(); ++i)
     extras["pages"].push_back({{"texture", lightmaps.textures[i]},
-                               {"intensity", lightmaps.whites[i]},
+                               {"intensity", lightmaps.intensities[i]},
                                {"exr", besides(glb, pageSuffix(i)).filename().string()}});
   return extras;
+}
+
+/// What a node says whose light is on a page. [MX_lightmap]
+GlbJson nodeLightmap(GlbContainer& glb, const LightmapTextures& lightmaps, std::uint32_t page) {
+  glb.use("MX_lightmap");
+  return {{"MX_lightmap",
+           {{"lightMapTexture", {{"index", lightmaps.textures[page]}, {"texCoord", 1}}},
+            {"scale", {1, 1}},
+            {"offset", {0, 0}},
+            {"intensity", lightmaps.intensities[page]}}}};
 }
 
 /// The .glb and its pages as .exr.
@@ -130,13 +154,16 @@ std::vector<FileBytes> litFiles(const ChartedMesh& charted, const std::filesyste
   const std::vector<Image> pages = bake(charted.atlas, charted.mesh, charted.light, irradianceAt, &covered);
   GlbContainer glb;
   glb.json["asset"] = assetOf(*charted.mesh.scene);
-  const LightmapTextures lightmaps = addLightmaps(glb, pages, covered, settings.clipped);
-  glb.json["asset"]["extras"]["deltalux"]["lightmap"] = lightmapExtras(path, lightmaps, settings.clipped);
-  LitMaterials materials(glb, *charted.mesh.scene, lightmaps);
+  const LightmapTextures lightmaps = addLightmaps(glb, pages, covered, settings);
+  glb.json["asset"]["extras"]["deltalux"]["lightmap"] = lightmapExtras(path, lightmaps, settings);
+  const bool ofMaterials = settings.lightmap == LightmapExtension::Moz;
+  LitMaterials materials(glb, *charted.mesh.scene, ofMaterials ? &lightmaps : nullptr);
+  PageOfNode ofNode;
+  if (!ofMaterials) ofNode = [&](std::uint32_t page) { return nodeLightmap(glb, lightmaps, page); };
   counts = addGeometry(
       glb, charted.mesh, charted.atlas, AtlasSet::Second,
       [&](const SurfaceMesh& side, std::optional<std::uint32_t> page) { return materials.of(side, page); },
-      addViewBy(settings));
+      addViewBy(settings), ofNode);
   std::vector<FileBytes> files{{path, glb.bytes()}};
   for (std::size_t i = 0; i < pages.size(); ++i)
     files.push_back({besides(path, pageSuffix(i)), io::encodeExr(pages[i])});

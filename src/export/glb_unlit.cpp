@@ -11,6 +11,7 @@
 #include "export/glb_material.hpp"
 #include "export/lightmap.hpp"
 #include "export/lightmap_side_light.hpp"
+#include "io/image/formats.hpp"
 #include "scene/texture_tint.hpp"
 
 namespace deltalux {
@@ -125,7 +126,7 @@ GlbReport exportUnlitGlb(const SolutionView& solution, const std::filesystem::pa
                                                       {"toneOperator", toneOperatorName(mapping.toneOperator)}};
   std::vector<std::size_t> textures;
   for (std::size_t i = 0; i < pages.size(); ++i)
-    textures.push_back(addAtlasTexture(glb, toneMap(pages[i], mapping), fmt::format("light {}", i)));
+    textures.push_back(addAtlasTexture(glb, io::encodePng(toneMap(pages[i], mapping)), fmt::format("light {}", i)));
   UnlitMaterials materials(glb, *charted.mesh.scene, std::move(textures), mapping);
   const GeometryCounts counts = addGeometry(
       glb, charted.mesh, charted.atlas, AtlasSet::Only,

@@ -1,5 +1,6 @@
 // The .glb as others read it: by its own reader of glTF, by Khronos's validator, by its bytes.
 #include <gtest/gtest.h>
+#include <stb/stb_image.h>
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baked_scene.hpp"
+#include "export/rgbm.hpp"
 #include "support/temp_folder.hpp"
 
 namespace deltalux {
@@ -106,6 +108,53 @@ TEST(ExportGlb, SaysWhatItsLightMeans) {
       EXPECT_EQ(m["extensions"]["MOZ_lightmap"]["intensity"], lightmap["pages"][page]["intensity"]);
     }
   EXPECT_GT(lit, 3);
+}
+
+/// The bytes of a view of the buffer.
+std::string viewOf(const std::filesystem::path& file, const json& document, std::size_t view) {
+  const std::string bytes = test::readText(file);
+  std::uint32_t length = 0;
+  std::memcpy(&length, bytes.data() + 12, sizeof(length));
+  const json& v = document["bufferViews"][view];
+  return bytes.substr(20 + length + 8 + v.value("byteOffset", std::size_t(0)), v["byteLength"].get<std::size_t>());
+}
+
+TEST(ExportGlb, NodesNameTheirLightmapsWhereAsked) {
+  const TempFolder folder;
+  GlbSettings settings = small();
+  settings.lightmap = LightmapExtension::Mx;
+  const GlbReport report = exportGlb(everything().solution(), folder / "room.glb", settings);
+  const json document = documentOf(folder / "room.glb");
+  for (const json& m : document["materials"])
+    EXPECT_FALSE(m.contains("extensions") && m["extensions"].contains("MOZ_lightmap"));
+  std::vector<float> intensities(report.pages, 0.0f);
+  for (const json& node : document["nodes"]) {
+    if (!node.contains("extensions")) continue;
+    const json& lightmap = node["extensions"]["MX_lightmap"];
+    EXPECT_EQ(lightmap["lightMapTexture"]["texCoord"], 1);
+    intensities.at(lightmap["lightMapTexture"]["index"].get<std::size_t>()) = lightmap["intensity"];
+    EXPECT_TRUE(node.contains("mesh"));
+  }
+  for (std::size_t page = 0; page < report.pages; ++page) {
+    ASSERT_GT(intensities[page], 0.0f);
+    const json& image = document["images"][document["textures"][page]["source"].get<std::size_t>()];
+    const std::string png = viewOf(folder / "room.glb", document, image["bufferView"].get<std::size_t>());
+    int width = 0, height = 0, channels = 0;
+    stbi_uc* const texels = stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(png.data()), int(png.size()), &width,
+                                                  &height, &channels, 4);
+    ASSERT_NE(texels, nullptr);
+    EXPECT_EQ(channels, 4);
+    const Image exact = loadImage(report.files[1 + page]);
+    ASSERT_EQ(exact.pixels.size(), std::size_t(width) * std::size_t(height));
+    const float most = exporting::kRgbmRange * intensities[page];
+    for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+      const stbi_uc* t = texels + 4 * i;
+      const Rgb E = intensities[page] * exporting::unpackRgbm({t[0], t[1], t[2], t[3]});
+      EXPECT_LT(maxChannel(glm::abs(E - exact.pixels[i])), 0.004f * maxChannel(exact.pixels[i]) + 1e-4f * most);
+    }
+    stbi_image_free(texels);
+  }
+  expectValid(folder / "room.glb");
 }
 
 TEST(ExportGlb, KeepsTheLightInTheExr) {
