@@ -14,7 +14,7 @@ struct GridArea {
 
 struct GridSettings {
   double border = 0.5;  // left out along the rim, but no more than 15 % of the shorter side [m]
-  double spacing = 0;   // of points at most [m]; 0: gridSpacing()
+  double spacing = 0;   // of points at most [m]; 0: gridSpacing(), and the nearest whole number of cells
   double height = 0;    // of the points above the area [m]
 };
 
@@ -29,7 +29,7 @@ struct MeasuringGrid {
 /// or the shorter where the other is twice as long or more. [EN12464]
 double gridSpacing(double side, double otherSide);
 
-/// The grid of an area. Precondition: sides are at right angles and not 0.
+/// The grid of an area. Precondition: sides are at right angles and not 0. Throws InputError beyond a million points.
 MeasuringGrid gridOf(const GridArea&, double metresPerUnit, const GridSettings& = {});
 
 /// The grid of an object's largest level polygon or disc, from above, or, where none of them is level, of the largest,

@@ -13,5 +13,6 @@ void bindEdits(pybind11::module_&);
 void bindMesh(pybind11::module_&);
 void bindSolution(pybind11::module_&);
 void bindGlare(pybind11::module_&);
+void bindGrid(pybind11::module_&);
 
 }  // namespace deltalux::python

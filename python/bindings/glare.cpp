@@ -2,7 +2,6 @@
 #include <pybind11/stl.h>
 
 #include <deltalux/glare.hpp>
-#include <deltalux/grid.hpp>
 #include <stdexcept>
 
 #include "arrays.hpp"
@@ -79,7 +78,6 @@ void bindGlare(py::module_& m) {
         py::arg("progress"));
   m.def("ugr", &ugr, py::arg("solution"), py::arg("positions"), py::arg("directions"), py::arg("seed"),
         py::arg("progress"));
-  m.def("grid_spacing", &gridSpacing, py::arg("side"), py::arg("other_side"));
 }
 
 }  // namespace deltalux::python

@@ -12,4 +12,5 @@ PYBIND11_MODULE(_core, m) {
   bindMesh(m);
   bindSolution(m);
   bindGlare(m);
+  bindGrid(m);
 }

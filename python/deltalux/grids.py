@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
 Array = npt.NDArray[np.float64]
 
-LARGEST = 1_000_000  # points of a grid: more are a mistake of units
-
 
 class GridStats(NamedTuple):
     """Illuminance over a grid [lux], and its uniformity as EN 12464-1 has it."""
@@ -87,7 +85,8 @@ class SensorGrid:
 
         corner, u, v: (3,), the edges at right angles.  spacing: at most that far apart, in scene units; None: as
         EN 12464-1 says, 0.2 m 5^log10(d / 1 m), at most 10 m, d the longer side, or the shorter where the ratio is 2 or
-        more.  border: a strip that is left out along all edges, in scene units.  metres_per_unit: of the scene, for None.
+        more, and the nearest whole number of cells.  border: a strip that is left out along all edges, in scene units.
+        metres_per_unit: of the scene, for None.  Raises InputError: more than a million points.
         """
         c, along, across = (_vector(x, name) for x, name in ((corner, "corner"), (u, "u"), (v, "v")))
         lengths = np.array([np.linalg.norm(along), np.linalg.norm(across)])
@@ -95,16 +94,12 @@ class SensorGrid:
             raise ValueError("u and v are edges of a rectangle: of some length, at right angles")
         if not 0 <= border < lengths.min() / 2:
             raise ValueError("border: not negative, and less than half of the shorter edge")
-        sides = lengths - 2 * border
-        if spacing is None:
-            if not metres_per_unit > 0:
-                raise ValueError("metres_per_unit is above 0")
-            spacing = en12464_spacing(*(sides * metres_per_unit)) / metres_per_unit
-        across_count, rows = _cells(sides, spacing)
-        along, across = along / lengths[0], across / lengths[1]
-        x = border + sides[0] * (np.arange(across_count) + 0.5) / across_count
-        y = border + sides[1] * (np.arange(rows) + 0.5) / rows
-        points = c + (y[:, None, None] * across + x[None, :, None] * along).reshape(-1, 3)
+        if not metres_per_unit > 0:
+            raise ValueError("metres_per_unit is above 0")
+        inset = border / lengths
+        corner = c + inset[0] * along + inset[1] * across
+        sides = (1 - 2 * inset[0]) * along, (1 - 2 * inset[1]) * across
+        points = _core.rectangle_grid(corner, *sides, metres_per_unit, _metres(spacing, metres_per_unit))
         return cls(points, np.cross(along, across))
 
     @classmethod
@@ -164,14 +159,13 @@ def _vector(value: npt.ArrayLike, name: str) -> Array:
     return vector
 
 
-def _cells(sides: Array, spacing: float) -> tuple[int, int]:
-    """How many cells of at most `spacing` the sides have."""
+def _metres(spacing: float | None, metres_per_unit: float) -> float:
+    """As the core takes it: 0 stands for the standard's."""
+    if spacing is None:
+        return 0.0
     if not (math.isfinite(spacing) and spacing > 0):
         raise ValueError("spacing is above 0")
-    counts = np.maximum(1, np.ceil(sides / spacing - 1e-4))  # single precision leaves less
-    if counts.prod() > LARGEST:
-        raise ValueError(f"spacing: {counts.prod():.0f} points; {LARGEST} at most")
-    return int(counts[0]), int(counts[1])
+    return spacing * metres_per_unit
 
 
 def _sides_of(mesh: Mesh, name: str) -> tuple[Array, Array]:
@@ -196,9 +190,8 @@ def _seen_from(direction: Array, corners: Array, normals: Array, spacing: float)
     v = np.cross(direction, u)
     flat = corners @ np.stack([u, v], axis=1)  # (T,3,2)
     low, high = flat.min(axis=(0, 1)), flat.max(axis=(0, 1))
-    counts = _cells(high - low, spacing)
-    x, y = (low[i] + (high - low)[i] * (np.arange(counts[i]) + 0.5) / counts[i] for i in (0, 1))
-    places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    edges = (high[0] - low[0]) * u, (high[1] - low[1]) * v
+    places = _core.rectangle_grid(low[0] * u + low[1] * v, *edges, 1.0, _metres(spacing, 1.0)) @ np.stack([u, v], axis=1)
     depth, best = np.full(len(places), -math.inf), np.full(len(places), -1)
     for t, (a, b, c) in enumerate(flat):
         near = np.flatnonzero(np.all((places >= flat[t].min(axis=0)) & (places <= flat[t].max(axis=0)), axis=1))

@@ -1,7 +1,10 @@
 #include <deltalux/grid.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <deltalux/error.hpp>
 #include <numeric>
 
 #include "scene/edit/plan.hpp"
@@ -13,11 +16,28 @@ namespace {
 constexpr double kMostBorder = 0.15;  // of the shorter side [EN12464] [defined]
 constexpr double kMostSpacing = 10;   // [m] [EN12464] [defined]
 constexpr double kLevel = 0.99;       // cosine to the vertical of what is level [limit]
+constexpr double kRounding = 1e-4;    // of a cell: what single precision leaves too many [rounding]
+constexpr int kMostPoints = 1000000;  // more are a mistake of units [limit]
 constexpr int kDiscCorners = 64;      // of a disc as a polygon: 0.2 % of its area is left out [limit]
 constexpr int kCylinderSides = 16;    // a small lamp's light is 0.8 % off at most [limit]
 
-/// How many cells no wider than `spacing` a side of such a length has: [EN12464] takes the nearest whole number.
-int cellsOf(double length, double spacing) { return std::max(1, static_cast<int>(std::lround(length / spacing))); }
+/// Along two sides.
+struct Cells {
+  int columns, rows;
+};
+/// By the standard's spacing the nearest whole number [EN12464]; otherwise cells are no wider than is asked for.
+Cells cellsOf(double width, double depth, double asked) {
+  const double spacing = asked > 0 ? asked : gridSpacing(width, depth);
+  const auto count = [&](double length) {
+    return std::max(asked > 0 ? std::ceil(length / spacing - kRounding) : std::round(length / spacing), 1.0);
+  };
+  const double columns = count(width), rows = count(depth);
+  if (!(columns * rows <= kMostPoints))
+    throw InputError(
+        "", 0, fmt::format("a grid of {:.3g} by {:.3g} points is more than {} points", columns, rows, kMostPoints),
+        "use a larger spacing");
+  return {static_cast<int>(columns), static_cast<int>(rows)};
+}
 
 /// A polygon, or a disc as one of many corners; nullopt of all else.
 std::optional<Polygon> flatShape(const Shape& shape) {
@@ -72,8 +92,8 @@ MeasuringGrid gridOf(const GridArea& area, double metresPerUnit, const GridSetti
   grid.area.corner = area.corner + inU * area.u + inV * area.v;
   grid.area.u = (1 - 2 * inU) * area.u, grid.area.v = (1 - 2 * inV) * area.v;
   const double w = width - 2 * border, d = depth - 2 * border;
-  const double spacing = settings.spacing > 0 ? settings.spacing : gridSpacing(w, d);
-  grid.columns = cellsOf(w, spacing), grid.rows = cellsOf(d, spacing);
+  const auto [columns, rows] = cellsOf(w, d, settings.spacing);
+  grid.columns = columns, grid.rows = rows;
   const Vec3 up = settings.height / metresPerUnit * normal;
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
