@@ -27,7 +27,7 @@ def load(
     efficacy: float = 179.0,
     luminaires: Iterable[tuple[Path, npt.ArrayLike]] = (),
 ) -> _core.Scene:
-    """Reads a scene: one .gltf, .glb, .obj, .xml (Mitsuba) or .pbrt file, or .rad files that are read as one scene, in order.
+    """Reads a scene: one .gltf, .glb, .obj, .xml (Mitsuba) or .pbrt file, or .rad files that make one, in order.
 
     metres_per_unit: length of the unit of files; glTF is in metres, and takes none.
     efficacy: lm/W that turn a glTF scene's candela, lux and cd/m2 into watts; other formats hold watts, and take none.

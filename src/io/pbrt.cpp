@@ -39,6 +39,7 @@ class PbrtBuilder {
   ImportedScene finish() {
     if (imported_.scene.primitives.empty())
       fail({&names_.front(), 0}, inWorld_ ? "has no shape that is read" : "has no WorldBegin");
+    surfaces_.finish();
     warnOfIgnored(imported_.report);
     addAreaLights(imported_.scene);
     return std::move(imported_);
@@ -226,7 +227,7 @@ class PbrtBuilder {
     const std::string name = t.takeText("a material's name");
     Entity entity = takeEntity(t, state_, "", "material");
     entity.type = textOr(entity, "type", "");
-    surfaces_.name(name, keep(std::move(entity)));
+    surfaces_.define(name, std::move(entity));
   }
   void useNamed(Tokens& t, const Place& at) { state_.material = surfaces_.named(t.takeText("a material's name"), at); }
   void texture(Tokens& t, const Place& at) {

@@ -102,13 +102,16 @@ void addFaces(const std::vector<std::uint32_t>& corners, const Values& values, M
                     std::to_string(mesh.positions.size()));
       outline.push_back(mesh.positions[corners[at + c]]);
     }
-    bool any = false;
-    for (const auto& [a, b, c] : triangulated(outline)) {
-      if (!hasArea(outline[a], outline[b], outline[c])) continue;
-      mesh.triangles.push_back({corners[at + a], corners[at + b], corners[at + c]});
-      any = true;
-    }
-    if (!any) ++ignored["faces without area"];
+    const std::size_t before = mesh.triangles.size();
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      if (hasArea(outline[a], outline[b], outline[c]))
+        mesh.triangles.push_back({corners[at + a], corners[at + b], corners[at + c]});
+    };
+    if (count == 3)
+      add(0, 1, 2);
+    else
+      for (const auto& [a, b, c] : triangulated(outline)) add(a, b, c);
+    if (mesh.triangles.size() == before) ++ignored["faces without area"];
     at += count;
   }
 }

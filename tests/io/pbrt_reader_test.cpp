@@ -227,6 +227,8 @@ TEST(PbrtReader, NamedMaterialsAndMixturesAreFollowed) {
                           .scene;
   EXPECT_EQ(scene.primitives[0].material, scene.primitives[2].material);
   EXPECT_EQ(scene.materialOf(PrimitiveId(1)).name, "a");
+  const Scene later = read("NamedMaterial \"b\"\n" + kBall + defined).scene;
+  expectNear(std::get<Opaque>(later.materialOf(PrimitiveId(0)).surface).specular.reflectance, Rgb(0.8f));
   const Opaque mixed = opaque(defined + "Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" .25\n");
   expectNear(mixed.diffuse, Rgb(0.15f));
   expectNear(mixed.specular.reflectance, Rgb(0.2f));
@@ -503,7 +505,7 @@ TEST(PbrtReader, MistakesAreInputErrorsWithTheirLine) {
   expect("MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [\"m\" \"m\"]\nNamedMaterial \"m\"\n" +
              kBall,
          2, "without an end");
-  expect("NamedMaterial \"m\"", 2, "'m' is not defined");
+  expect("\nNamedMaterial \"m\"\n" + kBall, 3, "'m' is not defined");
   expect("Material \"diffuse\" \"rgb reflectance\" [.1 -.2 .3]\n" + kBall, 2, "negative");
   expect("Material \"diffuse\" \"spectrum reflectance\" [500 1 400 1]\n" + kBall, 2, "ascend");
   expect("Material \"dielectric\" \"float eta\" 0\n" + kBall, 2, "out of range");

@@ -26,6 +26,7 @@ struct Entity {
   std::vector<Parameter> parameters;
   Place at;
   std::shared_ptr<const Defaults> defaults = nullptr;  // null: none
+  bool isDefined = true;                               // false: `type` is the name of one that should be defined yet
 };
 
 /// Every parameter that follows. Throws InputError.

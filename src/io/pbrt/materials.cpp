@@ -133,6 +133,7 @@ Surface surfaceOf(Context& context, const Entity& m) {
 }  // namespace
 
 Material materialOf(Context& context, const NamedMaterials& named, const Entity& m, int depth) {
+  if (!m.isDefined) fail(m.at, "the material " + shown(m.type) + " is not defined");
   for (const char* map : {"normalmap", "displacement"})
     if (find(m, map)) ignore(context, map);
   if (m.type == "mix") return mixture(context, named, m, depth);

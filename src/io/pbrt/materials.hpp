@@ -6,7 +6,7 @@
 namespace deltalux::io::pbrt {
 
 /// Materials by name, for mixtures.
-using NamedMaterials = std::map<std::string, const Entity*, std::less<>>;
+using NamedMaterials = std::map<std::string, Entity*, std::less<>>;
 
 /// Throws InputError.
 Material materialOf(Context&, const NamedMaterials&, const Entity&, int depth = 0);

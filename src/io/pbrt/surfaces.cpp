@@ -25,15 +25,17 @@ std::string nameOf(const Entity& shape, std::size_t number) {
 
 }  // namespace
 
-void Surfaces::name(const std::string& material, const Entity* entity) {
-  named_[material] = entity;
-  names_[entity] = material;
+void Surfaces::define(const std::string& material, Entity entity) {
+  Entity*& known = named_[material];
+  if (!known || known->isDefined) known = &definitions_.emplace_back();  // earlier shapes keep an earlier definition
+  *known = std::move(entity);
+  names_[known] = material;
 }
 
-const Entity* Surfaces::named(const std::string& material, const Place& at) const {
-  const auto found = named_.find(material);
-  if (found == named_.end()) fail(at, "the material " + shown(material) + " is not defined");
-  return found->second;
+const Entity* Surfaces::named(const std::string& material, const Place& at) {
+  Entity*& known = named_[material];
+  if (!known) known = &definitions_.emplace_back(Entity{material, {}, at, nullptr, false});
+  return known;
 }
 
 ObjectId Surfaces::objectId(const std::string& name) {
@@ -46,22 +48,30 @@ ObjectId Surfaces::objectId(const std::string& name) {
   return known->second;
 }
 
-MaterialId Surfaces::materialFor(const State& state, const Entity* light, double alpha, double area) {
-  // Only by the light's power does it matter how large a surface is.
-  const double counted = light && find(*light, "power") ? area : 0;
-  const auto [known, isNew] =
-      made_.try_emplace({state.material, light, alpha, counted}, MaterialId(scene_.materials.size()));
-  if (!isNew) return known->second;
-  Material material = state.material ? materialOf(context_, named_, *state.material)
-                                     : Material{"default", Opaque{Rgb(0.5f), {}, {}}, {}};
-  if (const auto own = names_.find(state.material); own != names_.end()) material.name = own->second;
-  if (material.name.empty()) material.name = "material" + std::to_string(scene_.materials.size());
-  if (!std::holds_alternative<Dielectric>(material.surface)) material.coverage *= static_cast<float>(alpha);
-  if (light) material.emission = emissionOf(context_, *light, area);
-  // The lamps of an alpha of 0 are not seen, but shine.
-  if (material.emission && alpha > 0) material.emission->radiance *= static_cast<float>(alpha);
-  scene_.materials.push_back(std::move(material));
+MaterialId Surfaces::idOf(const Making& making) {
+  const auto [known, isNew] = made_.try_emplace(making, MaterialId(scene_.materials.size()));
+  if (isNew) scene_.materials.emplace_back();
   return known->second;
+}
+
+Material Surfaces::materialOf(const Making& making) {
+  Material material{"default", Opaque{Rgb(0.5f), {}, {}}, std::nullopt};
+  if (making.material) material = pbrt::materialOf(context_, named_, *making.material);
+  if (const auto own = names_.find(making.material); own != names_.end()) material.name = own->second;
+  const auto alpha = static_cast<float>(making.alpha);
+  if (!std::holds_alternative<Dielectric>(material.surface)) material.coverage *= alpha;
+  if (making.light) material.emission = emissionOf(context_, *making.light, making.area);
+  // A lamp whose alpha is 0 is not seen, but shines.
+  if (material.emission && alpha > 0) material.emission->radiance *= alpha;
+  return material;
+}
+
+void Surfaces::finish() {
+  for (const auto& [making, id] : made_) {
+    Material material = materialOf(making);
+    if (material.name.empty()) material.name = "material" + std::to_string(id.index());
+    scene_.materials[id.index()] = std::move(material);
+  }
 }
 
 void Surfaces::add(Part part, ObjectId object, const Place& at) {
@@ -91,7 +101,8 @@ void Surfaces::addShape(const Entity& e, const State& state) {
     light = nullptr;
   }
   const double alpha = std::clamp(scalarOr(context_, e, "alpha", 1), 0.0, 1.0);
-  const MaterialId material = materialFor(state, light, alpha, total);
+  const bool powered = light && find(*light, "power");  // only then it matters how large a surface is
+  const MaterialId material = idOf({state.material, light, alpha, powered ? total : 1.0});
   const ObjectId object = current_ ? ObjectId() : objectId(nameOf(e, shapes_ - 1));
   for (Shape& shape : placed) {
     if (current_)
