@@ -16,9 +16,9 @@
 
 namespace deltalux::io {
 
-namespace {
+namespace pbrt {
 
-using namespace pbrt;
+namespace {
 
 constexpr int kDeepestInclude = 16;                                  // of files within files [limit]
 constexpr std::size_t kMostFiles = 100'000, kDeepestState = 10'000;  // [limit]
@@ -262,9 +262,11 @@ class PbrtBuilder {
 
 }  // namespace
 
+}  // namespace pbrt
+
 ImportedScene readPbrt(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                        const ImportSettings& settings) {
-  PbrtBuilder builder(folder, settings);
+  pbrt::PbrtBuilder builder(folder, settings);
   builder.add(text, name);
   return builder.finish();
 }

@@ -11,9 +11,9 @@
 
 namespace deltalux::io {
 
-namespace {
+namespace ply {
 
-using namespace ply;
+namespace {
 
 constexpr double kLargest = 1e15;           // coordinate [limit]
 constexpr std::size_t kMostCorners = 1000;  // of a face [limit]
@@ -118,8 +118,11 @@ void addFaces(const std::vector<std::uint32_t>& corners, const Values& values, M
 
 }  // namespace
 
+}  // namespace ply
+
 Mesh readPly(std::string_view bytes, const std::string& file, std::map<std::string, std::size_t>& ignored) {
   std::string unpacked;
+  using namespace ply;
   if (isGzip(bytes)) bytes = unpacked = gunzip(bytes, file);
   const Header header = readHeader(bytes, file);
   Values values(bytes, header, file);

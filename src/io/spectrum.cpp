@@ -8,10 +8,9 @@ namespace deltalux::io {
 
 namespace {
 
-constexpr double kFirst = 380, kLast = 780,
-                 kStep = 5;                         // wavelengths that are seen, and steps of CIE's tables [defined]
-constexpr double kWhite = 6504;                     // correlated colour temperature of D65 [defined]
-constexpr double kSecondRadiation = 1.438776877e7;  // h c / k [nm K] [defined]
+constexpr double kFirstSeen = 380, kLastSeen = 780, kSeenStep = 5;  // nm, as in tables of the CIE [defined]
+constexpr double kWhiteKelvin = 6504;                               // correlated colour temperature of D65 [defined]
+constexpr double kSecondRadiation = 1.438776877e7;                  // h c / k [nm K] [defined]
 
 /// CIE's matching functions of 1931. [WSS13 (4)]
 glm::dvec3 matching(double wavelength) {
@@ -26,9 +25,9 @@ glm::dvec3 matching(double wavelength) {
 
 /// Up to a factor; finite for every temperature above 0.
 double planck(double wavelength, double kelvin) {
-  const double x = kSecondRadiation / (wavelength * kelvin), most = kSecondRadiation / (kLast * kelvin);
+  const double x = kSecondRadiation / (wavelength * kelvin), most = kSecondRadiation / (kLastSeen * kelvin);
   // Relative to the far end, where little is seen: neither grows beyond the numbers.
-  return std::exp(std::min(most - x, 0.0)) * std::pow(kLast / wavelength, 5) * std::expm1(-most) / std::expm1(-x);
+  return std::exp(std::min(most - x, 0.0)) * std::pow(kLastSeen / wavelength, 5) * std::expm1(-most) / std::expm1(-x);
 }
 
 /// Linear sRGB, times what white has.
@@ -36,12 +35,12 @@ glm::dvec3 integrated(const std::function<double(double)>& power) {
   // Columns of XYZ's share in red, green and blue. [IEC 61966-2-1]
   const glm::dmat3 toRgb({3.2406, -0.9689, 0.0557}, {-1.5372, 1.8758, -0.2040}, {-0.4986, 0.0415, 1.0570});
   glm::dvec3 sum(0);
-  for (double at = kFirst; at <= kLast; at += kStep) sum += power(at) * matching(at);
+  for (double at = kFirstSeen; at <= kLastSeen; at += kSeenStep) sum += power(at) * matching(at);
   return toRgb * sum;
 }
 
 glm::dvec3 relative(const std::function<double(double)>& power) {
-  static const glm::dvec3 white = integrated([](double at) { return planck(at, kWhite); });
+  static const glm::dvec3 white = integrated([](double at) { return planck(at, kWhiteKelvin); });
   return glm::max(integrated(power) / white, glm::dvec3(0));
 }
 
@@ -62,7 +61,7 @@ Rgb ofLuminanceOne(const glm::dvec3& light) {
 }  // namespace
 
 Rgb colourOfReflectance(const Spectrum& spectrum) {
-  return Rgb(relative([&](double at) { return valueAt(spectrum, at) * planck(at, kWhite); }));
+  return Rgb(relative([&](double at) { return valueAt(spectrum, at) * planck(at, kWhiteKelvin); }));
 }
 
 Rgb colourOfLight(const Spectrum& spectrum) {

@@ -8,7 +8,7 @@
 
 namespace deltalux::io::pbrt {
 
-struct Texture {
+struct NamedTexture {
   Entity definition;
   std::optional<Rgb> mean;  // once it was asked for
 };
@@ -17,8 +17,8 @@ struct Texture {
 struct Context {
   std::filesystem::path folder;  // where files are that it names
   ImportReport& report;
-  std::map<std::string, Texture, std::less<>> textures;  // "spectrum NAME" and "float NAME"
-  int textureDepth = 0;                                  // of the one that is looked at now
+  std::map<std::string, NamedTexture, std::less<>> textures;  // "spectrum NAME" and "float NAME"
+  int textureDepth = 0;                                       // of the one that is looked at now
 };
 
 void ignore(Context&, const std::string& what);

@@ -62,7 +62,7 @@ Rgb meanOfTexture(Context& context, const Parameter& parameter) {
   if (found == context.textures.end()) found = context.textures.find("float " + parameter.texts[0]);
   if (found == context.textures.end())
     fail(parameter.at, "the texture " + shown(parameter.texts[0]) + " is not defined");
-  Texture& texture = found->second;
+  NamedTexture& texture = found->second;
   if (texture.mean) return *texture.mean;
   if (context.textureDepth >= kDeepest) fail(parameter.at, "textures are made of each other without an end");
   ++context.textureDepth;
