@@ -114,7 +114,6 @@ TEST(PlyReader, GzipIsUnpacked) {
 }
 
 TEST(PlyReader, FacesOfManyCornersAndWithoutAreaAreTaken) {
-  const Ignored none;
   Ignored ignored;
   // An L of six corners, concave; a line; an edge.
   const Mesh mesh = io::readPly(
