@@ -19,7 +19,8 @@ using namespace deltalux;
 constexpr int kDone = 0, kInternal = 1, kUsage = 2, kInput = 3, kOutput = 4, kInterrupted = 130;
 
 constexpr const char* kFooter =
-    "\nSCENE is one .gltf, .glb or .obj file, or .rad files that are read as one scene, in order.\n"
+    "\nSCENE is one .gltf, .glb, .obj, .xml (Mitsuba) or .pbrt file, or .rad files that are read as one scene, in "
+    "order.\n"
     "SOLUTION is a .dlx file that solve wrote; a SCENE in its place is solved first.\n"
     "Exit codes: 0 done; 2 the command line is wrong; 3 the input is wrong; 4 output could not be written (what stood\n"
     "there before still stands); 130 interrupted.";

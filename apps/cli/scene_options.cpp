@@ -71,7 +71,7 @@ SceneStats sceneStats(const Scene& scene) {
 }
 
 void SceneOptions::add(CLI::App& app) {
-  app.add_option("SCENE", files, ".gltf, .glb, .obj or .xml (Mitsuba), or .rad files in order")
+  app.add_option("SCENE", files, ".gltf, .glb, .obj, .xml (Mitsuba) or .pbrt, or .rad files in order")
       ->required()
       ->type_name("FILE");
   app.add_option("--ies", luminaires,
@@ -97,7 +97,7 @@ void SceneOptions::add(CLI::App& app) {
           ->check(CLI::Range(0.0, 1.0))
           ->capture_default_str()};
   metresOption_ =
-      app.add_option("--metres-per-unit", import.metresPerUnit, "Length of the unit of a .rad or .obj scene");
+      app.add_option("--metres-per-unit", import.metresPerUnit, "Length of the unit of a scene, glTF aside");
   metresOption_->type_name("M")->check(CLI::PositiveNumber)->capture_default_str();
   efficacyOption_ = app.add_option("--efficacy", import.luminousEfficacy,
                                    "lm/W that turn a glTF scene's candela, lux and cd/m2 into watts");

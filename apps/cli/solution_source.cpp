@@ -86,7 +86,8 @@ void SolutionSource::add(CLI::App& app) {
   scene_.add(app);
   solve_.add(app);
   app.get_option("SCENE")->description(
-      "A solution (.dlx); or a scene, which is solved first: .gltf, .glb, .obj, or .rad files in order");
+      "A solution (.dlx); or a scene, which is solved first: .gltf, .glb, .obj, .xml (Mitsuba), .pbrt, or .rad files "
+      "in order");
   for (const char* name : sceneAndSolveOptions()) sceneOnly_.push_back(app.get_option(name));
 }
 

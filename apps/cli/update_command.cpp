@@ -187,7 +187,8 @@ void addReplayCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("replay", "Solve a scene, then apply edits one by one and say what each cost");
   const auto options = std::make_shared<UpdateOptions>();
   options->scene.add(*command);
-  command->get_option("SCENE")->description(".gltf, .glb or .obj, or .rad files in order; or a recording (.json)");
+  command->get_option("SCENE")->description(
+      ".gltf, .glb, .obj, .xml (Mitsuba) or .pbrt, or .rad files in order; or a recording (.json)");
   options->solve.add(*command);
   command->add_option("--edits", options->edits, "What to do to the scene")->type_name("E.json");
   command->add_option("--record", options->record, "Write scene, settings and edits as a recording that replays")

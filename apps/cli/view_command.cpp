@@ -106,7 +106,8 @@ void addViewCommand(CLI::App& app) {
   const auto options = std::make_shared<ViewOptions>();
   options->scene.add(*command);
   command->get_option("SCENE")->description(
-      "A scene (.gltf, .glb or .obj, or .rad files in order), a solution (.dlx), or a session (.json)");
+      "A scene (.gltf, .glb, .obj, .xml (Mitsuba) or .pbrt, or .rad files in order), a solution (.dlx), or a session "
+      "(.json)");
   options->solve.add(*command);
   command->add_option("--seconds", options->solve.settings.seconds, "Solve for about that long at most")
       ->type_name("S")

@@ -1,5 +1,6 @@
 #pragma once
-// Reading scenes. The format follows from the file name: .rad (and names without a known extension), .gltf, .glb, .obj.
+// Reading scenes. The format follows from the file name: .rad (and names without a known extension), .gltf, .glb, .obj,
+// .xml (Mitsuba), .pbrt.
 #include <deltalux/scene.hpp>
 #include <filesystem>
 #include <map>
@@ -12,7 +13,7 @@ struct ImportSettings {
   /// glTF photometric values to radiometric [lm/W]; 179 is Radiance's convention, 683 Blender's exporter. The scene
   /// keeps it. Other formats hold radiometric values, whose efficacy is 179.
   double luminousEfficacy = kLuminousEfficacy;
-  /// Metres per scene unit where the format does not say (.rad, .obj).
+  /// Metres per scene unit where the format does not say (all but glTF).
   double metresPerUnit = 1.0;
 };
 

@@ -27,9 +27,9 @@ def load(
     efficacy: float = 179.0,
     luminaires: Iterable[tuple[Path, npt.ArrayLike]] = (),
 ) -> _core.Scene:
-    """Reads a scene: one .gltf, .glb or .obj file, or .rad files that are read as one scene, in order.
+    """Reads a scene: one .gltf, .glb, .obj, .xml (Mitsuba) or .pbrt file, or .rad files that make one, in order.
 
-    metres_per_unit: length of the unit of .rad and .obj files; glTF is in metres, and takes none.
+    metres_per_unit: length of the unit of files; glTF is in metres, and takes none.
     efficacy: lm/W that turn a glTF scene's candela, lux and cd/m2 into watts; other formats hold watts, and take none.
     luminaires: (file, (x, y, z)) each: IES LM-63 lights, hung there and aimed against the scene's up.
 

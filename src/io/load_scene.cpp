@@ -7,6 +7,7 @@
 #include "io/lower_case.hpp"
 #include "io/mitsuba.hpp"
 #include "io/obj.hpp"
+#include "io/pbrt.hpp"
 #include "io/radiance.hpp"
 
 namespace deltalux::io {
@@ -19,7 +20,8 @@ std::string extensionOf(const fs::path& file) { return lowerCase(file.extension(
 
 bool isOtherFormat(const fs::path& file) {
   const std::string extension = extensionOf(file);
-  return extension == ".gltf" || extension == ".glb" || extension == ".obj" || extension == ".xml";
+  return extension == ".gltf" || extension == ".glb" || extension == ".obj" || extension == ".xml" ||
+         extension == ".pbrt";
 }
 
 ImportedScene readFiles(const std::vector<fs::path>& files, const ImportSettings& settings) {
@@ -31,6 +33,7 @@ ImportedScene readFiles(const std::vector<fs::path>& files, const ImportSettings
   }
   const std::string extension = extensionOf(*other);
   if (extension == ".xml") return loadMitsuba(*other, settings);
+  if (extension == ".pbrt") return loadPbrt(*other, settings);
   return extension == ".obj" ? loadObj(*other, settings) : loadGltf(*other, settings);
 }
 
@@ -41,7 +44,7 @@ ImportedScene readFiles(const std::vector<fs::path>& files, const ImportSettings
 namespace deltalux {
 
 ImportedScene loadScene(const std::vector<std::filesystem::path>& files, const ImportSettings& settings) {
-  if (files.empty()) throw InputError("", 0, "no scene is given", "name a .rad, .gltf, .glb, .obj or .xml file");
+  if (files.empty()) throw InputError("", 0, "no scene is given", "name a .rad, .gltf, .glb, .obj, .xml or .pbrt file");
   if (!(settings.metresPerUnit > 0) || !(settings.luminousEfficacy > 0)) {
     throw InputError(files[0].string(), 0, "metres per unit and luminous efficacy must be greater than zero");
   }

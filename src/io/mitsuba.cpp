@@ -9,6 +9,8 @@
 #include "io/import_file.hpp"
 #include "io/import_report.hpp"
 #include "io/mitsuba/shapes.hpp"
+#include "io/nearest_axis.hpp"
+#include "io/turned_over.hpp"
 
 namespace deltalux::io {
 
@@ -125,12 +127,7 @@ class MitsubaBuilder {
     const auto degrees = [](double t) { return 2 * glm::degrees(std::atan(t)); };
     view.horizontal = across ? fov : degrees(tangent * width / height);
     view.vertical = across ? degrees(tangent * height / width) : fov;
-    if (scene().views.empty()) {
-      const Vec3 up = glm::abs(glm::normalize(view.up));
-      const int most = up.x > up.y ? (up.x > up.z ? 0 : 2) : (up.y >= up.z ? 1 : 2);
-      scene().up = Vec3(0);
-      scene().up[most] = view.up[most] < 0 ? -1 : 1;
-    }
+    if (scene().views.empty()) scene().up = nearestAxis(view.up);
     scene().views.push_back(std::move(view));
   }
 

@@ -1,11 +1,10 @@
 #pragma once
 // Scenes of Mitsuba 3 (and of older ones, whose names in camelCase mean the same), in XML. [Mitsuba]
 //
-// Shapes: obj, rectangle, cube, sphere, cylinder, disk, shapegroup and instance. Materials: diffuse, plastic and
+// Shapes: obj, ply, rectangle, cube, sphere, cylinder, disk, shapegroup and instance. Materials: diffuse, plastic and
 // conductors, rough or not, dielectric and thindielectric, principled, twosided, mask. Emitters: area, point, spot,
-// directional, constant. Sensors: perspective. Textures and environment maps count with their mean, spectra as gray.
-// All else is counted. Radiance and intensity are W/(sr m2) and W/sr, as numbers stand there. What is up, the first
-// sensor says.
+// directional, constant. Sensors: perspective. Textures count with their mean, spectra as gray. All else is counted.
+// Radiance and intensity are W/(sr m2) and W/sr, as numbers stand there. What is up, the first sensor says.
 #include <deltalux/io.hpp>
 #include <filesystem>
 #include <string>

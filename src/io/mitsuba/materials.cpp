@@ -4,9 +4,9 @@
 #include <cmath>
 #include <deltalux/error.hpp>
 
-#include "base/tuning.hpp"
 #include "io/image/formats.hpp"
 #include "io/import_file.hpp"
+#include "io/import_material.hpp"
 #include "io/import_texture.hpp"
 #include "io/lower_case.hpp"
 
@@ -15,16 +15,6 @@ namespace deltalux::io::mitsuba {
 namespace {
 
 constexpr int kDeepestBsdf = 16;  // of bsdfs within bsdfs [limit]
-
-/// Reflectances at normal incidence of metals that scenes name.
-std::optional<Rgb> reflectanceOfMetal(const std::string& name) {
-  static const std::map<std::string, Rgb> kMetals{{"none", Rgb(1.0f)},           {"al", {0.91f, 0.92f, 0.92f}},
-                                                  {"ag", {0.97f, 0.96f, 0.91f}}, {"au", {1.0f, 0.77f, 0.34f}},
-                                                  {"cu", {0.95f, 0.64f, 0.54f}}, {"cr", {0.55f, 0.56f, 0.55f}},
-                                                  {"w", {0.50f, 0.51f, 0.54f}},  {"ir", {0.72f, 0.70f, 0.66f}}};
-  const auto found = kMetals.find(name);
-  return found == kMetals.end() ? std::nullopt : std::optional(found->second);
-}
 
 double indexOf(const Properties& p, std::string_view name, double otherwise) {
   static const std::map<std::string, double> kNamed{{"vacuum", 1.0},   {"air", 1.000277},       {"water", 1.333},
@@ -44,39 +34,33 @@ float relativeIndex(const Properties& p, double inside) {
   return static_cast<float>(index);
 }
 
-Rgb clamped(const Rgb& colour) { return glm::clamp(colour, Rgb(0.0f), Rgb(1.0f)); }
-
-SpecularLobe lobeOf(const Properties& p, const Rgb& reflectance, bool rough) {
-  const double alpha = !rough             ? 0
-                       : p.named("alpha") ? p.number("alpha", 0.1)
-                                          : 0.5 * (p.number("alpha_u", 0.1) + p.number("alpha_v", 0.1));
-  const auto width = static_cast<float>(std::clamp(alpha, 0.0, 1.0));
-  return {clamped(reflectance), width < deltalux::tuning::kNegligible ? 0.0f : width, SpecularLobe::Distribution::Ggx};
+double alphaOf(const Properties& p, bool rough) {
+  if (!rough) return 0;
+  return p.named("alpha") ? p.number("alpha", 0.1) : 0.5 * (p.number("alpha_u", 0.1) + p.number("alpha_v", 0.1));
 }
 
 Opaque conductor(const Context& context, const Properties& p, bool rough) {
   Rgb reflectance(1.0f);
   if (p.named("eta") || p.named("k")) {
-    const Rgb n = colourOf(context, p, "eta", Rgb(0.0f)), k = colourOf(context, p, "k", Rgb(1.0f));
-    reflectance = ((n - 1.0f) * (n - 1.0f) + k * k) / ((n + 1.0f) * (n + 1.0f) + k * k);
+    reflectance = reflectanceOfConductor(colourOf(context, p, "eta", Rgb(0.0f)), colourOf(context, p, "k", Rgb(1.0f)));
   } else if (const auto name = p.word("material")) {
-    const auto known = reflectanceOfMetal(lowerCase(*name));
+    const auto known = reflectanceOfMetal(*name);
     if (!known) ++context.report.ignored["metals not known (copper instead)"];
     reflectance = known.value_or(*reflectanceOfMetal("cu"));
   } else {
     reflectance = *reflectanceOfMetal("cu");  // Mitsuba's own default
   }
-  return {Rgb(0.0f), {}, lobeOf(p, reflectance * colourOf(context, p, "specular_reflectance", Rgb(1.0f)), rough)};
+  return {
+      Rgb(0.0f), {}, ggxLobe(reflectance * colourOf(context, p, "specular_reflectance", Rgb(1.0f)), alphaOf(p, rough))};
 }
 
 Opaque plastic(const Context& context, const Properties& p, bool rough) {
-  const float index = relativeIndex(p, 1.49), root = (index - 1) / (index + 1), f0 = root * root;
-  const Rgb gloss = clamped(f0 * colourOf(context, p, "specular_reflectance", Rgb(1.0f)));
-  return {(1 - f0) * clamped(colourOf(context, p, "diffuse_reflectance", Rgb(0.5f))), {}, lobeOf(p, gloss, rough)};
+  return coatedDiffuse(colourOf(context, p, "diffuse_reflectance", Rgb(0.5f)), relativeIndex(p, 1.49),
+                       colourOf(context, p, "specular_reflectance", Rgb(1.0f)), alphaOf(p, rough));
 }
 
 Surface principled(const Context& context, const Properties& p) {
-  const Rgb base = clamped(colourOf(context, p, "base_color", Rgb(0.5f)));
+  const Rgb base = asReflectance(colourOf(context, p, "base_color", Rgb(0.5f)));
   const auto share = [&](const char* name, double otherwise) {
     return static_cast<float>(std::clamp(p.number(name, otherwise), 0.0, 1.0));
   };
@@ -138,13 +122,13 @@ Material materialOf(const Context& context, const XmlElement& bsdf, int depth) {
       type == "coating") {
     material = inner();
     if (type == "mask") {
-      const float opacity = clamped(colourOf(context, p, "opacity", Rgb(0.5f))).g;
+      const float opacity = asReflectance(colourOf(context, p, "opacity", Rgb(0.5f))).g;
       if (!std::holds_alternative<Dielectric>(material.surface)) material.coverage = opacity;
     } else if (type != "twosided") {
       ++context.report.ignored[type];
     }
   } else if (type == "diffuse" || type == "roughdiffuse") {
-    material.surface = Opaque{clamped(colourOf(context, p, "reflectance", Rgb(0.5f))), {}, {}};
+    material.surface = Opaque{asReflectance(colourOf(context, p, "reflectance", Rgb(0.5f))), {}, {}};
   } else if (type == "conductor" || type == "roughconductor") {
     material.surface = conductor(context, p, type == "roughconductor");
   } else if (type == "plastic" || type == "roughplastic" || type == "phong" || type == "ward") {

@@ -1,9 +1,9 @@
 #include "io/mitsuba/shapes.hpp"
 
-#include <algorithm>
-
 #include "io/import_file.hpp"
 #include "io/obj.hpp"
+#include "io/planar_faces.hpp"
+#include "io/ply.hpp"
 
 namespace deltalux::io::mitsuba {
 
@@ -24,16 +24,28 @@ std::vector<Shape> cube() {
   return faces;
 }
 
-std::vector<Shape> objFile(const Context& context, const Properties& p) {
+std::filesystem::path fileOf(const Context& context, const Properties& p) {
   const auto file = p.word("filename");
   if (!file) p.fail(p.element(), "names no file");
-  const auto path = resolveReference(*file, context.folder, context.file, p.element().line, false);
+  return resolveReference(*file, context.folder, context.file, p.element().line, false);
+}
+
+std::vector<Shape> objFile(const Context& context, const Properties& p) {
+  const auto path = fileOf(context, p);
   std::vector<Shape> shapes;
   for (Primitive& primitive : readObj(readInputFile(path), path.string(), path.parent_path(), {}).scene.primitives) {
     if (auto* mesh = std::get_if<Mesh>(&primitive.shape)) mesh->texcoords.clear();
     shapes.push_back(std::move(primitive.shape));
   }
   return shapes;
+}
+
+std::vector<Shape> plyFile(const Context& context, const Properties& p) {
+  const auto path = fileOf(context, p);
+  Mesh mesh = readPly(readInputFile(path), path.string(), context.report.ignored);
+  mesh.texcoords.clear();
+  if (p.flag("face_normals", false)) mesh.normals.clear();
+  return mesh.triangles.empty() ? std::vector<Shape>{} : planarFaces(std::move(mesh));
 }
 
 }  // namespace
@@ -55,32 +67,8 @@ std::optional<std::vector<Shape>> shapesOf(const Context& context, const Propert
     return std::vector<Shape>{Cylinder{p0, p1, positive(p.number("radius", 1)), false}};
   }
   if (type == "obj") return objFile(context, p);
+  if (type == "ply") return plyFile(context, p);
   return std::nullopt;
-}
-
-Shape turnedOver(const Shape& shape) {
-  Shape result = shape;
-  if (auto* polygon = std::get_if<Polygon>(&result)) {
-    std::vector<Vec3> vertices = polygon->vertices;
-    std::ranges::reverse(vertices);
-    if (auto turned = makePolygon(vertices)) *polygon = std::move(*turned);
-  } else if (auto* mesh = std::get_if<Mesh>(&result)) {
-    auto triangles = mesh->triangles;
-    for (auto& t : triangles) std::swap(t[1], t[2]);
-    std::vector<Vec3> normals = mesh->normals;
-    for (Vec3& n : normals) n = -n;
-    if (auto turned = makeMesh(mesh->positions, std::move(triangles), std::move(normals), mesh->texcoords))
-      *mesh = std::move(*turned);
-  } else if (auto* ring = std::get_if<Ring>(&result)) {
-    ring->normal = -ring->normal;
-  } else {
-    std::visit(
-        [](auto& s) {
-          if constexpr (requires { s.inward; }) s.inward = !s.inward;
-        },
-        result);
-  }
-  return result;
 }
 
 }  // namespace deltalux::io::mitsuba

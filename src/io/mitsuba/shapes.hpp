@@ -8,7 +8,5 @@ namespace deltalux::io::mitsuba {
 
 /// Before to_world; nullopt for a kind that is not read. Throws InputError.
 std::optional<std::vector<Shape>> shapesOf(const Context&, const Properties&);
-/// The same with front and back changed.
-Shape turnedOver(const Shape&);
 
 }  // namespace deltalux::io::mitsuba

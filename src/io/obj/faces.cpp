@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/triangulated.hpp"
 #include "scene/hole_winding.hpp"
 
 namespace deltalux::io {
@@ -10,7 +11,6 @@ namespace deltalux::io {
 namespace {
 
 using Face = std::vector<ObjCorner>;
-using CornerTriangle = std::array<std::size_t, 3>;  // corners of a face
 
 Face withoutRepetitions(const Face& face, const ObjVertices& vertices) {
   Face kept;
@@ -24,33 +24,15 @@ Face withoutRepetitions(const Face& face, const ObjVertices& vertices) {
   return kept;
 }
 
+std::vector<Vec3> outlineOf(const Face& face, const ObjVertices& vertices) {
+  std::vector<Vec3> outline;
+  for (const ObjCorner& corner : face) outline.push_back(vertices.positions[static_cast<std::size_t>(corner.position)]);
+  return outline;
+}
+
 // Holes joined by seams turned as triangles need them.
 Face withHolesWound(const Face& face, const ObjVertices& vertices) {
-  std::vector<Vec3> outline;
-  for (const ObjCorner& corner : face) outline.push_back(vertices.positions[static_cast<std::size_t>(corner.position)]);
-  return scene::inOrder(face, scene::windingOrder(outline));
-}
-
-std::vector<CornerTriangle> fan(std::size_t corners) {
-  std::vector<CornerTriangle> triangles;
-  for (std::size_t i = 1; i + 1 < corners; ++i) triangles.push_back({0, i, i + 1});
-  return triangles;
-}
-
-std::vector<CornerTriangle> triangulated(const Face& face, const ObjVertices& vertices) {
-  if (face.size() <= 3) return fan(face.size());
-  std::vector<Vec3> outline;
-  for (const ObjCorner& corner : face) outline.push_back(vertices.positions[static_cast<std::size_t>(corner.position)]);
-  const auto polygon = makePolygon(std::move(outline));
-  if (!polygon || polygon->vertices.size() != face.size()) return fan(face.size());
-  std::vector<CornerTriangle> triangles;
-  for (const auto& [a, b, c] : polygon->triangles) triangles.push_back({a, b, c});
-  return triangles;
-}
-
-bool hasArea(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double area = glm::length(glm::cross(b - a, c - a)), longest = std::max(glm::length(b - a), glm::length(c - a));
-  return area > 1e-12 * longest * longest && area > 1e-300;
+  return scene::inOrder(face, scene::windingOrder(outlineOf(face, vertices)));
 }
 
 // Puts corners into a mesh, equal ones once.
@@ -99,13 +81,10 @@ Mesh meshOf(const ObjVertices& vertices, const std::vector<Face>& faces, bool te
   for (const Face& given : faces) {
     const Face face = withHolesWound(withoutRepetitions(given, vertices), vertices);
     bool any = false;
-    for (const CornerTriangle& triangle : triangulated(face, vertices)) {
-      const auto at = [&](std::size_t i) {
-        return vertices.positions[static_cast<std::size_t>(face[triangle[i]].position)];
-      };
-      if (!hasArea(at(0), at(1), at(2))) continue;
-      mesh.triangles.push_back(
-          {table.put(face[triangle[0]]), table.put(face[triangle[1]]), table.put(face[triangle[2]])});
+    const std::vector<Vec3> outline = outlineOf(face, vertices);
+    for (const auto& [a, b, c] : triangulated(outline)) {
+      if (!hasArea(outline[a], outline[b], outline[c])) continue;
+      mesh.triangles.push_back({table.put(face[a]), table.put(face[b]), table.put(face[c])});
       any = true;
     }
     if (!any) ++ignored["faces without area"];
