@@ -26,7 +26,7 @@ namespace {
 
 constexpr const char* kColumns = "figure,picture,step,seconds,solve_seconds,particles_retraced,particles_total";
 constexpr int kFrames = 4;
-constexpr int kWidth = 400, kHeight = 320;
+constexpr int kWidth = 400, kHeight = 320, kSamples = 64;
 
 class Figure {
  public:
@@ -66,7 +66,7 @@ class Figure {
  private:
   void picture(const std::string& step, double seconds, const StepReport& report) {
     RenderSettings settings;
-    settings.width = kWidth, settings.height = kHeight;
+    settings.width = kWidth, settings.height = kHeight, settings.samplesPerPixel = kSamples;
     ToneMapping mapping;
     mapping.ev = ev_;
     saveImage(folder_ / fmt::format("{}-{}.png", name_, count_), render(engine_.solution(), view_, settings), mapping);
