@@ -9,7 +9,8 @@
 // is no darkening at edges; slopes are limited by what the surrounding leaves differ, so there is no overshoot. Leaves
 // blend across polygons that lie in one plane, and across a mesh's triangles where it is smooth; never across creases
 // or sides. Two leaves that disagree, with something standing between them, do not blend: no light leaks under a wall
-// that stands on a floor. All of that is decided once per pair of leaves, none of it per query.
+// that stands on a floor. Nor do the floor and the bottom of a closed box, as it is seen from inside. All of that is
+// decided once per pair of leaves, none of it per query.
 //
 // Leaves gather by rays of their own, so neighbours differ by chance, in colour too, which an eye sees as blotches.
 // What indirect light of joined leaves differs by less than the error that was asked for, or than the rays of their own
@@ -56,7 +57,7 @@ class IrradianceField {
   /// Whether something stands on or cuts through the leaf, or between it and its neighbours.
   bool torn(hierarchy::ElementId leaf) const {
     const std::uint32_t i = sites_.of(leaf);
-    return torn_[i] < begin_[i + 1];
+    return torn_[i] < apart_[i];
   }
   /// How many fields this one took over from, one after the other; and in which of them what is read in a leaf last
   /// changed, or could have.
@@ -78,7 +79,7 @@ class IrradianceField {
   }
   /// The sites that blend at points of one, itself first; those with something in between come last.
   std::span<const std::uint32_t> blended(std::size_t site) const {
-    return std::span(neighbours_).subspan(begin_[site], begin_[site + 1] - begin_[site]);
+    return std::span(neighbours_).subspan(begin_[site], apart_[site] - begin_[site]);
   }
   std::size_t blendedFreely(std::size_t site) const { return torn_[site] - begin_[site]; }
 
@@ -96,6 +97,8 @@ class IrradianceField {
   enum Stage { Gathered, Filled, Mended, WithoutOutliers, Quiet, kStages = Quiet + tuning::kQuietPasses };
 
   void relate(const IrradianceField* before);
+  /// Whether no light at all comes to one of two surfaces: the inside of what stands flush on the other.
+  bool oneIsHollow(std::size_t home, std::size_t other) const;
   bool disagreeing(std::size_t home, std::size_t other) const;
   /// Whether `center` of a leaf can be seen from `p` of the same surface, a little above it.
   bool inSight(const Vec3f& p, hierarchy::ElementId home, hierarchy::ElementId other) const;
@@ -133,8 +136,8 @@ class IrradianceField {
   LeafSites sites_;
   std::vector<float> coverage_;  // by site: how much of the leaf light can reach (ElementGeometry::exposed)
   // Per site, those that may take part at its points: itself, the joined ones, then from torn_ on those with something
-  // in between.
-  std::vector<std::uint32_t> begin_, torn_, neighbours_;
+  // in between; from apart_ on those that take no part, as one of the two is hollow.
+  std::vector<std::uint32_t> begin_, torn_, apart_, neighbours_;
   std::vector<Sight> sights_;   // of pairs that are near
   std::vector<float> exposed_;  // by site, of torn leaves; negative: not asked
   std::vector<char> related_;   // by site: whether other neighbours take part than before, or rays may differ

@@ -240,6 +240,21 @@ TEST(IrradianceField, JoinsPolygonsOfOnePlaneAndNoOthers) {
   EXPECT_NEAR(reader.at(PrimitiveId(3), {0.41, 0.5, 0.02}).g, 100.0f, 1e-3);
 }
 
+/// The bottom of a closed box on a floor, seen from inside, lies in the floor's plane and faces the same way.
+TEST(IrradianceField, DoesNotBlendWithTheInsideOfWhatStandsFlush) {
+  MeshScene mesh({square(0, 0), polygon({{0.4, 0.4, 0}, {0.4, 0.6, 0}, {0.6, 0.6, 0}, {0.6, 0.4, 0}})});
+  mesh.splitIrregularly(1, 3, 16);
+  const auto primitive = [&](hierarchy::ElementId e) { return mesh.elements.domain[e.index()].primitive.value; };
+  mesh.light([&](const Vec3f& c, hierarchy::ElementId e) { return primitive(e) == 0 ? linear(c) : Rgb(0.0f); });
+  const FieldReader reader{mesh};
+  Rng rng(17);
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 p(rng.uniform(), rng.uniform(), 0);
+    EXPECT_LT(largestDifference(reader.at(PrimitiveId(0), p), linear(Vec3f(p))), 0.01f);
+  }
+  EXPECT_EQ(reader.at(PrimitiveId(1), {0.5, 0.5, 0}, false), Rgb(0.0f));
+}
+
 TEST(IrradianceField, KeepsTheSidesOfASurfaceApart) {
   MeshScene mesh({square(0, 0)});
   mesh.splitIrregularly(3, 4, 13);
