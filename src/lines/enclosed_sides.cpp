@@ -53,31 +53,72 @@ class LightSearch {
   }
 
  private:
+  /// How far walks go: narrow hollows are told by it.
+  struct Lengths {
+    double sum = 0;
+    int steps = 0;
+
+    double width() const { return steps > 0 ? sum / steps : 0; }
+  };
+
   bool encloses(hierarchy::ElementId side, double hollow, LightWalks& walks, std::uint64_t& rays) const {
     const hierarchy::LeafSequence points(elements_, scene_, side);
-    double length = 0;
-    int steps = 0;
-    for (int walk = 0; walk < tuning::kWalks; ++walk) {
-      Rng random(combineKeys(points.key(), kWalkKey), static_cast<std::uint64_t>(walk));
-      hierarchy::PatchPoint x = points.point(static_cast<std::uint32_t>(walk));
-      for (int bounce = 0; bounce < tuning::kBounces; ++bounce) {
-        if (sees(x, random, walks, rays)) return false;
-        const double u = random.uniform(), v = random.uniform();
-        const Vec3f w(cosineDirection(Frame(Vec3(x.normal)), u, v));
-        const LineEnd end = tracer_.follow(x.position, x.normal, w, Rng(random.bits()), &walks.steps);
-        ++rays;
-        if (end.termination == LineTermination::Escaped && outside_) return false;
-        if (end.termination != LineTermination::Ended) break;
-        length += end.turned ? 0 : end.distance, ++steps;
-        if (steps >= tuning::kFirstSteps && !(length < hollow * steps)) return false;
-        const Material& material = scene_.materialOf(end.side.primitive);
-        if (sendsLight(material) && (end.side.front || material.emission->bothSides)) return false;
-        const bool through = !isBlack(diffuseTransmittance(material)) && random.uniform() < 0.5;
-        x = {end.position, through ? -end.normal : end.normal};
-      }
-    }
+    Lengths lengths;
+    for (int walk = 0; walk < tuning::kWalks; ++walk)
+      if (findsLight(points, walk, 0, hollow, lengths, walks, rays)) return false;
     const double width = std::sqrt(double(elements_.shape(side).area));
-    return steps > 0 && length < hollow * steps && width * steps < tuning::kWidestHollow * length;
+    if (lengths.steps == 0 || !(lengths.width() < hollow && width < tuning::kWidestHollow * lengths.width()))
+      return false;
+    // Most of a rounded edge or a ball may lie inside of what it rounds: walks from where something far is seen.
+    Lengths far;  // first steps are chosen for going far, and tell nothing
+    for (int walk = 0; walk < tuning::kWalks; ++walk)
+      if (findsLight(points, farthest(points, walk + 1, walks, rays), 1, hollow, far, walks, rays)) return false;
+    return far.width() < hollow;
+  }
+
+  Rng randomOf(const hierarchy::LeafSequence& points, int walk) const {
+    return Rng(combineKeys(points.key(), kWalkKey), static_cast<std::uint64_t>(walk));
+  }
+  LineEnd step(const hierarchy::PatchPoint& x, Rng& random, LightWalks& walks, std::uint64_t& rays) const {
+    const double u = random.uniform(), v = random.uniform();
+    const Vec3f w(cosineDirection(Frame(Vec3(x.normal)), u, v));
+    ++rays;
+    return tracer_.follow(x.position, x.normal, w, Rng(random.bits()), &walks.steps);
+  }
+
+  /// Of kFirstSteps walks in a row, the one whose first step goes farthest.
+  int farthest(const hierarchy::LeafSequence& points, int row, LightWalks& walks, std::uint64_t& rays) const {
+    int best = row * tuning::kFirstSteps;
+    double most = -1;
+    for (int walk = best; walk < (row + 1) * tuning::kFirstSteps; ++walk) {
+      Rng random = randomOf(points, walk);
+      const LineEnd end = step(points.point(static_cast<std::uint32_t>(walk)), random, walks, rays);
+      const double distance = end.termination == LineTermination::Escaped ? kInfinity
+                              : end.termination == LineTermination::Ended ? double(end.distance)
+                                                                          : 0;
+      if (distance > most) most = distance, best = walk;
+    }
+    return best;
+  }
+
+  /// A walk finds light, or room enough for it: by the lengths of its steps from the one numbered `counted` on.
+  bool findsLight(const hierarchy::LeafSequence& points, int walk, int counted, double hollow, Lengths& lengths,
+                  LightWalks& walks, std::uint64_t& rays) const {
+    Rng random = randomOf(points, walk);
+    hierarchy::PatchPoint x = points.point(static_cast<std::uint32_t>(walk));
+    for (int bounce = 0; bounce < tuning::kBounces; ++bounce) {
+      const LineEnd end = step(x, random, walks, rays);
+      if (sees(x, random, walks, rays)) return true;
+      if (end.termination == LineTermination::Escaped && outside_) return true;
+      if (end.termination != LineTermination::Ended) return false;
+      if (bounce >= counted) lengths.sum += end.turned ? 0 : end.distance, ++lengths.steps;
+      if (lengths.steps >= tuning::kFirstSteps && !(lengths.width() < hollow)) return true;
+      const Material& material = scene_.materialOf(end.side.primitive);
+      if (sendsLight(material) && (end.side.front || material.emission->bothSides)) return true;
+      const bool through = !isBlack(diffuseTransmittance(material)) && random.uniform() < 0.5;
+      x = {end.position, through ? -end.normal : end.normal};
+    }
+    return false;
   }
 
   /// A shadow ray to one of the lights that are not all around.

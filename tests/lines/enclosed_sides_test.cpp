@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <deltalux/io.hpp>
 #include <mutex>
 
 #include "change/known_samples.hpp"
 #include "hierarchy/build.hpp"
 #include "support/rooms.hpp"
+#include "support/temp_folder.hpp"
 
 namespace deltalux {
 namespace {
@@ -103,6 +105,26 @@ TEST(EnclosedSides, AreNoneOfARoomWithoutALamp) {
   const Walked x(roomWithHollows(false));
   for (std::size_t i = kRoom; i < kBox; ++i) EXPECT_FALSE(x.of(i, true).enclosed) << i;  // it is too wide
   for (std::size_t i = kBox; i < kFlat; ++i) EXPECT_TRUE(x.of(i, false).enclosed) << i;
+}
+
+/// An edge shows a quarter of its cylinder, a corner an eighth of its ball; all else of them lies inside.
+TEST(EnclosedSides, AreNoneOfARoundedBoxSeenFromOutside) {
+  const TempFolder folder;
+  const std::filesystem::path file =
+      folder.write("s.rad",
+                   "void plastic white\n0\n0\n5 .6 .6 .6 0 0\n"
+                   "void light glow\n0\n0\n3 10 10 10\n"
+                   "!genbox white room 5 4 3 -i\n"
+                   "glow sphere lamp\n0\n0\n4 2 2 2.8 .05\n"
+                   "!genbox white cushion .62 .4 .14 -r .06 | xform -t 1 1 .5 -a 4 -t .9 0 0 -a 2 -t 0 1 .3\n");
+  const Walked x(loadScene({file}).scene);
+  int rounded = 0;
+  for (std::size_t i = 0; i < x.scene.primitives.size(); ++i) {
+    if (std::holds_alternative<Polygon>(x.scene.primitives[i].shape)) continue;
+    ++rounded;
+    EXPECT_FALSE(x.of(i, true).enclosed) << i;
+  }
+  EXPECT_EQ(rounded, 8 * 20 + 1);
 }
 
 TEST(EnclosedSides, OpenWithTheHollow) {
