@@ -206,6 +206,7 @@ async function start() {
   drawing.draw({ ...state }, 0);  // mirrors follow
   byId('message').remove();
   performance.mark('first-picture');
+  drawing.smoothEdges();
 
   panel = new Panel(byId('panel'), header, state, hands);
   showLegend();
