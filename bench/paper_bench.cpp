@@ -76,8 +76,9 @@ int follow(const std::vector<std::string>& words) {
     table.row("links visited", static_cast<double>(step.linksVisited), "");
     table.row("links changed", static_cast<double>(step.linksChanged), "");
     table.row("particles emitted again", static_cast<double>(step.particlesRetraced), "");
-    table.row("of all", 100.0 * static_cast<double>(step.particlesRetraced) / static_cast<double>(step.particlesTotal),
-              "%");
+    if (step.particlesTotal > 0)
+      table.row("of all",
+                100.0 * static_cast<double>(step.particlesRetraced) / static_cast<double>(step.particlesTotal), "%");
     table.row("octree", static_cast<double>(engine.solution().report().memory.octree), "bytes");
     table.row("residue of the ledger", 100 * test::residue(engine.balance()), "%");
     const Engine fresh = test::solved(engine.solution().scene(), error, SolveMethod::Paper);

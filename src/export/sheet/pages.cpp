@@ -154,9 +154,9 @@ class Layout {
       count += type.count, flux += type.count * type.flux;
       if (type.watts) watts += type.count * *type.watts, known += type.count;
     }
-    if (sheet_.luminaires.empty()) text(0, "There are none: all light is daylight."), y_ += kRow;
     y_ += 4;
-    std::string sum = fmt::format("{} luminaires, {:.0f} lm", count, flux);
+    std::string sum = count > 0 ? fmt::format("{} luminaires, {:.0f} lm", count, flux)
+                                : "No luminaires: what light there is comes from sun and sky.";
     if (known == count && count > 0) sum += fmt::format(", {:.0f} W, {:.0f} lm/W", watts, watts > 0 ? flux / watts : 0);
     if (known < count && known > 0) sum += fmt::format("; {:.0f} W of those {} whose power is known", watts, known);
     text(0, sum, {9, kBlack, true});
