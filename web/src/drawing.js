@@ -42,6 +42,20 @@ export function unpackMesh({ header, section }) {
   return { positions, triangles, materials, bends, uvs: header.sections.uvs ? section('uvs', Float32Array) : null };
 }
 
+const indicesOfAPart = 3 * 4096;
+
+function sphereAbout(positions, vertices) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (const v of vertices)
+    for (let c = 0; c < 3; ++c) {
+      const x = positions[3 * v + c];
+      if (x < low[c]) low[c] = x;
+      if (x > high[c]) high[c] = x;
+    }
+  const box = new THREE.Box3(new THREE.Vector3(...low), new THREE.Vector3(...high));
+  return box.getBoundingSphere(new THREE.Sphere());
+}
+
 export class Drawing {
   constructor(payload, mesh, relight, canvasParent) {
     const { header } = payload;
@@ -88,34 +102,50 @@ export class Drawing {
     });
   }
 
+  /** Parts are drawn where they are in sight. */
   add(geometry, material, order) {
     const object = new THREE.Mesh(geometry, material);
-    object.frustumCulled = false;
+    object.frustumCulled = geometry.boundingSphere !== null;
     object.matrixAutoUpdate = false;
     object.renderOrder = order;
     this.world.add(object);
     return object;
   }
 
-  addDraw(draw) {
-    const geometry = new THREE.BufferGeometry();
+  /** Triangles that stand together, with the sphere that they lie in. */
+  part(first, count) {
+    const geometry = new THREE.BufferGeometry(), triangles = this.mesh.triangles.subarray(first, first + count);
     for (const [name, attribute] of Object.entries(this.attributes)) geometry.setAttribute(name, attribute);
-    geometry.setIndex(new THREE.BufferAttribute(this.mesh.triangles.subarray(draw.first, draw.first + draw.count), 1));
+    geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
+    geometry.boundingSphere = sphereAbout(this.mesh.positions, triangles);
+    return geometry;
+  }
+
+  addDraw(draw) {
+    if (draw.kind === 'mirror') return this.addMirror(this.part(draw.first, draw.count), draw);
+    const layers = this.layersOf(draw);
+    for (let i = 0; i < draw.count; i += indicesOfAPart) {
+      const geometry = this.part(draw.first + i, Math.min(indicesOfAPart, draw.count - i));
+      for (const { material, order, pane } of layers) this.add(geometry, material, order).userData.pane = pane;
+    }
+  }
+
+  /** What is drawn of a surface, one over the other. `pane`: not where irradiance is shown. */
+  layersOf(draw) {
     const textured = draw.texture >= 0 ? ['TEXTURED'] : [];
     const image = draw.texture >= 0 ? { image: { value: this.image(draw.texture) } } : {};
     const over = { depthWrite: false, transparent: true, blending: THREE.CustomBlending, blendEquation: THREE.AddEquation };
     const added = { ...over, blendSrc: THREE.OneFactor, blendDst: THREE.OneFactor };
-    if (draw.kind === 'opaque') this.add(geometry, this.shader(textured, {}, image), 0);
-    if (draw.kind === 'mirror') this.addMirror(geometry, draw);
+    if (draw.kind === 'opaque') return [{ material: this.shader(textured, {}, image), order: 0 }];
     if (draw.kind === 'behind')
-      this.add(geometry, this.shader(['BEHIND'], { ...added, ...overSurface, side: THREE.BackSide }), 1);
-    if (draw.kind === 'pane') {
-      const passes = { transmissivity: { value: new THREE.Vector3().fromArray(draw.transmissivity) }, index: { value: draw.index } };
-      this.add(geometry, this.shader(['PASSES'], { ...over, blendSrc: THREE.ZeroFactor, blendDst: THREE.SrcColorFactor,
-        blendSrcAlpha: THREE.ZeroFactor, blendDstAlpha: THREE.OneFactor }, passes), 3);
+      return [{ material: this.shader(['BEHIND'], { ...added, ...overSurface, side: THREE.BackSide }), order: 1 }];
+    const passes = { transmissivity: { value: new THREE.Vector3().fromArray(draw.transmissivity) }, index: { value: draw.index } };
+    return [
+      { material: this.shader(['PASSES'], { ...over, blendSrc: THREE.ZeroFactor, blendDst: THREE.SrcColorFactor,
+        blendSrcAlpha: THREE.ZeroFactor, blendDstAlpha: THREE.OneFactor }, passes), order: 3 },
       // What it reflects or scatters itself.
-      this.add(geometry, this.shader(['OVER', ...textured], { ...added, blendSrcAlpha: THREE.ZeroFactor, blendDstAlpha: THREE.OneFactor }, image), 4).userData.pane = true;
-    }
+      { material: this.shader(['OVER', ...textured], { ...added, blendSrcAlpha: THREE.ZeroFactor, blendDstAlpha: THREE.OneFactor }, image), order: 4, pane: true },
+    ];
   }
 
   addMirror(geometry, draw) {
@@ -340,10 +370,16 @@ export class Drawing {
     this.drawWorld(virtual, target, frame);
   }
 
-  draw({ ev, falseColour: on, top, linearTone }, mirrors = 2) {
+  /** Surfaces alone: programs of panes, caustics and mirrors are left to the picture after the first. */
+  drawFirst(state) {
+    this.draw(state, (object) => object.renderOrder === 0, 0);
+    this.smoothEdges();
+  }
+
+  draw({ ev, falseColour: on, top, linearTone }, shows = () => true, mirrors = 2) {
     this.camera.updateMatrixWorld();
     this.shared.showsIrradiance.value = on;
-    for (const object of this.world.children) if (object.userData.pane) object.visible = !on;
+    for (const object of this.world.children) object.visible = shows(object) && !(on && object.userData.pane);
     if (!on) this.drawMirrors(mirrors);
     this.drawWorld(this.camera, this.target);
     const { uniforms } = this.shown;

@@ -203,10 +203,9 @@ async function start() {
   goTo(said.view ?? header.views[0] ?? header.overview);
   performance.mark('prepared');
   drawing.lookRound();
-  drawing.draw({ ...state }, 0);  // mirrors follow
+  drawing.drawFirst({ ...state });
   byId('message').remove();
   performance.mark('first-picture');
-  drawing.smoothEdges();
 
   panel = new Panel(byId('panel'), header, state, hands);
   showLegend();
