@@ -117,15 +117,16 @@ class Designer {
     Tried tried;
     std::vector<std::vector<double>> brings;  // by dimmer
     std::vector<double> daylight(points.size(), 0.0), wanted = targets_;
+    const std::vector<std::vector<ProbeResult>> measured = probeByLight(solution, points, settings_, &progress_);
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      const SolutionView alone = lightOf(solution, g);
-      std::vector<double> lux = luxOf(probe(alone, points, settings_, &progress_), scene.luminousEfficacy);
+      std::vector<double> lux = luxOf(measured[g], scene.luminousEfficacy);
       if (isDaylight(scene, groups[g])) {
         const double weight = gray(scene[groups[g].lights.front()].scale);
         for (std::size_t p = 0; p < points.size(); ++p) daylight[p] += weight * lux[p], wanted[p] -= weight * lux[p];
         continue;
       }
       brings.push_back(std::move(lux));
+      const SolutionView alone = lightOf(solution, g);
       Dimmer& dimmer = tried.dimmers.emplace_back(Dimmer{groups[g].name, {}});
       for (const LightId light : groups[g].lights)
         dimmer.undimmed.push_back({scene[light].name, alone.scene()[light].scale});

@@ -24,11 +24,8 @@ void probeByLight(const ProbeOptions& options, const SolutionView& solution, con
                   const ProbeSettings& settings, Progress& progress) {
   const std::vector<ProbePoint> points = pointsIn(solution.scene(), table);
   std::vector<std::string> names;
-  std::vector<std::vector<ProbeResult>> results;
-  for (const LightGroup& group : lightGroups(solution)) {
-    results.push_back(probe(lightOf(solution, results.size()), points, settings, &progress));
-    names.push_back(group.name);
-  }
+  for (const LightGroup& group : lightGroups(solution)) names.push_back(group.name);
+  const std::vector<std::vector<ProbeResult>> results = probeByLight(solution, points, settings, &progress);
   writeProbeColumns(options.output, table, names, results, solution.scene().luminousEfficacy);
 }
 

@@ -25,6 +25,10 @@ struct ProbeSettings {
 /// the number of threads. Throws Interrupted.
 std::vector<ProbeResult> probe(const SolutionView&, std::span<const ProbePoint>, const ProbeSettings& = {},
                                Progress* progress = nullptr);
+/// By group of lights (lightGroups()), what it brings to every point: as probe() of lightOf() for each, but what groups
+/// have in common is made ready once. Throws Interrupted.
+std::vector<std::vector<ProbeResult>> probeByLight(const SolutionView&, std::span<const ProbePoint>,
+                                                   const ProbeSettings& = {}, Progress* progress = nullptr);
 
 struct RenderSettings {
   int width = 640, height = 480;

@@ -131,13 +131,12 @@ py::array_t<double> measureByLight(const SolutionHandle& solution, const Numbers
   std::size_t groups = 0;
   runLong(progress, solution.threads(), [&](Progress& p) {
     solution.read([&](const SolutionView& view) {
-      groups = lightGroups(view).size();
+      const std::vector<std::vector<ProbeResult>> results = probeByLight(view, meters, meterSettings(view, seed), &p);
+      groups = results.size();
       lux.resize(groups * meters.size());
-      for (std::size_t g = 0; g < groups; ++g) {
-        const std::vector<ProbeResult> results = probe(lightOf(view, g), meters, meterSettings(view, seed), &p);
-        for (std::size_t i = 0; i < results.size(); ++i)
-          lux[i * groups + g] = photometric(results[i].irradiance, view.scene().luminousEfficacy);
-      }
+      for (std::size_t g = 0; g < groups; ++g)
+        for (std::size_t i = 0; i < meters.size(); ++i)
+          lux[i * groups + g] = photometric(results[g][i].irradiance, view.scene().luminousEfficacy);
     });
   });
   return arrayOf<double>(std::move(lux), {static_cast<py::ssize_t>(meters.size()), static_cast<py::ssize_t>(groups)});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <deltalux/light_groups.hpp>
+#include <deltalux/render.hpp>
 #include <deltalux/solution_file.hpp>
 
 #include "hierarchy/leaf_table.hpp"
@@ -75,6 +76,22 @@ TEST(LightColumns, AddUpToThePlainSolve) {
   }
   EXPECT_LT(differenceOf(sum, lightOfLeaves(plain.solution()), 0.95), 1e-4);
   EXPECT_LT(differenceOf(lightOfLeaves(apart.solution()), sum, 1.0), 1e-5);
+}
+
+TEST(LightColumns, AreMeasuredTogetherAsOneByOne) {
+  const Engine apart = solvedBy(byLight(), furnishedRoom());
+  const std::vector<ProbePoint> points{{{1, 1, 0}, {0, 0, 1}}, {{2, 1.5, 0}, {0, 0, 1}}, {{1.5, 1, 1.2}, {1, 0, 0}}};
+  const auto together = probeByLight(apart.solution(), points);
+  ASSERT_EQ(together.size(), 2u);
+  double most = 0;
+  for (std::size_t g = 0; g < together.size(); ++g) {
+    const std::vector<ProbeResult> alone = probe(lightOf(apart.solution(), g), points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_EQ(together[g][i].irradiance, alone[i].irradiance) << g << " " << i;
+      most = std::max(most, together[g][i].irradiance.g);
+    }
+  }
+  EXPECT_GT(most, 0);
 }
 
 TEST(LightColumns, DimmedTheyAreTheFreshSolveOfTheDimmedScene) {
