@@ -108,8 +108,8 @@ struct Sheet {
 
 struct SheetSettings {
   ProbeSettings probe;
-  int width = 1200;  // of the rendering [pixels]
-  int samplesPerPixel = 32;
+  int width = 960;  // of the rendering [pixels]
+  int samplesPerPixel = 16;
 };
 
 /// Measures all that the request asks for. Throws InputError (validateSheetRequest), Interrupted.
