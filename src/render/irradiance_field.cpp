@@ -74,7 +74,7 @@ bool IrradianceField::oneIsHollow(std::size_t home, std::size_t other) const {
 
 void IrradianceField::relate(const IrradianceField* before) {
   begin_.assign(sites_.size() + 1, 0);
-  torn_.assign(sites_.size(), 0), apart_.assign(sites_.size(), 0);
+  torn_.assign(sites_.size(), 0), end_.assign(sites_.size(), 0);
   exposed_.assign(sites_.size(), -1.0f);
   related_.assign(sites_.size(), 1);
   sights_.assign(sites_.nearCount(), Sight::Unknown);
@@ -92,12 +92,9 @@ void IrradianceField::relate(const IrradianceField* before) {
     }
     std::uint32_t* joined = neighbours_.data() + begin_[i];
     *joined++ = static_cast<std::uint32_t>(i);
-    std::vector<std::uint32_t> torn, apart;
+    std::vector<std::uint32_t> torn;
     for (std::size_t k = 0; k < near.size(); ++k) {
-      if (oneIsHollow(i, near[k])) {
-        apart.push_back(near[k]);
-        continue;
-      }
+      if (oneIsHollow(i, near[k])) continue;
       const bool asks = sites_[i].support.flat() && disagreeing(i, near[k]);
       if (asks && sights[k] == Sight::Unknown)
         sights[k] = inSight(sites_[i].center, sites_[i].leaf, sites_[near[k]].leaf) ? Sight::Clear : Sight::Blocked;
@@ -107,14 +104,14 @@ void IrradianceField::relate(const IrradianceField* before) {
         *joined++ = near[k];
     }
     torn_[i] = static_cast<std::uint32_t>(joined - neighbours_.data());
-    apart_[i] = torn_[i] + static_cast<std::uint32_t>(torn.size());
-    std::ranges::copy(apart, std::ranges::copy(torn, joined).out);
+    end_[i] = torn_[i] + static_cast<std::uint32_t>(torn.size());
+    std::ranges::copy(torn, joined);
     // Numbers may have moved, their order has not.
     const bool sameOrder =
         was != LeafSites::kNone && torn_[i] - begin_[i] == before->torn_[was] - before->begin_[was] &&
-        apart_[i] - begin_[i] == before->apart_[was] - before->begin_[was] &&
-        std::equal(neighbours_.begin() + begin_[i], neighbours_.begin() + apart_[i],
-                   before->neighbours_.begin() + before->begin_[was], before->neighbours_.begin() + before->apart_[was],
+        end_[i] - begin_[i] == before->end_[was] - before->begin_[was] &&
+        std::equal(neighbours_.begin() + begin_[i], neighbours_.begin() + end_[i],
+                   before->neighbours_.begin() + before->begin_[was], before->neighbours_.begin() + before->end_[was],
                    [&](std::uint32_t a, std::uint32_t b) { return sites_[a].leaf == before->sites_[b].leaf; });
     related_[i] = !sameOrder || (!torn.empty() && !known);
   });
@@ -151,7 +148,7 @@ void IrradianceField::fill(Stage stage, const IrradianceField* before, const Val
   parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
     const std::uint32_t was = before ? sites_.before(i) : LeafSites::kNone;
     const bool stands = was != LeafSites::kNone && !related_[i] &&
-                        std::none_of(neighbours_.begin() + begin_[i], neighbours_.begin() + apart_[i],
+                        std::none_of(neighbours_.begin() + begin_[i], neighbours_.begin() + end_[i],
                                      [&](std::uint32_t j) { return changed[j]; });
     result[i] = stands ? before->stages_[stage][was] : value(i);
     if (was != LeafSites::kNone) differs_[stage][i] = result[i] != before->stages_[stage][was];
@@ -163,7 +160,7 @@ LeafIrradiance IrradianceField::filled(std::size_t i) const {
   if (!isLittleExposed(i)) return values[i];
   RgbSum direct(0.0), indirect(0.0), particle(0.0);
   double area = 0;
-  for (std::uint32_t k = begin_[i]; k < apart_[i]; ++k) {
+  for (std::uint32_t k = begin_[i]; k < end_[i]; ++k) {
     const std::uint32_t j = neighbours_[k];
     if (isLittleExposed(j)) continue;
     const double lit = elements_.shape(sites_[j].leaf).litArea();
@@ -176,7 +173,7 @@ LeafIrradiance IrradianceField::filled(std::size_t i) const {
 
 LeafIrradiance IrradianceField::mended(std::size_t i) {
   const std::vector<LeafIrradiance>& values = stages_[Filled];
-  if (torn_[i] == apart_[i]) return values[i];
+  if (torn_[i] == end_[i]) return values[i];
   LeafIrradiance most;
   for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
     const LeafIrradiance& other = values[neighbours_[k]];
@@ -290,7 +287,7 @@ void IrradianceField::fitAll(const IrradianceField* before) {
   for (std::size_t i = 0; i < sites_.size(); ++i) {
     const std::uint32_t was = before ? sites_.before(i) : LeafSites::kNone;
     if (was != LeafSites::kNone && !related_[i] &&
-        std::none_of(neighbours_.begin() + begin_[i], neighbours_.begin() + apart_[i],
+        std::none_of(neighbours_.begin() + begin_[i], neighbours_.begin() + end_[i],
                      [&](std::uint32_t j) { return changed[j]; }))
       changedIn_[i] = before->changedIn_[was];
   }
@@ -307,7 +304,7 @@ float IrradianceField::forEachWeight(const hierarchy::LeafPoint& at, const Vec3f
   }
   const bool cut = torn(at.leaf);
   float weights = 0;
-  for (std::uint32_t k = begin_[home]; k < apart_[home]; ++k) {
+  for (std::uint32_t k = begin_[home]; k < end_[home]; ++k) {
     const std::uint32_t i = neighbours_[k];
     const LeafSite& site = sites_[i];
     const float w = site.fineness * site.support.weight(point);

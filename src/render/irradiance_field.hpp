@@ -57,7 +57,7 @@ class IrradianceField {
   /// Whether something stands on or cuts through the leaf, or between it and its neighbours.
   bool torn(hierarchy::ElementId leaf) const {
     const std::uint32_t i = sites_.of(leaf);
-    return torn_[i] < apart_[i];
+    return torn_[i] < end_[i];
   }
   /// How many fields this one took over from, one after the other; and in which of them what is read in a leaf last
   /// changed, or could have.
@@ -79,7 +79,7 @@ class IrradianceField {
   }
   /// The sites that blend at points of one, itself first; those with something in between come last.
   std::span<const std::uint32_t> blended(std::size_t site) const {
-    return std::span(neighbours_).subspan(begin_[site], apart_[site] - begin_[site]);
+    return std::span(neighbours_).subspan(begin_[site], end_[site] - begin_[site]);
   }
   std::size_t blendedFreely(std::size_t site) const { return torn_[site] - begin_[site]; }
 
@@ -136,8 +136,8 @@ class IrradianceField {
   LeafSites sites_;
   std::vector<float> coverage_;  // by site: how much of the leaf light can reach (ElementGeometry::exposed)
   // Per site, those that may take part at its points: itself, the joined ones, then from torn_ on those with something
-  // in between; from apart_ on those that take no part, as one of the two is hollow.
-  std::vector<std::uint32_t> begin_, torn_, apart_, neighbours_;
+  // in between, until end_: there is room for all that are near.
+  std::vector<std::uint32_t> begin_, torn_, end_, neighbours_;
   std::vector<Sight> sights_;   // of pairs that are near
   std::vector<float> exposed_;  // by site, of torn leaves; negative: not asked
   std::vector<char> related_;   // by site: whether other neighbours take part than before, or rays may differ
