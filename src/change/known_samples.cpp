@@ -18,6 +18,12 @@ constexpr std::size_t kKnownLeaves = 256;  // of a task [task]
 BoxF boxOf(const hierarchy::ElementGeometry& g) { return {g.lower, g.upper}; }
 BoxF at(const Vec3f& p) { return {p, p}; }
 
+/// Whether a patch faces any place where something has moved: its samples run to its side of a flat one.
+bool faces(const MovedSpace& space, const hierarchy::Elements& elements, hierarchy::ElementId patch) {
+  const hierarchy::ElementGeometry& g = elements.shape(patch);
+  return !elements.at(patch).flat || !space.behind(g.center, g.normal);
+}
+
 /// Whether a line from anywhere in a box may pass where something has moved.
 bool mayCross(const MovedSpace& space, const BoxF& from, lines::LineCode code) {
   return space.crosses(from, lines::direction(code), lines::lengthOf(code), lines::kDirectionError);
@@ -29,6 +35,7 @@ bool holdFirstLines(const MovedSpace& space, const hierarchy::Elements& elements
                     hierarchy::ElementId patch, const lines::FirstLines& first) {
   const BoxF box = boxOf(elements.shape(patch));
   if (space.moved(elements.domain[patch.index()].primitive) || space.touches(box)) return false;
+  if (!faces(space, elements, patch)) return true;
   for (const lines::LineCode code : first.beyond)
     if (mayCross(space, box, code)) return false;
   std::array<lines::LineCode, hierarchy::LeafSequence::kBatch> codes;
@@ -49,6 +56,10 @@ bool holdWalks(const MovedSpace& space, const lines::LightWalks& walks) {
   if (space.touches(walks.box)) return false;
   return std::ranges::none_of(
       walks.steps, [&](const lines::LineSegment& s) { return space.crosses(at(s.from), s.direction, s.length); });
+}
+
+bool crosses(const MovedSpace& space, const tracing::Ray& ray) {
+  return space.crosses(at(ray.origin), ray.direction, ray.tFar);
 }
 
 bool mayShadow(const MovedSpace& space, const direct::Lamp& lamp, const BoxF& from) {
@@ -79,20 +90,21 @@ void forEachMayShadow(const MovedSpace& space, const direct::Lamps& lamps, const
   lamps.tree().reaching(g, ask);
 }
 
-bool holdAllShadowRays(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::Elements& elements,
-                       hierarchy::ElementId patch, std::uint64_t through) {
-  const hierarchy::ElementGeometry& g = elements.shape(patch);
-  if (space.moved(elements.domain[patch.index()].primitive) || space.touches(boxOf(g))) return false;
-  bool holds = true;
-  forEachMayShadow(space, lamps, g, through, [&](const direct::Lamp&) { holds = false; });
-  return holds;
+bool holdDimRays(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::Elements& elements,
+                 const Scene& scene, hierarchy::ElementId leaf, std::span<const std::uint32_t> points,
+                 std::uint64_t through) {
+  if (space.moved(elements.domain[leaf.index()].primitive) || space.touches(boxOf(elements.shape(leaf)))) return false;
+  if (through == 0 || !faces(space, elements, leaf)) return true;
+  return !direct::anyDimRay(elements, scene, lamps, leaf, points,
+                            [&](const tracing::Ray& ray) { return crosses(space, ray); });
 }
 
 bool holdShadowRays(const MovedSpace& space, const direct::DirectSampler& sampler, const hierarchy::Elements& elements,
                     hierarchy::ElementId patch, const direct::KnownPoints& known, const direct::LampSight& above,
                     const direct::LeafDirect& before, std::uint64_t through) {
   if (space.moved(elements.domain[patch.index()].primitive)) return false;
-  const auto stops = [&](const tracing::Ray& ray) { return space.crosses(at(ray.origin), ray.direction, ray.tFar); };
+  if (!faces(space, elements, patch)) return true;
+  const auto stops = [&](const tracing::Ray& ray) { return crosses(space, ray); };
   bool holds = true, drawn = false;
   forEachMayShadow(space, sampler.lamps(), elements.shape(patch), through, [&](const direct::Lamp& lamp) {
     if (!holds) return;
@@ -112,7 +124,8 @@ bool holdSkyRays(const MovedSpace& space, const hierarchy::Elements& elements, h
   const BoxF box = boxOf(elements.shape(patch));
   if (space.touches(box)) return false;
   std::array<char, direct::tuning::kManyRays> near{};
-  LineSieve(space, box, lines::kDirectionError).mark(codes, std::span(near).first(codes.size()));
+  if (faces(space, elements, patch))
+    LineSieve(space, box, lines::kDirectionError).mark(codes, std::span(near).first(codes.size()));
   bool all = true;
   for (std::size_t k = 0; k < codes.size(); ++k) {
     if (codes[k].reach == 0) continue;
@@ -130,7 +143,7 @@ bool holdSkyRays(const MovedSpace& space, const hierarchy::Elements& elements, h
 }
 
 lines::KnownLines knownLines(const MovedSpace& space, lines::TracedLines all, std::vector<std::uint32_t> of,
-                             const hierarchy::Elements& before, const hierarchy::LeafTable& leavesBefore) {
+                             const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves) {
   constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone;
   using lines::KnownLines;
   const std::size_t n = all.lines.leaves();
@@ -144,12 +157,12 @@ lines::KnownLines knownLines(const MovedSpace& space, lines::TracedLines all, st
   known.whole.assign(n, 0);
   known.firstException = lines::firstOf(known.lines.exceptions, n);
   parallelFor(n, kKnownLeaves, [&](std::size_t i) {
-    const BoxF box = boxOf(before.shape(leavesBefore[i]));
+    const BoxF box = known.now[i] != kNone ? boxOf(elements.shape(leaves[known.now[i]])) : BoxF();
     const bool starts = known.now[i] != kNone && !space.touches(box);
     std::uint32_t exception = known.firstException[i], bend = known.firstBend[i];
     const std::uint64_t first = known.lines.first[i];
     std::vector<char> near(known.lines.countOf(i), 0);
-    if (starts && !space.empty())
+    if (starts && faces(space, elements, leaves[known.now[i]]))
       LineSieve(space, box, lines::kDirectionError).mark({known.lines.code.data() + first, near.size()}, near);
     bool whole = true;
     for (std::uint64_t k = first; k < known.lines.first[i + 1]; ++k) {

@@ -2,6 +2,7 @@
 // What samples from before an edit are still worth: all that they have found is what they would find now, where none of
 // their rays starts or passes where something has moved.
 #include "change/moved_space.hpp"
+#include "direct/dim_direct.hpp"
 #include "direct/leaf_direct.hpp"
 #include "direct/sky_light.hpp"
 #include "lines/enclosed_sides.hpp"
@@ -14,16 +15,18 @@ bool holdFirstLines(const MovedSpace&, const hierarchy::Elements&, const Scene&,
                     const lines::FirstLines&);
 /// Whether walks that looked for light are.
 bool holdWalks(const MovedSpace&, const lines::LightWalks&);
+/// Whether a ray may pass where something has moved, as far as it runs.
+bool crosses(const MovedSpace&, const tracing::Ray&);
 /// Whether a shadow ray from anywhere in a box to a sun or lamp may pass where something has moved.
 bool mayShadow(const MovedSpace&, const direct::Lamp&, const BoxF& from);
 /// Lamps of which mayShadow() is true, by their lampBit(), out of those in `among`: what is so of no patch is so of
 /// none of its parts.
 std::uint64_t lampsThrough(const MovedSpace&, const direct::Lamps&, const BoxF& from, std::uint64_t among);
-/// Whether all shadow rays that points of a patch may shoot at suns and lamps are, which all count for what they did.
-/// `through`: lampsThrough() of it.
-bool holdAllShadowRays(const MovedSpace&, const direct::Lamps&, const hierarchy::Elements&, hierarchy::ElementId patch,
-                       std::uint64_t through);
-/// The same of those that its light has come about by; `above`: what was known of lamps then.
+/// Whether all shadow rays that these points of a leaf in the dark shoot at suns and lamps are, which all count for
+/// what they did. `through`: lampsThrough() of it.
+bool holdDimRays(const MovedSpace&, const direct::Lamps&, const hierarchy::Elements&, const Scene&,
+                 hierarchy::ElementId leaf, std::span<const std::uint32_t> points, std::uint64_t through);
+/// The same of those that a patch's light has come about by; `above`: what was known of lamps then.
 bool holdShadowRays(const MovedSpace&, const direct::DirectSampler&, const hierarchy::Elements&,
                     hierarchy::ElementId patch, const direct::KnownPoints&, const direct::LampSight& above,
                     const direct::LeafDirect&, std::uint64_t through);
@@ -33,9 +36,8 @@ bool holdShadowRays(const MovedSpace&, const direct::DirectSampler&, const hiera
 bool holdSkyRays(const MovedSpace&, const hierarchy::Elements&, hierarchy::ElementId patch,
                  std::span<const lines::LineCode>, std::span<direct::SkyRay>);
 
-/// Lines from before as they are now; `of` by leaf there is: the leaf that it was where it stands, or kNone; what they
-/// were over (`before`).
+/// Lines from before as they are now, over these leaves; `of` by leaf: which it was where it stands, or kNone.
 lines::KnownLines knownLines(const MovedSpace&, lines::TracedLines, std::vector<std::uint32_t> of,
-                             const hierarchy::Elements& before, const hierarchy::LeafTable& leavesBefore);
+                             const hierarchy::Elements&, const hierarchy::LeafTable&);
 
 }  // namespace deltalux::change

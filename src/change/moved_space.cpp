@@ -98,6 +98,11 @@ void MovedSpace::add(PrimitiveId primitive, const BoxF& box) {
   hold({box.lower - margin_, box.upper + margin_});
 }
 
+bool MovedSpace::behind(const Vec3f& point, const Vec3f& normal) const {
+  const Vec3f center = 0.5f * (all_.lower + all_.upper), half = 0.5f * (all_.upper - all_.lower);
+  return boxes_.empty() || glm::dot(normal, center - point) + glm::dot(glm::abs(normal), half) < 0;
+}
+
 bool MovedSpace::touches(const BoxF& box) const {
   return std::ranges::any_of(boxes_, [&](const BoxF& moved) { return moved.overlaps(box); });
 }

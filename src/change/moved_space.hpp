@@ -23,6 +23,8 @@ class MovedSpace {
   bool moved(PrimitiveId p) const { return p.index() < moved_.size() && moved_[p.index()]; }
   /// One that holds all of them.
   const BoxF& all() const { return all_; }
+  /// Whether all of them lie behind a plane: what starts there and runs to where the normal points meets none.
+  bool behind(const Vec3f& point, const Vec3f& normal) const;
   /// Whether one of the boxes and this one have a point in common.
   bool touches(const BoxF&) const;
   /// Whether a line may pass one that starts anywhere in `from` and runs along `direction`, of any length, for so long

@@ -7,12 +7,21 @@
 
 namespace deltalux::direct {
 
+/// What shadow rays from points of a patch to one lamp have met, by a bit a point: nothing at all, or what stops light.
+/// Those that passed panes are in neither.
+struct LampShadows {
+  std::uint64_t clear = 0, shut = 0;
+
+  bool knows(std::size_t point) const { return ((clear | shut) >> point & 1) != 0; }
+};
+
 /// Of one lamp or sun, at its nominal scale.
 struct LampLight {
   LightId lamp;
   Rgb E{0.0f};               // [W/m2]
   float variance = 0;        // of its mean, gray
   std::uint32_t points = 0;  // of the patch, the first ones, that have asked it by rays of their own
+  LampShadows shadows{};     // of those
 };
 
 /// Of all of them, each times its dimming.

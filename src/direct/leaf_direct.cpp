@@ -26,8 +26,9 @@ int raysFor(double error, int normal) {
 
 /// The open points of a patch in order, each made when it is first asked for.
 struct DirectSampler::Points {
-  Points(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId patch, const KnownPoints& k)
-      : sequence(elements, scene, patch), known(k) {}
+  Points(const hierarchy::Elements& elements, const Scene& scene, hierarchy::ElementId patch, const KnownPoints& k,
+         const KnownShadows* shadows = nullptr)
+      : sequence(elements, scene, patch), known(k), before(shadows) {}
 
   /// Makes the next open point; false where there is none.
   bool next() {
@@ -55,6 +56,7 @@ struct DirectSampler::Points {
 
   hierarchy::LeafSequence sequence;
   KnownPoints known;
+  const KnownShadows* before;
   std::array<hierarchy::PatchPoint, kMostPoints> at;
   std::array<std::uint8_t, kMostPoints> quadrant;
   std::array<std::uint32_t, kMostPoints> number;
@@ -85,7 +87,7 @@ struct DirectSampler::Tally {
   }
   /// What a ray of `open` has found from a point in quadrant `q`.
   void add(const Rgb& open_, const Rgb& found, std::size_t q) {
-    ++shot, ++rays, passed += !isBlack(found);
+    ++shot, passed += !isBlack(found);
     open += RgbSum(open_), lit += RgbSum(found);
     quadrants[q] += gray(found), squares += double(gray(found)) * gray(found);
   }
@@ -97,8 +99,10 @@ struct DirectSampler::Asked {
   double potential;
   bool missed;  // by the patch above
   Tally pilot, tally;
+  LampShadows shadows;
 
   std::uint32_t points() const { return static_cast<std::uint32_t>(tally.first + tally.samples); }
+  LampLight light() const { return {lamp->id, Rgb(0.0f), 0, points(), shadows}; }
   /// What it would bring, where no ray has seen it.
   double unseen() const {
     return pilot.passed + tally.passed > 0 ? 0.0 : gray(pilot.open + tally.open) / (pilot.samples + tally.samples);
@@ -174,8 +178,14 @@ bool nearBy(const Lamp& lamp, const hierarchy::ElementGeometry& g) {
 
 }  // namespace
 
-void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, Tally& t) const {
+const LampLight* DirectSampler::KnownShadows::of(LightId id) const {
+  const auto at = std::ranges::find_if(lamps, [&](const LampLight& l) { return l.lamp == id && l.points > 0; });
+  return at == lamps.end() ? nullptr : &*at;
+}
+
+void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, LampShadows& shadows, Tally& t) const {
   const ScrambledSobol numbers = points.numbersOf(lamp.id);
+  const LampLight* before = points.before ? points.before->of(lamp.id) : nullptr;
   for (; t.samples < upTo && points.have(t.first + t.samples + 1); ++t.samples) {
     const auto k = static_cast<std::size_t>(t.first + t.samples);
     const hierarchy::PatchPoint& x = points.at[k];
@@ -183,7 +193,18 @@ void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, Tally& t) 
     const OpenLight light = openLight(lamps_.sampler(), lamp.id, x, numbers(points.number[k]));
     const Rgb open = light.E;
     if (isBlack(open)) continue;
-    t.add(open, open * tracer_.transmittance(light.ray(x)), points.quadrant[k]);
+    const std::uint64_t bit = std::uint64_t(1) << k;
+    const tracing::Ray ray = light.ray(x);
+    if (before && before->shadows.knows(k) && points.before->holds(lamp, ray)) {
+      shadows.clear |= before->shadows.clear & bit, shadows.shut |= before->shadows.shut & bit;
+      t.add(open, before->shadows.clear & bit ? open : Rgb(0.0f), points.quadrant[k]);
+      continue;
+    }
+    const Rgb V = tracer_.transmittance(ray);
+    ++t.rays;
+    if (V == Rgb(1.0f)) shadows.clear |= bit;
+    if (isBlack(V)) shadows.shut |= bit;
+    t.add(open, open * V, points.quadrant[k]);
   }
 }
 
@@ -234,6 +255,7 @@ void DirectSampler::shootDrawn(Points& points, int upTo, Drawn& drawn, Tally& t)
     const Rgb open = light.E / static_cast<float>(choice->chance);
     if (isBlack(open)) continue;
     const Rgb lit = open * tracer_.transmittance(light.ray(x));
+    ++t.rays;
     t.add(open, lit, points.quadrant[k]);
     if (!isBlack(lit)) drawn.passed.push_back({{choice->lamp, choice->chance * drawn.cut.restMost}, lit});
   }
@@ -259,8 +281,12 @@ Rgb DirectSampler::unshadowed(const Lamp& lamp, Points& points, int wanted) cons
 /// is refined because one did would be worth less than it counts, and the rest nothing.
 void DirectSampler::ask(const Lamp& lamp, double potential, const LampSight& above, Points& points,
                         std::vector<Asked>& asked) const {
-  Asked& a = asked.emplace_back(Asked{&lamp, potential, !lamp.sun && above.missed(lamp.id), {}, {}});
-  shoot(lamp, points, lamp.sun ? tuning::kSunPilots : a.missed ? tuning::kFaintRays : tuning::kLampPilots, a.pilot);
+  Asked& a = asked.emplace_back(Asked{&lamp, potential, !lamp.sun && above.missed(lamp.id), {}, {}, {}});
+  shoot(lamp, points,
+        lamp.sun   ? tuning::kSunPilots
+        : a.missed ? tuning::kFaintRays
+                   : tuning::kLampPilots,
+        a.shadows, a.pilot);
 }
 
 /// The samples that count, where about as much light as `found` was found.
@@ -275,13 +301,13 @@ void DirectSampler::finish(double found, Points& points, Asked& a) const {
   if (a.missed) wanted = tuning::kFaintRays;
   Tally& t = a.tally;
   t.first = pilot.samples;
-  shoot(lamp, points, wanted, t);
+  shoot(lamp, points, wanted, a.shadows, t);
   if (t.samples == 0) t = pilot, t.rays = 0;  // there are no more points
   if (lamp.sun || a.missed || t.shot > 0) return;
   // Of a narrow beam few points may lie in it: shadow rays start from some that do.
   t.unshadowed = unshadowed(lamp, points, kMostPoints), t.measured = true;
   for (int more = wanted; t.shot == 0 && !isBlack(t.unshadowed) && t.samples == more && more < kMostPoints;)
-    shoot(lamp, points, more = std::min(2 * more, kMostPoints), t);
+    shoot(lamp, points, more = std::min(2 * more, kMostPoints), a.shadows, t);
 }
 
 /// A patch is kept most often where its rays have missed a lamp: what has decided must not tell the light too, or what
@@ -292,7 +318,7 @@ std::uint32_t DirectSampler::askAgain(double all, Points& points, Asked& a) cons
   if (!(open > 0)) return 0;
   Tally fresh;
   fresh.first = a.tally.first + a.tally.samples;
-  shoot(*a.lamp, points, a.lamp->sun ? tuning::kFewRays : 2 * open > all ? tuning::kUnseenRays : 1, fresh);
+  shoot(*a.lamp, points, a.lamp->sun ? tuning::kFewRays : 2 * open > all ? tuning::kUnseenRays : 1, a.shadows, fresh);
   if (fresh.samples == 0) return 0;  // there are no more points
   fresh.unshadowed = a.tally.unshadowed, fresh.measured = a.tally.measured;
   a.missed = true, a.tally = fresh;
@@ -339,10 +365,10 @@ void DirectSampler::finishDrawn(const LampSight& above, Points& points, Drawn& d
 }
 
 LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& known, const LampSight& above,
-                             const Splits& splits) const {
+                             const Splits& splits, const KnownShadows* before) const {
   LeafDirect result;
   const hierarchy::ElementGeometry& g = elements_.shape(patch);
-  Points points(elements_, scene_, patch, known);
+  Points points(elements_, scene_, patch, known, before);
   result.tooWideForBeam = lamps_.tooWideForBeam(g);
   if (!points.have(1)) return result;
   Drawn drawn{g, cutFor(g, above), {}, 0, {}, false, {}, {}};
@@ -379,7 +405,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   const Choice choice = splits ? splits(result) : Choice::Whole;
   result.drawn = static_cast<std::uint32_t>(drawn.tally.first + drawn.tally.samples);
   if (choice == Choice::Split) {
-    for (const Asked& a : asked) result.lamps.push_back({a.lamp->id, Rgb(0.0f), 0, a.points()});
+    for (const Asked& a : asked) result.lamps.push_back(a.light());
     return result;
   }
   if (choice == Choice::Keep) {
@@ -390,7 +416,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
 
   const double light = gray(result.E);
   for (const Asked& a : asked) {
-    result.lamps.push_back({a.lamp->id, Rgb(0.0f), 0, a.points()});
+    result.lamps.push_back(a.light());
     if (a.tally.passed == 0) continue;
     LampLight& lamp = result.lamps.back();
     lamp.E = refined(a, light, g, points);

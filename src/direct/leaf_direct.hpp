@@ -54,10 +54,17 @@ class DirectSampler {
   enum class Choice : std::uint8_t { Split, Keep, Whole };
   /// By what shadow rays have found, of E their mean alone.
   using Splits = std::function<Choice(const LeafDirect&)>;
+  /// Shadow rays of the same points that were traced before: those that `holds` have met what they would meet now.
+  struct KnownShadows {
+    std::span<const LampLight> lamps;
+    std::function<bool(const Lamp&, const tracing::Ray&)> holds;
+
+    const LampLight* of(LightId) const;
+  };
   /// The light of a patch by all the samples that it is worth, unless it is split. `above`: what the patch has found
   /// that it is a part of.
-  LeafDirect at(hierarchy::ElementId patch, const KnownPoints&, const LampSight& above = {},
-                const Splits& splits = {}) const;
+  LeafDirect at(hierarchy::ElementId patch, const KnownPoints&, const LampSight& above = {}, const Splits& splits = {},
+                const KnownShadows* before = nullptr) const;
 
   const Lamps& lamps() const { return lamps_; }
   using Stops = std::function<bool(const tracing::Ray&)>;
@@ -72,7 +79,7 @@ class DirectSampler {
   struct Tally;
   struct Asked;
   struct Drawn;
-  void shoot(const Lamp&, Points&, int upTo, Tally&) const;
+  void shoot(const Lamp&, Points&, int upTo, LampShadows&, Tally&) const;
   void shootDrawn(Points&, int upTo, Drawn&, Tally&) const;
   LampTree::Cut cutFor(const hierarchy::ElementGeometry&, const LampSight& above) const;
   void ask(const Lamp&, double potential, const LampSight& above, Points&, std::vector<Asked>&) const;

@@ -137,7 +137,8 @@ SkyKey skyKey(const Skies& skies, const SkyVisibility& visibility, const SkyLeaf
     bits |= std::uint64_t(1) << (point % 64);
   }
   key = combineKeys(combineKeys(key, word), bits);
-  std::uint64_t& light = all.light = combineKeys(combineKeys(skies.key(), visibility.key(s.leaf)), s.lines);
+  all.guide = visibility.key(s.leaf);
+  std::uint64_t& light = all.light = combineKeys(combineKeys(skies.key(), all.guide), s.lines);
   light = combineKeys(light, all.points);
   const auto both = [](float a, float b) {
     return std::uint64_t(std::bit_cast<std::uint32_t>(a)) << 32 | std::bit_cast<std::uint32_t>(b);

@@ -30,7 +30,7 @@ class Skies {
   const Rgb& dimming() const { return dimming_; }
   bool dimmedAlike() const { return alike_; }
   Rgb radiance(const Vec3f& direction) const;
-  /// Greatest gray radiance of a few directions of a cell.
+  /// Mean gray radiance of a few directions of a cell.
   float strength(int cell) const { return strength_[static_cast<std::size_t>(cell)]; }
   /// The same for skies that look the same.
   std::uint64_t key() const { return key_; }
@@ -138,6 +138,7 @@ SkyAtLeaf skyLight(const Skies&, const SkyVisibility&, const hierarchy::Elements
 /// and for equal light by them.
 struct SkyKey {
   std::uint64_t points = 0, light = 0;
+  std::uint64_t guide = 0;  // of the visibility estimate
 };
 SkyKey skyKey(const Skies&, const SkyVisibility&, const SkyLeaf&);
 

@@ -11,6 +11,7 @@
 #include "lines/dim_rooms.hpp"
 #include "lines/own_light.hpp"
 #include "lines/tuning.hpp"
+#include "solution/sky_visibility.hpp"
 
 namespace deltalux::engine {
 
@@ -22,19 +23,21 @@ constexpr std::size_t kRoomLeaves = 1024, kDimLeaves = 16;  // of a task [task]
 std::vector<float> roughIndirect(const LineSolve& x, const hierarchy::LeafTable& leaves,
                                  const lines::TracedLines& traced) {
   const std::size_t n = leaves.size();
-  const LampsOfLeaves lamps = lampsOf(x.samples, x.dim, leaves);
-  const Dimming undimmed = Dimming::none(x.s.scene);
   std::vector<float> rho(n), source(n);
   const std::vector<std::uint32_t> firstEscaped = lines::firstOf(traced.escaped, n);
+  const CellOfCode& cellOf = CellOfCode::table();
   parallelFor(n, kRoomLeaves, [&](std::size_t i) {
-    const hierarchy::ElementLight& l = x.s.elements.radiometry[leaves[i].index()];
-    rho[i] = gray(l.rho + l.tau), source[i] = gray(direct::dimmed(lamps[i], undimmed.lights).E + l.particle);
-    if (x.skies.empty()) return;
-    const auto count = static_cast<float>(traced.lines.countOf(i) - traced.covered[i]);
-    for (std::uint32_t k = firstEscaped[i]; k < firstEscaped[i + 1]; ++k) {
-      const lines::EscapedLine& e = traced.escaped[k];
-      source[i] += std::numbers::pi_v<float> * gray(e.weight * x.skies.radiance(e.direction)) / count;
-    }
+    const std::size_t leaf = leaves[i].index();
+    const hierarchy::ElementLight& l = x.s.elements.radiometry[leaf];
+    rho[i] = gray(l.rho + l.tau), source[i] = gray(x.samples.direct[leaf].E + l.particle);
+    if (x.skies.empty() || firstEscaped[i] == firstEscaped[i + 1]) return;
+    // By the mean of each cell of the sky: as rough as a few lines are.
+    float sky = 0;
+    std::uint32_t escaped = firstEscaped[i];
+    for (std::uint64_t k = traced.lines.first[i]; k < traced.lines.first[i + 1]; ++k)
+      if (traced.lines.end[k] == lines::kEscaped)
+        sky += gray(traced.escaped[escaped++].weight) * x.skies.strength(cellOf(traced.lines.code[k]));
+    source[i] += std::numbers::pi_v<float> * sky / static_cast<float>(traced.lines.countOf(i) - traced.covered[i]);
   });
   return lines::ownIndirect(traced, rho, source);
 }
@@ -66,13 +69,15 @@ void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, const l
       if (lines.end[lines.first[i] + k] == lines::kCovered) continue;
       points.push_back(k), dim.points = combineKeys(dim.points, k);
     }
-    if (const direct::DimDirect* same = x.known ? x.known->dim(x.s.elements, x.lamps, dim.leaf, dim.points) : nullptr) {
+    if (const direct::DimDirect* same =
+            x.known ? x.known->dim(x.s.elements, x.s.scene, x.lamps, dim.leaf, dim.points, points) : nullptr) {
       dim.light = *same;
       return std::uint64_t(0);
     }
     dim.light = direct::dimDirect(x.s.elements, x.s.scene, *x.s.tracer, x.lamps, dim.leaf, points);
     return dim.light.rays;
   });
+  std::ranges::sort(x.dim, {}, &DimLeaf::leaf);
 }
 
 }  // namespace
@@ -85,9 +90,11 @@ lines::TracedLines lookIntoTheDark(LineSolve& x, const lines::LineScene& over, l
   if (std::ranges::find(places, lines::kDim) == places.end()) return traced;
   std::vector<float> area(leaves.size());
   for (std::size_t i = 0; i < leaves.size(); ++i) area[i] = x.s.elements.shape(leaves[i]).area;
+  const std::vector<std::uint32_t> in = lines::waysInto(traced, places);
   std::optional<lines::TracedLines> more;
   for (int round = 0; round < lines::tuning::kDimRounds; ++round) {
-    const lines::DimCounts counts = lines::dimCounts(traced, area, places, !x.skies.empty(), more ? &*more : nullptr);
+    const lines::DimCounts counts =
+        lines::dimCounts(traced, area, places, in, !x.skies.empty(), more ? &*more : nullptr);
     if (std::ranges::all_of(counts.lines, [](std::uint32_t count) { return count == 0; })) break;
     lines::TracedLines next = lines::traceLines(over, counts.lines);
     more = more ? lines::replaced(*more, next) : std::move(next);

@@ -1,81 +1,97 @@
 #pragma once
 // What a solve over lines has found, kept for the next: an update is a solve of the edited scene that asks here first.
-// What is found here is what it would find itself, so that both end at the same bits.
+// What is found here is what it would find itself, so that both end at the same bits. What is known of patches stays
+// where it is, by element; the elements are those there were, wherever they can be.
+#include <functional>
+
 #include "change/known_samples.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::engine {
 
+/// What edits have left of a scene.
+struct EditedScene {
+  change::MovedSpace space;
+  std::vector<PrimitiveId> moved;
+  std::vector<MaterialId> painted;
+  bool stands = true;      // surfaces have moved, at most: none has come or gone, and lights are what they were
+  bool lightsStay = true;  // all of them are where they were, and none has come or gone
+  bool lightsSame = true;  // they count for what they did as well: where lamps are drawn, one decides about rays to all
+  const particles::ParticleUpdate* retraced = nullptr;  // particles that have followed; null: all may be others
+};
+
 class KnownSolve {
  public:
-  /// What edits have left of the lights.
-  struct Lights {
-    bool stay = true;  // all of them are where they were, and none has come or gone
-    bool same = true;  // they count for what they did as well: where lamps are drawn, one decides about rays to all
-  };
-  /// Of the solution that there was, out of which elements and lines are taken.
-  KnownSolve(SolveMemory, Solution&, change::MovedSpace, Lights);
+  /// Of the solution that there was, out of which elements and lines are taken. The transfer is of its particles.
+  KnownSolve(SolveMemory, Solution&, EditedScene, std::optional<particles::ParticleTransfer>);
 
-  /// Nothing is known where the extent of the scene is another, by which its scales are measured.
-  void holdTo(const hierarchy::Elements&);
-  /// Walks for light from a side that are what they would be now, or nothing.
-  lines::LightWalks* walks(const hierarchy::Elements&, hierarchy::ElementId side);
+  /// The elements there were, folded, and brought to the scene as it is now; or such as `build` makes, with what of
+  /// those they have in common, where surfaces have come or gone. Nothing is known where the extent of the scene is
+  /// another, by which its scales are measured.
+  hierarchy::Elements takeMesh(const Scene&, const std::function<hierarchy::Elements()>& build);
+  /// By element of that: samples from before, walks for light, and whether no light came there.
+  PatchSamples takeSamples() { return std::move(memory_.samples); }
+  std::vector<lines::LightWalks> takeWalks() { return std::move(memory_.walks); }
+  particles::Details takeDetails(const hierarchy::Elements&, const particles::Particles&);
+  /// Where particles lay on the elements and on their input level, to be followed to where they are; nothing where all
+  /// may be others.
+  std::optional<particles::ParticleTransfer> takeTransfer() { return std::exchange(transfer_, {}); }
+  std::optional<particles::ParticleTransfer> takeCoarseTransfer() { return std::move(memory_.coarseTransfer); }
+  const particles::ParticleUpdate& retraced() const { return *followed_; }
+
+  /// Whether walks for light from a side are what they would be now.
+  bool holdsWalks(const hierarchy::Elements&, hierarchy::ElementId side, const lines::LightWalks&) const;
   /// Takes sides of hollows that have opened or closed for moved: lines into them count otherwise.
   void moveOpened(const hierarchy::Elements&, const std::vector<char>& enclosed);
-
-  /// The parts of patches that were split before, which are what they were where they do not move.
-  hierarchy::KnownParts* parts(const hierarchy::Elements&, std::span<const hierarchy::ElementId> patches);
-  /// Takes what is known of a patch's surroundings; false where that may have changed.
-  bool takeScale(const hierarchy::Elements&, const Scene&, hierarchy::ElementId, PatchSamples& to);
-  /// Direct light without a choice, likewise, to be taken; nullptr.
-  std::unique_ptr<WholeLight> takeWhole(const hierarchy::Elements&, const direct::DirectSampler&, hierarchy::ElementId,
-                                        const lines::LeafScale&, const direct::LampSight& above);
-  /// What the memory has of it, so that whoever stays with the choice takes it.
-  struct Evaluated {
-    std::unique_ptr<EvaluatedLight>* how = nullptr;
-    direct::LeafDirect* light = nullptr;
-  };
-  /// With one.
-  Evaluated evaluated(const hierarchy::Elements&, const direct::DirectSampler&, hierarchy::ElementId,
-                      const lines::LeafScale&, const direct::LampSight& above);
+  /// The same of what is known of a patch's surroundings.
+  bool holdsScale(const hierarchy::Elements&, const Scene&, hierarchy::ElementId, const lines::FirstLines&) const;
+  /// Of its direct light, found by rays that came to `light`, and knew of lamps what is above.
+  bool holdsLight(const hierarchy::Elements&, const direct::DirectSampler&, hierarchy::ElementId,
+                  const lines::LeafScale&, const direct::LampSight& before, const direct::LampSight& above,
+                  const direct::LeafDirect& light);
+  /// Which of its shadow rays are, however its light may differ; empty where none is known to be.
+  std::function<bool(const direct::Lamp&, const tracing::Ray&)> shadowsThatHold(const hierarchy::Elements&,
+                                                                                const direct::Lamps&,
+                                                                                hierarchy::ElementId);
   /// Direct light from those points of a leaf, likewise; nullptr.
-  const direct::DimDirect* dim(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId leaf,
-                               std::uint64_t points);
+  const direct::DimDirect* dim(const hierarchy::Elements&, const Scene&, const direct::Lamps&,
+                               hierarchy::ElementId leaf, std::uint64_t key, std::span<const std::uint32_t> points);
   /// Light of a leaf by way of others as it was; nullopt where it was none [W/m2].
   std::optional<Rgb> indirect(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
-  /// The lines, as they are now; once.
+  /// The lines, as they are now; once. The same of the input level.
   std::optional<lines::KnownLines> takeLines(const hierarchy::Elements&, const hierarchy::LeafTable&);
-  /// Sky light of a leaf, that had that number, if it follows from what has that key; nullptr, and what is known of its
-  /// rays.
-  const direct::SkyAtLeaf* sky(const hierarchy::Elements&, hierarchy::ElementId leaf, std::uint32_t before,
-                               const direct::SkyKey&, std::span<direct::SkyRay>) const;
-  std::span<const lines::LineCode> skyRays(std::uint32_t before) const;
+  std::optional<lines::KnownLines> takeCoarseLines(const hierarchy::Elements&, const hierarchy::LeafTable&);
+  const KnownSky& sky() const { return memory_.sky; }
+  const KnownSky& coarseSky() const { return memory_.coarse.sky; }
+  /// Sky light of a leaf, that had that number in `sky`, if it follows from what has that key; nullptr, and what is
+  /// known of its rays.
+  const direct::SkyAtLeaf* sky(const KnownSky&, const hierarchy::Elements&, hierarchy::ElementId leaf,
+                               std::uint32_t before, const direct::SkyKey&, std::span<direct::SkyRay>) const;
   const lines::Exchange* exchange() const { return memory_.exchange.get(); }
 
  private:
-  /// The element there was for a patch that is where it was, by index; kNone. Found by its key where nobody has
-  /// followed it from the patch above.
-  std::uint32_t find(const hierarchy::Elements&, hierarchy::ElementId) const;
-  /// By leaf: the number that it had where it stands, or kNone.
-  std::vector<std::uint32_t> leavesBefore(const hierarchy::Elements&, const hierarchy::LeafTable&) const;
-  std::uint32_t findPart(const hierarchy::Elements&, hierarchy::ElementId) const;
-  /// The same where its light was asked for from the same points.
-  std::uint32_t findLit(const hierarchy::Elements&, hierarchy::ElementId, const lines::LeafScale&) const;
-
+  /// Whether a patch was there, and is where it was.
+  bool known(const hierarchy::Elements&, hierarchy::ElementId) const;
+  /// By leaf there is, that number of its before, by element; kNone of others.
+  std::vector<std::uint32_t> numbersBefore(const hierarchy::Elements&, const hierarchy::LeafTable&,
+                                           const std::vector<std::uint32_t>& numberOf) const;
+  /// What is kept by element, by where elements are now. `was`: which each was before, or kNone.
+  void renumber(const std::vector<std::uint32_t>& was);
   /// change::lampsThrough() of a patch: out of those of the patch that it is a part of.
   std::uint64_t through(const hierarchy::Elements&, const direct::Lamps&, hierarchy::ElementId);
 
   static constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone;
   SolveMemory memory_;
-  hierarchy::Elements elements_;
-  hierarchy::LeafTable leaves_;
+  hierarchy::Elements elements_;         // until they are taken
+  std::vector<char> there_;              // by element: whether it was there
+  std::vector<std::uint32_t> numberOf_;  // by element: its leaf's number before, or kNone
+  std::vector<Rgb> indirect_;            // by element
   lines::Lines lines_;
-  change::MovedSpace space_;
-  Lights lights_;
+  EditedScene edits_;
+  const particles::ParticleUpdate* followed_;  // null: nothing is known of particles
+  std::optional<particles::ParticleTransfer> transfer_;
   bool holds_ = true;
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> byKey_;  // ascending
-  hierarchy::KnownParts parts_;                                 // followed from patch to patch
-  std::vector<std::uint64_t> through_;                          // by element: through(), where it was asked; kUnasked
+  std::vector<std::uint64_t> through_;  // by element: through(), where it was asked; kUnasked
 };
 
 }  // namespace deltalux::engine

@@ -36,12 +36,12 @@ std::vector<float> powerOf(const LineSolve& x, const hierarchy::LeafTable& leave
 
 /// Sky light of every leaf, undimmed; that of leaves which nothing has changed for is taken from before.
 KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::TracedLines& traced) {
-  constexpr std::size_t kEach = direct::tuning::kManyRays;
+  constexpr std::size_t kEach = KnownSky::kEach;
   KnownSky sky;
   sky.at.resize(leaves.size()), sky.skies = x.skies.key();
   if (x.skies.empty()) return sky;
-  // Not of the coarse light, whose leaves were others.
-  const std::vector<std::uint32_t>* before = x.knownLines ? &x.knownLines->of : nullptr;
+  const lines::KnownLines* before = x.knownLines ? &*x.knownLines : nullptr;
+  const KnownSky* known = before ? x.knownSky : nullptr;
   sky.key.resize(leaves.size()), sky.rays.resize(leaves.size() * kEach), sky.cells.resize(leaves.size() * kEach);
   const direct::SkyVisibility visibility = skyVisibility(x.s.elements, leaves, traced.lines);
   const std::vector<std::uint32_t> first = lines::firstOf(traced.escaped, leaves.size());
@@ -57,35 +57,43 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
     const std::uint32_t count = traced.lines.countOf(i);
     if (count == traced.covered[i]) return std::uint64_t(0);
     auto& [escaped, points] = scratch.local();
-    escaped.clear(), points.clear();
-    for (std::uint32_t k = first[i]; k < first[i + 1]; ++k) {
-      const lines::EscapedLine& e = traced.escaped[k];
-      escaped.push_back({e.direction, e.cosine, e.weight, e.chance});
-    }
+    points.clear();
     // Where lines are so many that they would be their own guides, what they have found by chance would count less.
     const std::size_t rays = count < direct::tuning::kGuideLines ? kEach : 0;
     for (std::uint32_t k = 0; k < count && points.size() < rays; ++k)
       if (traced.lines.end[traced.lines.first[i] + k] != lines::kCovered) points.push_back(k);
-    const direct::SkyLeaf leaf{static_cast<std::uint32_t>(i), leaves[i], count - traced.covered[i], escaped, points};
-    sky.key[i] = direct::skyKey(x.skies, visibility, leaf);
+    const auto viewLines = [&] {
+      escaped.clear();
+      for (std::uint32_t k = first[i]; k < first[i + 1]; ++k) {
+        const lines::EscapedLine& e = traced.escaped[k];
+        escaped.push_back({e.direction, e.cosine, e.weight, e.chance});
+      }
+      return direct::SkyLeaf{static_cast<std::uint32_t>(i), leaves[i], count - traced.covered[i], escaped, points};
+    };
     std::array<direct::SkyRay, kEach> ran{};
     const std::span<direct::SkyRay> own = std::span(ran).first(points.size());
-    const std::uint32_t old = before ? (*before)[i] : hierarchy::LeafTable::kNone;
-    if (old != hierarchy::LeafTable::kNone) {
-      if (const direct::SkyAtLeaf* same = x.known->sky(x.s.elements, leaves[i], old, sky.key[i], own)) {
-        sky.at[i] = *same;
-        std::ranges::copy(x.known->skyRays(old), codes);
+    const std::uint32_t old = before ? before->of[i] : hierarchy::LeafTable::kNone;
+    const bool there = old < (known ? known->key.size() : 0);
+    // Of the same lines, and the same estimate, all follows again.
+    const bool same = there && before->whole[old] && before->lines.countOf(old) == count && known->skies == sky.skies &&
+                      known->key[old].guide == visibility.key(static_cast<std::uint32_t>(i));
+    sky.key[i] = same ? known->key[old] : direct::skyKey(x.skies, visibility, viewLines());
+    if (there) {
+      if (const direct::SkyAtLeaf* at = x.known->sky(*known, x.s.elements, leaves[i], old, sky.key[i], own)) {
+        sky.at[i] = *at;
+        std::ranges::copy(known->raysOf(old), codes);
         for (std::size_t k = 0; k < own.size(); ++k) cells[k] = own[k].cell;
         return std::uint64_t(0);
       }
     }
+    const direct::SkyLeaf leaf = viewLines();
     sky.at[i] = direct::skyLight(x.skies, visibility, x.s.elements, x.s.scene, *x.s.tracer, leaf, own);
     for (std::size_t k = 0; k < own.size(); ++k) {
       cells[k] = own[k].cell;
       if (own[k].traced())
         codes[k] = lines::lineCode(own[k].direction, own[k].length);
       else if (own[k].known != direct::SkyRay::Visibility::Unknown)
-        codes[k] = x.known->skyRays(old)[k];
+        codes[k] = known->raysOf(old)[k];
     }
     return std::uint64_t(sky.at[i].rays);
   });
@@ -101,7 +109,7 @@ Rgb startOf(const LineSolve& x, hierarchy::ElementId leaf) {
 
 std::unique_ptr<lines::Exchange> exchangeOf(const LineSolve& x, const hierarchy::LeafTable& leaves,
                                             const lines::TracedLines& traced) {
-  const lines::Exchange* before = x.knownLines ? x.known->exchange() : nullptr;
+  const lines::Exchange* before = x.knownLines ? x.knownExchange : nullptr;
   if (!before) return std::make_unique<lines::Exchange>(traced.lines, x.s.elements, leaves, x.tracer, traced.covered);
   return std::make_unique<lines::Exchange>(*before, *x.knownLines, traced.lines, x.s.elements, leaves, x.tracer,
                                            traced.covered);
@@ -109,16 +117,17 @@ std::unique_ptr<lines::Exchange> exchangeOf(const LineSolve& x, const hierarchy:
 
 }  // namespace
 
-lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base) {
+lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base, TakeLines takeLines) {
   const hierarchy::Elements& elements = x.s.elements;
   const hierarchy::LeafTable leaves(elements);
   x.dim.clear();
   const std::vector<std::uint32_t> counts = lines::lineCounts(elements, leaves, powerOf(x, leaves), x.enclosed, base);
   const hierarchy::LeafLocator locator(elements, x.s.scene, leaves);
-  if (x.known && x.floor > 0) x.knownLines = x.known->takeLines(elements, leaves);
+  if (x.known) x.knownLines = (x.known->*takeLines)(elements, leaves);
   const lines::LineScene over{elements, leaves,     locator,         x.tracer,
                               x.cover,  x.enclosed, x.samples.first, x.knownLines ? &*x.knownLines : nullptr};
-  lines::TracedLines traced = lookIntoTheDark(x, over, lines::traceLines(over, counts));
+  lines::TracedLines traced = lines::traceLines(over, counts);
+  traced = lookIntoTheDark(x, over, std::move(traced));
   DELTALUX_VALIDATED(validate(traced.lines));
   x.s.report.counts.raysVisibility += traced.rays;
   return traced;

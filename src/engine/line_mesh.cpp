@@ -23,6 +23,11 @@ void setExposed(LineSolve& x, hierarchy::ElementId patch) {
 
 /// The samplers of one state of the elements.
 struct Samplers {
+  LineSolve& x;
+  lines::ScaleMeter meter;
+  direct::DirectSampler direct;
+  double slot;  // see lines::tooWide()
+
   explicit Samplers(LineSolve& solve)
       : x(solve),
         meter(x.s.elements, x.tracer, x.cover, x.enclosed),
@@ -31,32 +36,48 @@ struct Samplers {
 
   /// Rays that were traced.
   std::uint64_t measure(hierarchy::ElementId patch) const {
-    lines::LeafScale& scale = x.samples.scale[patch.index()];
-    if (scale.known > 0) return 0;
-    if (x.known && x.known->takeScale(x.s.elements, x.s.scene, patch, x.samples)) {
+    const std::size_t e = patch.index();
+    if (std::exchange(x.measured[e], true)) return 0;
+    lines::LeafScale& scale = x.samples.scale[e];
+    std::unique_ptr<lines::FirstLines>& first = x.samples.first[e];
+    if (x.known && first && x.known->holdsScale(x.s.elements, x.s.scene, patch, *first)) {
       setExposed(x, patch);
       return 0;
     }
-    auto& first = x.samples.first[patch.index()] = std::make_unique<lines::FirstLines>();
+    x.samples.walled[e] = PatchSamples::Walled::Unasked;
+    const lines::LeafScale before = scale;
+    first = std::make_unique<lines::FirstLines>();
     scale = meter.measure(patch, *first);
+    if (before.covered != scale.covered || before.known != scale.known) x.samples.forgetLight(e);
     setExposed(x, patch);
     return scale.rays;
   }
 
+  bool walled(hierarchy::ElementId patch) const {
+    using enum PatchSamples::Walled;
+    PatchSamples::Walled& walled = x.samples.walled[patch.index()];
+    if (walled == Unasked) walled = hierarchy::wallsAcross(x.s.elements, x.s.scene, patch) ? Yes : No;
+    return walled == Yes;
+  }
   /// Direct light of what is not split.
   std::uint64_t light(hierarchy::ElementId patch) const {
     const std::size_t e = patch.index();
-    const lines::LeafScale& scale = x.samples.scale[e];
-    const direct::LampSight above = sightAbove(x.samples, x.s.elements, patch);
-    x.samples.evaluated[e].reset();
-    std::unique_ptr<WholeLight> light =
-        x.known ? x.known->takeWhole(x.s.elements, direct, patch, scale, above) : nullptr;
-    const bool known = light != nullptr;
-    if (!known)
-      light = std::make_unique<WholeLight>(WholeLight{direct.at(patch, {scale.covered, scale.known}, above), above});
-    x.samples.direct[e] = light->light;
-    x.samples.whole[e] = std::move(light);
-    return known ? 0 : x.samples.direct[e].rays;
+    const std::uint64_t rays = measureLight(patch, x.samples.whole[e]);
+    x.samples.direct[e] = x.samples.whole[e]->light;
+    if (std::unique_ptr<EvaluatedLight>& choice = x.samples.evaluated[e];
+        choice && choice->choice != direct::DirectSampler::Choice::Split)
+      choice.reset();  // its light is gone
+    return rays;
+  }
+  /// The same of the input level, for the coarse light.
+  std::uint64_t coarseLight(hierarchy::ElementId patch) const {
+    return measureLight(patch, x.samples.coarse[patch.index()]);
+  }
+  /// A patch is split whatever its light: its parts know of lamps what the coarse light has found.
+  void leaveLight(hierarchy::ElementId patch) const {
+    const std::size_t e = patch.index();
+    x.samples.evaluated[e].reset(), x.samples.direct[e] = {};
+    if (x.samples.coarse[e]) x.samples.direct[e].sight = x.samples.coarse[e]->light.sight;
   }
   /// Direct light, or what of it tells that the patch is to be split: by `choose`.
   std::uint64_t light(hierarchy::ElementId patch, const direct::DirectSampler::Splits& choose) const {
@@ -65,33 +86,56 @@ struct Samplers {
     const lines::LeafScale& scale = x.samples.scale[e];
     const direct::LampSight above = sightAbove(x.samples, x.s.elements, patch);
     std::unique_ptr<EvaluatedLight>& evaluated = x.samples.evaluated[e];
-    if (x.known) {
-      const KnownSolve::Evaluated before = x.known->evaluated(x.s.elements, direct, patch, scale, above);
-      const auto choice = before.how ? choose((*before.how)->found) : Whole;
-      if (before.how && choice == (*before.how)->choice) {
-        evaluated = std::move(*before.how), x.samples.direct[e] = std::move(*before.light);
+    direct::LeafDirect& light = x.samples.direct[e];
+    if (x.known && evaluated &&
+        x.known->holdsLight(x.s.elements, direct, patch, scale, evaluated->above, above, light)) {
+      const auto choice = choose(evaluated->found);
+      if (choice == evaluated->choice) {
+        if (choice == Split) light.sight = evaluated->found.sight;
         return 0;
       }
-      if (before.how && choice == Split) {  // by what was asked so far
-        evaluated = std::move(*before.how), evaluated->choice = choice;
+      if (choice == Split) {  // by what was asked so far
+        evaluated->choice = choice;
         const direct::LeafDirect& found = evaluated->found;
-        x.samples.direct[e] = {found.E,    found.deviation, found.variation,     found.tooWideForBeam,
-                               found.rays, found.sight,     before.light->drawn, std::move(before.light->lamps)};
+        light = {found.E,    found.deviation, found.variation, found.tooWideForBeam,
+                 found.rays, found.sight,     light.drawn,     std::move(light.lamps)};
         return 0;
       }
     }
+    const direct::DirectSampler::KnownShadows shadows = evaluated ? shadowsBefore(patch, light) : shadowsOfCoarse(e);
     evaluated = std::make_unique<EvaluatedLight>(EvaluatedLight{{}, above, Whole});
-    x.samples.direct[e] = direct.at(patch, {scale.covered, scale.known}, above, [&](const direct::LeafDirect& found) {
+    const auto chooseByFound = [&](const direct::LeafDirect& found) {
       evaluated->found = found;
       return evaluated->choice = choose(found);
-    });
-    return x.samples.direct[e].rays;
+    };
+    light = direct.at(patch, {scale.covered, scale.known}, above, chooseByFound, shadows.holds ? &shadows : nullptr);
+    return light.rays;
   }
 
-  LineSolve& x;
-  lines::ScaleMeter meter;
-  direct::DirectSampler direct;
-  double slot;  // see lines::tooWide()
+ private:
+  /// Of shadow rays that came to some light before.
+  direct::DirectSampler::KnownShadows shadowsBefore(hierarchy::ElementId patch, const direct::LeafDirect& light) const {
+    if (!x.known) return {};
+    return {light.lamps, x.known->shadowsThatHold(x.s.elements, direct.lamps(), patch)};
+  }
+  /// The same of the coarse light of this scene.
+  direct::DirectSampler::KnownShadows shadowsOfCoarse(std::size_t e) const {
+    if (!x.samples.coarse[e]) return {};
+    return {x.samples.coarse[e]->light.lamps, [](const direct::Lamp&, const tracing::Ray&) { return true; }};
+  }
+  std::uint64_t measureLight(hierarchy::ElementId patch, std::unique_ptr<WholeLight>& whole) const {
+    const lines::LeafScale& scale = x.samples.scale[patch.index()];
+    const direct::LampSight above = sightAbove(x.samples, x.s.elements, patch);
+    const bool holds =
+        x.known && whole && x.known->holdsLight(x.s.elements, direct, patch, scale, whole->above, above, whole->light);
+    if (!holds) {
+      direct::DirectSampler::KnownShadows shadows;
+      if (whole) shadows = shadowsBefore(patch, whole->light);
+      whole = std::make_unique<WholeLight>(WholeLight{
+          direct.at(patch, {scale.covered, scale.known}, above, {}, shadows.holds ? &shadows : nullptr), above});
+    }
+    return holds ? 0 : whole->light.rays;
+  }
 };
 
 /// Whether a patch is to be split; adds the rays that tell.
@@ -102,9 +146,11 @@ bool splits(const Samplers& samplers, hierarchy::ElementId patch, std::uint64_t&
   const hierarchy::ElementLight& coarse = x.s.elements.radiometry[patch.index()];
   rays += samplers.measure(patch);
   const double dim = x.floor > 0 ? gray(coarse.indirect + coarse.direct) / x.floor : 1.0;
-  if (lines::tooWide(g, x.samples.scale[patch.index()], error, dim, samplers.slot)) return true;
   // Where a wall crosses a patch, light of one side would come out on the other.
-  if (hierarchy::wallsAcross(x.s.elements, x.s.scene, patch)) return true;
+  if (lines::tooWide(g, x.samples.scale[patch.index()], error, dim, samplers.slot) || samplers.walled(patch)) {
+    samplers.leaveLight(patch);
+    return true;
+  }
   bool split = false;
   rays += samplers.light(patch, [&](const direct::LeafDirect& light) {
     const double level = std::max<double>(gray(light.E + coarse.indirect), x.floor);
@@ -123,8 +169,18 @@ direct::LampSight sightAbove(const PatchSamples& samples, const hierarchy::Eleme
   return above.valid() ? samples.direct[above.index()].sight : direct::LampSight{};
 }
 
+void sampleInputs(LineSolve& x, std::span<const hierarchy::ElementId> inputs) {
+  x.resizeSamples();
+  const Samplers samplers(x);
+  x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(inputs.size(), kPatches, [&](std::size_t i) {
+    if (x.takesPart(inputs[i])) return samplers.measure(inputs[i]) + samplers.coarseLight(inputs[i]);
+    x.samples.forget(inputs[i].index());
+    return std::uint64_t(0);
+  });
+}
+
 void samplePatches(LineSolve& x, std::span<const hierarchy::ElementId> patches) {
-  x.samples.resize(x.s.elements.size());
+  x.resizeSamples();
   const Samplers samplers(x);
   x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(patches.size(), kPatches, [&](std::size_t i) {
     return x.takesPart(patches[i]) ? samplers.measure(patches[i]) + samplers.light(patches[i]) : 0;
@@ -134,7 +190,7 @@ void samplePatches(LineSolve& x, std::span<const hierarchy::ElementId> patches) 
 bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const std::function<bool()>& stop) {
   hierarchy::Elements& elements = x.s.elements;
   while (!patches.empty()) {
-    x.samples.resize(elements.size());
+    x.resizeSamples();
     std::vector<char> split(patches.size(), 0);
     {
       const Samplers samplers(x);
@@ -148,9 +204,8 @@ bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const s
     std::vector<hierarchy::ElementId> chosen, parts, whole;
     for (std::size_t i = 0; i < patches.size(); ++i)
       if (split[i]) chosen.push_back(patches[i]);
-    const std::vector<char> done = stopped ? std::vector<char>(chosen.size(), false)
-                                           : hierarchy::subdivide(elements, x.s.scene, chosen,
-                                                                  x.known ? x.known->parts(elements, chosen) : nullptr);
+    const std::vector<char> done =
+        stopped ? std::vector<char>(chosen.size(), false) : hierarchy::subdivide(elements, x.s.scene, chosen);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       if (!done[i]) {
         whole.push_back(chosen[i]);

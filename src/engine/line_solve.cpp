@@ -10,6 +10,7 @@
 #include "engine/light_columns.hpp"
 #include "engine/particle_settings.hpp"
 #include "hierarchy/build.hpp"
+#include "hierarchy/fold.hpp"
 #include "hierarchy/patch.hpp"
 #include "hierarchy/pull.hpp"
 #include "lines/line_counts.hpp"
@@ -26,6 +27,12 @@ void checkInterrupted(Progress* progress) {
   if (progress && progress->stopRequested()) throw Interrupted();
 }
 
+/// Exchanges the direct light of the input level for that of its coarse solution, or back.
+void swapCoarse(PatchSamples& samples, std::span<const hierarchy::ElementId> inputs) {
+  for (const hierarchy::ElementId e : inputs)
+    if (WholeLight* coarse = samples.coarse[e.index()].get()) std::swap(samples.direct[e.index()], coarse->light);
+}
+
 /// Into cells of which shadow rays to a point choose.
 void divideSkies(hierarchy::Elements& elements, const Scene& scene) {
   std::vector<hierarchy::ElementId> cells = elements.distant;
@@ -36,6 +43,14 @@ void divideSkies(hierarchy::Elements& elements, const Scene& scene) {
         for (std::size_t c = 0; c < elements.at(e).childCount; ++c) parts.push_back(elements.child(e, c));
     cells = std::move(parts);
   }
+}
+
+hierarchy::Elements inputElements(const Scene& scene) {
+  std::vector<hierarchy::FaceOrder> orders = hierarchy::faceOrders(scene);
+  const std::vector<hierarchy::SurfaceSide> sides = hierarchy::surfaceSides(scene, orders);
+  hierarchy::Elements elements = hierarchy::buildElements(scene, sides, std::move(orders));
+  if (elements.sceneRoot.valid()) divideSkies(elements, scene);
+  return elements;
 }
 
 std::vector<hierarchy::ElementId> receivingInputs(const hierarchy::Elements& elements) {
@@ -66,6 +81,15 @@ bool traceParticles(Solution& s, const TimeBudget& budget) {
   return tracing.count() >= wanted;
 }
 
+/// Where particles lie on the elements: by what followed them from before, if anything did.
+particles::ParticleTransfer transferOf(const Solution& s, std::optional<particles::ParticleTransfer> before,
+                                       const KnownSolve* known) {
+  if (!before) return {s.particles, s.elements, s.scene};
+  before->follow(s.particles, known->retraced(), s.elements, s.scene);
+  before->followAllPatches(s.elements);
+  return std::move(*before);
+}
+
 /// The light of the lines, by groups of lights.
 void keepColumns(LineSolve& x, Progress* progress) {
   const hierarchy::LeafTable leaves(x.s.elements);
@@ -78,16 +102,21 @@ void keepColumns(LineSolve& x, Progress* progress) {
 void refineForParticles(LineSolve& x) {
   Solution& s = x.s;
   if (s.particles.impacts() == 0) return;
-  hierarchy::pull(s.elements);
   caustics::SurfaceSides shown(2 * s.scene.primitives.size(), false);
   if (s.settings.causticTextures)
     shown = caustics::sidesWithTextures(
         s.scene, s.elements, particles::impacts(s.particles, s.elements, s.scene, x.nominal), s.settings.error);
-  const std::size_t before = s.elements.size();
-  particles::subdivideForParticles(s.elements, s.scene, s.particles, shown);
+  particles::subdivideForParticles(s.elements, s.scene, s.particles, shown, x.details);
   std::vector<hierarchy::ElementId> parts;
-  for (std::size_t i = before; i < s.elements.size(); ++i)
-    if (s.elements.isReceivingLeaf(hierarchy::ElementId(i))) parts.emplace_back(i);
+  x.resizeSamples();
+  for (std::size_t i = 0; i < s.elements.size(); ++i) {
+    const hierarchy::ElementId e(i);
+    if (x.measured[i] || !s.elements.receives(e)) continue;
+    if (s.elements.isLeaf(e))
+      parts.push_back(e);
+    else
+      x.samples.forget(i);  // nobody has asked it what it may have been asked before
+  }
   samplePatches(x, parts);
 }
 
@@ -131,6 +160,9 @@ std::shared_ptr<SolveMemory> memoryOf(LineSolve&& x) {
   memory->walks = std::move(x.walks), memory->enclosed = std::move(x.enclosed);
   memory->escaped = std::move(x.escaped), memory->bends = std::move(x.bends);
   memory->sky = std::move(x.sky), memory->dim = std::move(x.dim), memory->exchange = std::move(x.exchange);
+  memory->details = std::move(x.details);
+  memory->coarse = std::move(x.coarse);
+  memory->coarseTransfer = std::move(x.coarseTransfer);
   memory->plain = x.responses.plain();
   memory->nominal = std::move(x.nominal);
   return memory;
@@ -144,14 +176,17 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const T
   if (progress) progress->report("particles", 1.0);
   checkInterrupted(progress);
 
-  std::vector<hierarchy::FaceOrder> orders = hierarchy::faceOrders(s.scene);
-  const std::vector<hierarchy::SurfaceSide> sides = hierarchy::surfaceSides(s.scene, orders);
-  s.elements = hierarchy::buildElements(s.scene, sides, std::move(orders));
+  const auto build = [&] { return inputElements(s.scene); };
+  s.elements = known ? known->takeMesh(s.scene, build) : build();
   if (!s.elements.sceneRoot.valid()) return solve;
-  divideSkies(s.elements, s.scene);
-  if (known) known->holdTo(s.elements);
-  const auto knownWalks = [&](hierarchy::ElementId side) { return known ? known->walks(s.elements, side) : nullptr; };
-  solve->walks = lines::walkForLight(s.elements, solve->tracer, knownWalks, s.report.counts.raysVisibility);
+  if (known) {
+    solve->samples = known->takeSamples(), solve->walks = known->takeWalks();
+    solve->details = known->takeDetails(s.elements, s.particles);
+  }
+  const auto hold = [&](hierarchy::ElementId side, const lines::LightWalks& walks) {
+    return known && known->holdsWalks(s.elements, side, walks);
+  };
+  s.report.counts.raysVisibility += lines::walkForLight(s.elements, solve->tracer, hold, solve->walks);
   for (const lines::LightWalks& w : solve->walks) solve->enclosed.push_back(w.enclosed);
   openToParticles(*solve);
   if (known) known->moveOpened(s.elements, solve->enclosed);
@@ -159,15 +194,21 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const T
   checkInterrupted(progress);
 
   const std::vector<hierarchy::ElementId> inputs = receivingInputs(s.elements);
-  samplePatches(*solve, inputs);
+  sampleInputs(*solve, inputs);
   lines::setMeanFreePaths(s.elements, solve->samples.scale);
-  particles::ParticleTransfer(s.particles, s.elements, s.scene).apply(s.elements, solve->nominal);
-  lightLeaves(*solve, traceLeaves(*solve, lines::tuning::kFirstLines), Dimming::none(s.scene),
-              lines::tuning::kCoarseConverged);
+  solve->coarseTransfer = transferOf(s, known ? known->takeCoarseTransfer() : std::nullopt, known);
+  solve->coarseTransfer->apply(s.elements, solve->nominal);
+  swapCoarse(solve->samples, inputs);
+  if (known) solve->knownSky = &known->coarseSky();
+  lightLeaves(*solve, traceLeaves(*solve, lines::tuning::kFirstLines, &KnownSolve::takeCoarseLines),
+              Dimming::none(s.scene), lines::tuning::kCoarseConverged);
   for (const hierarchy::ElementId e : inputs) {
     hierarchy::ElementLight& l = s.elements.radiometry[e.index()];
     l.typical = gray(l.direct + l.indirect);
   }
+  swapCoarse(solve->samples, inputs);
+  solve->coarse = {
+      {s.lines, solve->escaped, solve->bends, {}, 0}, std::move(solve->sky), hierarchy::LeafTable(s.elements).indexOf};
   solve->floor = floorOf(s.elements);
   hierarchy::pull(s.elements);
   DELTALUX_VALIDATED(validate(s.elements));
@@ -185,7 +226,8 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
     return budget.limited() && budget.left() < (1 - tuning::kMeshTime) * budget.seconds();
   });
   if (!budget.up()) refineForParticles(x);
-  x.transfer.emplace(s.particles, s.elements, s.scene);
+  hierarchy::forgetFolded(s.elements);
+  x.transfer = transferOf(s, x.known ? x.known->takeTransfer() : std::nullopt, x.known);
   x.transfer->apply(s.elements, x.nominal);
   const std::vector<Rgb> scales = scene::scalesOf(s.scene);
   if (!x.known && scales == x.nominal) x.transfer.reset();  // what follows takes more memory than it takes time
@@ -205,14 +247,14 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
     base = static_cast<std::uint32_t>(
         std::clamp(affordable, double(lines::tuning::kFirstLines), static_cast<double>(wanted)));
   }
-  lines::TracedLines traced = traceLeaves(x, base);
+  if (x.known) x.knownSky = &x.known->sky(), x.knownExchange = x.known->exchange();
+  lines::TracedLines traced = traceLeaves(x, base, &KnownSolve::takeLines);
   if (scales != x.nominal) x.transfer->apply(s.elements, scales);
   lightLeaves(x, std::move(traced), Dimming::of(s.scene, x.skies),
               x.known ? lines::tuning::kConvergedAgain : lines::tuning::kConverged);
   hierarchy::pull(s.elements);
   if (s.settings.byLight) keepColumns(x, progress);
   DELTALUX_VALIDATED(validate(s.elements));
-  s.report.error = estimateError(s);
   s.report.times.gather += watch.lap();
   if (progress) progress->report("lines", 1.0);
   return meshed && base >= wanted && x.allParticles;

@@ -17,6 +17,7 @@
 #include "engine/relight.hpp"
 #include "engine/time_budget.hpp"
 #include "lines/leaf_scale.hpp"
+#include "particles/mesh_for_particles.hpp"
 #include "particles/particle_tracing.hpp"
 #include "particles/transfer.hpp"
 #include "solution/solution.hpp"
@@ -39,23 +40,32 @@ struct LineSolve {
   std::vector<lines::LightWalks> walks;  // by element of the input level
   std::vector<char> enclosed;            // the same: whether neither they nor particles find light
   PatchSamples samples;
-  std::vector<DimLeaf> dim;                             // direct light where light hardly comes
-  std::vector<lines::EscapedLine> escaped;              // of the lines, in the end
-  std::vector<lines::Bend> bends;                       // of the same
-  KnownSky sky;                                         // in the end
-  std::optional<lines::KnownLines> knownLines;          // what is known of the lines before
-  std::unique_ptr<lines::Exchange> exchange;            // over the lines, in the end
-  double floor = 0;                                     // light that still matters [W/m2, gray]
-  std::optional<particles::ParticleTransfer> transfer;  // on the mesh, in the end
-  bool allParticles = true;                             // as many as the error asks for: there was time
+  particles::Details details;  // by element, of particles on it
+  std::vector<char> measured;  // by element: that its samples are of this solve, or have been found to hold
+  std::vector<DimLeaf> dim;    // direct light where light hardly comes
+  std::vector<lines::EscapedLine> escaped;         // of the lines, in the end
+  std::vector<lines::Bend> bends;                  // of the same
+  KnownSky sky;                                    // in the end
+  CoarseLines coarse;                              // of the coarse light
+  std::optional<lines::KnownLines> knownLines;     // what is known of the lines before, of those of this stage
+  const KnownSky* knownSky = nullptr;              // the same of their sky light
+  const lines::Exchange* knownExchange = nullptr;  // and of what is exchanged over them
+  std::unique_ptr<lines::Exchange> exchange;       // over the lines, in the end
+  double floor = 0;                                // light that still matters [W/m2, gray]
+  std::optional<particles::ParticleTransfer> transfer, coarseTransfer;  // on the mesh, in the end; on the input level
+  bool allParticles = true;                                             // as many as the error asks for: there was time
 
   bool takesPart(hierarchy::ElementId patch) const;
+  /// Samples of all elements there are.
+  void resizeSamples() { samples.resize(s.elements.size()), measured.resize(s.elements.size(), false); }
 };
 
 // The mesh.
 
 /// What is known of lamps at the patch that this one is a part of.
 direct::LampSight sightAbove(const PatchSamples&, const hierarchy::Elements&, hierarchy::ElementId patch);
+/// Samples of the input level, and its direct light for the coarse solution, which is kept apart.
+void sampleInputs(LineSolve&, std::span<const hierarchy::ElementId> inputs);
 /// Samples that decide about patches, and their direct light.
 void samplePatches(LineSolve&, std::span<const hierarchy::ElementId> patches);
 /// Splits patches, from these down, until indirect and direct light vary over none by more than the error allows, or
@@ -66,8 +76,10 @@ bool refineMesh(LineSolve&, std::vector<hierarchy::ElementId> patches, const std
 
 /// More lines, and shadow rays, of leaves in rooms where hardly any light arrives. dim_leaves.cpp.
 lines::TracedLines lookIntoTheDark(LineSolve&, const lines::LineScene&, lines::TracedLines);
-/// About `base` lines of each of the leaves there are.
-lines::TracedLines traceLeaves(LineSolve&, std::uint32_t base);
+/// About `base` lines of each of the leaves there are; those that are known are taken.
+using TakeLines = std::optional<lines::KnownLines> (KnownSolve::*)(const hierarchy::Elements&,
+                                                                   const hierarchy::LeafTable&);
+lines::TracedLines traceLeaves(LineSolve&, std::uint32_t base, TakeLines);
 /// Light of the leaves over those, from their direct light and particles: writes the elements' irradiance and
 /// radiosity, the solution's lines and their deviation.
 void lightLeaves(LineSolve&, lines::TracedLines, const Dimming&, double converged);

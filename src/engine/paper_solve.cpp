@@ -31,7 +31,8 @@ void Engine::State::paperRound(Progress* progress) {
 
   const caustics::SurfaceSides shown = chooseTextures();
   const engine::Clock placing;
-  particles::subdivideForParticles(s.elements, s.scene, s.particles, shown);
+  particles::Details details;
+  particles::subdivideForParticles(s.elements, s.scene, s.particles, shown, details);
   transfer.emplace(s.particles, s.elements, s.scene);
   s.report.times.particles += placing.seconds();
 

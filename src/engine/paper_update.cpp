@@ -116,7 +116,8 @@ void Engine::State::subdivideForDeposits(const particles::ParticleUpdate& deposi
   std::vector<bool> shown(2 * s.scene.primitives.size(), false);
   for (const caustics::SurfaceCaustics& c : s.caustics.surfaces)
     shown[particles::sideIndex(c.primitive, c.front)] = true;
-  particles::subdivideForParticles(s.elements, s.scene, s.particles, shown,
+  particles::Details details;
+  particles::subdivideForParticles(s.elements, s.scene, s.particles, shown, details,
                                    particles::sidesThatKeepTheirMesh(s.scene, s.particles, deposited));
 }
 

@@ -5,6 +5,7 @@
 #include "base/check.hpp"
 #include "engine/energy_balance.hpp"
 #include "engine/state.hpp"
+#include "hierarchy/fold.hpp"
 #include "paper/caustic_textures.hpp"
 
 namespace deltalux {
@@ -39,7 +40,10 @@ void Engine::State::lineRound(Progress* progress) {
   if (!budget.limited()) s.memory = engine::memoryOf(std::move(*lineSolve));
   lineSolve.reset(), known.reset();
   followTextures(counts);
-  count();
+  if (updated)
+    counted = false;  // by whoever looks at the report
+  else
+    count();
   budget = engine::TimeBudget(0);  // updates take what time they need
 }
 
@@ -108,7 +112,7 @@ EnergyLedger Engine::State::balance() {
   return engine::energyBalance(s, *transfer, residual);
 }
 
-void Engine::State::countLight() {
+void Engine::State::count() {
   Solution& s = *solution;
   if (finished && !updated) s.report.energy = balance();
   if (finished && updated) {
@@ -117,13 +121,9 @@ void Engine::State::countLight() {
   }
   s.report.memory.peakRss = peakResidentBytes();
   counted = true;
-}
-
-void Engine::State::count() {
-  Solution& s = *solution;
-  countLight();
+  if (byLines() && finished) s.report.error = engine::estimateError(s);
   WorkCounts& c = s.report.counts;
-  c.elements = s.elements.size();
+  c.elements = s.elements.size() - hierarchy::awayIn(s.elements);
   c.leafElements = 0;
   for (std::size_t i = 0; i < s.elements.size(); ++i)
     c.leafElements += solution->elements.isReceivingLeaf(hierarchy::ElementId(i));

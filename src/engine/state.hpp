@@ -68,8 +68,6 @@ struct Engine::State {
   void solveAfresh(Progress* progress);
   /// Sums that take a walk over everything, for who looks at the report.
   void count();
-  /// Those of them that dimming changes.
-  void countLight();
   EnergyLedger balance();
 
   // Solving over links: paper_solve.cpp.

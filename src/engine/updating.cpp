@@ -95,11 +95,10 @@ void Engine::State::dim(const engine::SceneUpdate& edits, const std::function<vo
   newPaths.reset();
   if (tracing) newPaths = followWithParticles(edits.whole, counts);
   light();
-  s.report.error = engine::estimateError(s);
   s.report.times = {};
   s.report.times.gather = time.seconds();
   followTextures(counts);
-  countLight();
+  counted = false;
 }
 
 void Engine::State::relightOverLines(const engine::Dimming& dimming) {
@@ -132,14 +131,20 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
     if (newPaths->all || added) newPaths.reset();
     if (gapsAreMany()) closeGaps(), newPaths.reset();
   }
-  engine::KnownSolve::Lights lights;
+  engine::EditedScene edited;
+  edited.space = change::MovedSpace(s.scene, edits.moved);
+  edited.moved = edits.primitives(), edited.painted = edits.materials;
   const std::vector<Rgb> nominal = scene::nominalScales(s.scene);
-  lights.stay = edits.movedLights.empty() && !lampMoves &&
-                std::ranges::equal(
-                    nominal, before->nominal, {}, [](const Rgb& scale) { return isBlack(scale); },
-                    [](const Rgb& scale) { return isBlack(scale); });
-  lights.same = lights.stay && nominal == before->nominal;
-  known.emplace(std::move(*before), s, change::MovedSpace(s.scene, edits.moved), lights);
+  edited.lightsStay = edits.movedLights.empty() && !lampMoves &&
+                      std::ranges::equal(
+                          nominal, before->nominal, {}, [](const Rgb& scale) { return isBlack(scale); },
+                          [](const Rgb& scale) { return isBlack(scale); });
+  edited.lightsSame = edited.lightsStay && nominal == before->nominal;
+  edited.stands = edited.lightsStay && edits.dimmed.empty() &&
+                  std::ranges::none_of(edits.moved,
+                                       [](const SceneChange::Moved& m) { return m.before.empty() || m.after.empty(); });
+  edited.retraced = newPaths ? &*newPaths : nullptr;
+  known.emplace(std::move(*before), s, std::move(edited), std::exchange(transfer, {}));
 }
 
 particles::ParticleUpdate Engine::State::followWithParticles(const SceneChange& change, StepReport& step) {

@@ -24,6 +24,7 @@ enum class ElementKind : std::uint8_t {
   Patch,    // one side of a surface or a part of it, receiving or emitting
   Point,    // a point light of any distribution: sends only
   Distant,  // the sun, or a cell of a sky dome: sends only
+  Away,     // part of a patch that is folded, or is not split any more: takes no part in anything (fold.hpp)
 };
 
 struct ElementTopology {
@@ -120,9 +121,10 @@ class Elements {
   std::vector<ElementId> inactive;  // input-level patches that edits have left in the dark: blockers for now; ascending
   Box sceneBox;                     // of all surfaces; the far boxes of distant elements are measured from it
   // These follow from the others:
-  std::vector<ElementId> inputs;  // all of the input level: patches, points and distant roots
-  SideTable<ElementId> sides;     // the lowest patch of a scene tree that holds all of a side
-  ContactLines contacts;          // where patches are split besides in their middle
+  std::vector<ElementId> inputs;     // all of the input level: patches, points and distant roots
+  SideTable<ElementId> sides;        // the lowest patch of a scene tree that holds all of a side
+  ContactLines contacts;             // where patches are split besides in their middle
+  std::vector<std::uint8_t> folded;  // by element: parts that it would have again, of patches that are folded
 
   std::size_t size() const { return topology.size(); }
   /// Appends `count` contiguous elements as the children of `parent` (none: invalid); returns the first.

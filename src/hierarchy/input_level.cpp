@@ -38,17 +38,6 @@ void vanish(Elements& elements, ElementId e, const Vec3f& at) {
   elements.topology[e.index()].blocker = !elements.at(e).emitter;
 }
 
-/// The clusters above elements that have changed.
-void shapeAbove(Elements& elements, std::span<const ElementId> changed) {
-  std::vector<ElementId> above;
-  for (const ElementId c : changed)
-    for (ElementId e = elements.at(c).parent; e.valid(); e = elements.at(e).parent) above.push_back(e);
-  // Children stand behind their clusters.
-  std::sort(above.begin(), above.end(), [](ElementId a, ElementId b) { return b < a; });
-  above.erase(std::unique(above.begin(), above.end()), above.end());
-  for (const ElementId e : above) shapeCluster(elements, e);
-}
-
 }  // namespace
 
 std::optional<PlaneFrame> planeOf(const Shape& shape, std::uint32_t triangle) {
@@ -64,16 +53,20 @@ std::optional<PlaneFrame> planeOf(const Shape& shape, std::uint32_t triangle) {
   return PlaneFrame{p0, e1, e2, length > 0 ? n / length : Vec3(0, 0, 1)};
 }
 
+std::vector<Vec2> outlineOf(const Shape& shape) {
+  const auto* polygon = std::get_if<Polygon>(&shape);
+  if (!polygon) return {{0, 0}, {1, 0}, {0, 1}};
+  std::vector<Vec2> outline;
+  for (const Vec3& p : polygon->vertices) outline.push_back(parameterAt(shape, p));
+  return outline;
+}
+
 void addPlane(Elements& elements, const Scene& scene, ElementId e) {
   PatchDomain& d = elements.domain[e.index()];
   const auto plane = planeOf(scene, d);
   elements.topology[e.index()].flat = plane.has_value();
   if (!plane) return;
-  std::vector<Vec2> outline = {{0, 0}, {1, 0}, {0, 1}};
-  if (const auto* polygon = std::get_if<Polygon>(&scene[d.primitive].shape)) {
-    outline.clear();
-    for (const Vec3& p : polygon->vertices) outline.push_back(parameterAt(scene[d.primitive].shape, p));
-  }
+  const std::vector<Vec2> outline = outlineOf(scene[d.primitive].shape);
   d.frame = static_cast<std::uint32_t>(elements.frames.size());
   elements.frames.push_back(*plane);
   d.outline = static_cast<std::uint32_t>(elements.outlines.size());
@@ -187,6 +180,16 @@ void shapeCluster(Elements& elements, ElementId e) {
     n.normal[q] = elements.nodes[c.index()].normal[q];
     n.weight[q] = 0.25f;
   }
+}
+
+void shapeAbove(Elements& elements, std::span<const ElementId> changed) {
+  std::vector<ElementId> above;
+  for (const ElementId c : changed)
+    for (ElementId e = elements.at(c).parent; e.valid(); e = elements.at(e).parent) above.push_back(e);
+  // Children stand behind their clusters.
+  std::sort(above.begin(), above.end(), [](ElementId a, ElementId b) { return b < a; });
+  above.erase(std::unique(above.begin(), above.end()), above.end());
+  for (const ElementId e : above) shapeCluster(elements, e);
 }
 
 std::vector<ElementId> elementsOf(const Elements& elements, std::span<const PrimitiveId> primitives) {

@@ -7,6 +7,8 @@ namespace deltalux::hierarchy {
 
 /// The plane of a polygon or of a mesh's triangle; nothing for other shapes and for what is no more.
 std::optional<PlaneFrame> planeOf(const Shape&, std::uint32_t triangle);
+/// The outline of a surface that has a plane, in that.
+std::vector<Vec2> outlineOf(const Shape&);
 /// Gives a patch of a polygon or of a mesh's triangle, its domain set, its plane and outline.
 void addPlane(Elements&, const Scene&, ElementId input);
 /// rho, tau and whether it only blocks, from the material, of an input-level patch and all below it.
@@ -18,6 +20,8 @@ void setEmission(Elements&, const Scene&, ElementId emitter);
 void shapePointLight(Elements&, const Scene&, ElementId point);
 /// Extent of a cluster from its children: box, area, and four surface points at even steps of area.
 void shapeCluster(Elements&, ElementId cluster);
+/// The clusters above elements that have changed.
+void shapeAbove(Elements&, std::span<const ElementId> changed);
 
 /// Input-level patches of these primitives, emitters among them.
 std::vector<ElementId> elementsOf(const Elements&, std::span<const PrimitiveId>);

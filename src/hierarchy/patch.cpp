@@ -5,6 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "hierarchy/fold.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/outline.hpp"
 #include "hierarchy/tuning.hpp"
@@ -409,30 +410,7 @@ void placeParts(Elements& elements, const Scene& scene, ElementId e, const Parts
   }
 }
 
-/// Takes the shape of a part from elements where it was the same; false where it was not.
-bool takeShape(Elements& elements, ElementId part, const Elements& before, ElementId old) {
-  const PatchDomain &a = elements.domain[part.index()], &b = before.domain[old.index()];
-  if (a.address != b.address || a.u0 != b.u0 || a.v0 != b.v0 || a.u1 != b.u1 || a.v1 != b.v1 ||
-      a.triangle != b.triangle || a.outlineSize != b.outlineSize || (a.order > 0 && a.outline != b.outline))
-    return false;
-  ElementGeometry& g = elements.geometry[part.index()];
-  const float meanFreePath = g.meanFreePath;
-  g = before.geometry[old.index()];
-  g.meanFreePath = meanFreePath, g.exposed = 1;
-  elements.nodes[part.index()] = before.nodes[old.index()];
-  elements.moments[part.index()] = before.moments[old.index()];
-  return true;
-}
-
-/// Part i of a patch, as it was before.
-std::uint32_t partBefore(const Elements& elements, ElementId e, std::size_t i, const KnownParts* known) {
-  const std::uint32_t old = known ? known->of[e.index()] : Id<void>::kNone;
-  if (old == Id<void>::kNone) return old;
-  const ElementTopology& t = known->before->at(ElementId(old));
-  return t.childCount == elements.at(e).childCount ? known->before->child(ElementId(old), i).value : Id<void>::kNone;
-}
-
-void fillChildren(Elements& elements, const Scene& scene, ElementId e, KnownParts* known = nullptr) {
+void fillChildren(Elements& elements, const Scene& scene, ElementId e) {
   const ElementTopology& parent = elements.at(e);
   for (std::size_t i = 0; i < parent.childCount; ++i) {
     const ElementId c = elements.child(e, i);
@@ -447,9 +425,6 @@ void fillChildren(Elements& elements, const Scene& scene, ElementId e, KnownPart
     r.directGathered = r.indirectGathered = r.particle = Rgb(0.0f);
     if (parent.kind == ElementKind::Distant)
       shapeDistant(elements, scene, c);
-    else if (const std::uint32_t old = partBefore(elements, e, i, known);
-             old != Id<void>::kNone && takeShape(elements, c, *known->before, ElementId(old)))
-      known->of[c.index()] = old;
     else
       shapePatch(elements, scene, c);
     if (elements.hasFaces(e)) elements.holdSides(c);
@@ -458,8 +433,24 @@ void fillChildren(Elements& elements, const Scene& scene, ElementId e, KnownPart
 
 }  // namespace
 
+bool splitsAlike(const Elements& elements, const Scene& scene, ElementId e, const Elements& other, ElementId first,
+                 std::size_t count) {
+  const Parts parts = partsOf(elements, scene, e);
+  if (parts.domains.size() != count) return false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const PatchDomain &a = parts.domains[i], &b = other.domain[first.index() + i];
+    if (a.address != b.address || a.u0 != b.u0 || a.v0 != b.v0 || a.u1 != b.u1 || a.v1 != b.v1 ||
+        a.triangle != b.triangle || (a.order > 0) != (b.order > 0))
+      return false;
+    if (a.order > 0 ? a.outline != b.outline || a.outlineSize != b.outlineSize
+                    : !elements.hasFaces(e) && parts.outlines[i].size() != b.outlineSize)
+      return false;
+  }
+  return true;
+}
+
 bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
-  if (!elements.isLeaf(e)) return true;
+  if (!elements.isLeaf(e) || unfold(elements, e)) return true;
   const Parts parts = partsOf(elements, scene, e);
   if (parts.domains.empty()) return false;
   placeParts(elements, scene, e, parts);
@@ -467,12 +458,14 @@ bool subdivide(Elements& elements, const Scene& scene, ElementId e) {
   return true;
 }
 
-std::vector<char> subdivide(Elements& elements, const Scene& scene, std::span<const ElementId> all, KnownParts* known) {
+std::vector<char> subdivide(Elements& elements, const Scene& scene, std::span<const ElementId> all) {
   constexpr std::size_t kBlock = 64;  // elements of a task [task]
   std::vector<char> split(all.size(), true);
   std::vector<Parts> parts(all.size());
+  for (const ElementId e : all)
+    if (elements.hasFaces(e)) unfold(elements, e);  // lists its sides
   parallelFor(all.size(), kBlock, [&](std::size_t i) {
-    if (elements.isLeaf(all[i])) parts[i] = partsOf(elements, scene, all[i]);
+    if (elements.isLeaf(all[i]) && !unfold(elements, all[i])) parts[i] = partsOf(elements, scene, all[i]);
   });
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!elements.isLeaf(all[i])) continue;
@@ -481,9 +474,8 @@ std::vector<char> subdivide(Elements& elements, const Scene& scene, std::span<co
     else
       placeParts(elements, scene, all[i], parts[i]);
   }
-  if (known) known->of.resize(elements.size(), Id<void>::kNone);
   parallelFor(all.size(), kBlock, [&](std::size_t i) {
-    if (!parts[i].domains.empty()) fillChildren(elements, scene, all[i], known);
+    if (!parts[i].domains.empty()) fillChildren(elements, scene, all[i]);
   });
   return split;
 }

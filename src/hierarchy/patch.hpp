@@ -37,18 +37,14 @@ struct Walls {
 Walls wallsAcross(const Elements&, const Scene&, ElementId patch);
 
 /// Splits a leaf patch along the walls that cross it, or else into quadrants (into halves when it is long and thin), or
-/// a leaf cell of a sky dome into four.
+/// a leaf cell of a sky dome into four; a folded one unfolds (fold.hpp).
 /// Children inherit light and reflectances; quadrants that miss the outline are left out. False when it cannot be
 /// split.
 bool subdivide(Elements&, const Scene&, ElementId element);
-/// What patches were in elements from before, so that their parts need not be shaped again.
-struct KnownParts {
-  const Elements* before = nullptr;
-  std::vector<std::uint32_t> of;  // by element: which it was there; Id<void>::kNone
-};
 /// The same with each of several elements, none twice, in their order, by all threads. By element, whether it is split.
-/// `known`: is followed to the parts, where they are the same.
-std::vector<char> subdivide(Elements&, const Scene&, std::span<const ElementId>, KnownParts* known = nullptr);
+std::vector<char> subdivide(Elements&, const Scene&, std::span<const ElementId>);
+/// Whether a leaf patch would be split into parts like these of other elements, which stand in a row.
+bool splitsAlike(const Elements&, const Scene&, ElementId, const Elements& other, ElementId first, std::size_t count);
 
 /// Fills a Distant element whose light and domain are set (a cell of its dome's directions, equal in solid angle).
 void shapeDistant(Elements&, const Scene&, ElementId element);

@@ -52,7 +52,7 @@ void pullExposure(Elements& elements, std::size_t i) {
 
 void pullIrradiance(Elements& elements, std::size_t i) {
   const ElementTopology& t = elements.topology[i];
-  if (t.emitter) return;
+  if (t.emitter || t.kind == ElementKind::Away) return;
   ElementLight& light = elements.radiometry[i];
   if (t.childCount == 0) {
     // The first estimate is free of the leaks that a coarse solution has, so it bounds what may be tolerated.
@@ -97,7 +97,7 @@ void reflectAndPull(Elements& elements, std::size_t i, RgbSum& change) {
   const ElementTopology& t = elements.topology[i];
   const ElementId e(i);
   if (t.kind == ElementKind::Cluster) return pullIntensity(elements, e);
-  if (t.emitter) return;
+  if (t.emitter || t.kind == ElementKind::Away) return;
   ElementLight& light = elements.radiometry[i];
   if (t.childCount == 0) {
     Rgb B = light.rho * (light.direct + light.indirect + light.particle);

@@ -23,6 +23,7 @@ void validate(const Elements& elements) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const ElementId e(i);
     const ElementTopology& t = elements.at(e);
+    if (t.kind == ElementKind::Away) continue;
     const ElementGeometry& g = elements.shape(e);
     require(std::isfinite(g.area) && g.area >= 0, e, "area is finite and not negative");
     require(t.kind == ElementKind::Cluster || t.childCount <= 4, e, "a patch has at most four children");

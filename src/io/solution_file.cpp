@@ -2,6 +2,7 @@
 
 #include <deltalux/error.hpp>
 
+#include "hierarchy/fold.hpp"
 #include "io/atomic_file.hpp"
 #include "io/lower_case.hpp"
 #include "io/mapped_file.hpp"
@@ -56,11 +57,23 @@ bool isSolutionFile(const fs::path& file) { return io::lowerCase(file.extension(
 
 namespace deltalux::io {
 
+namespace {
+
+/// Elements that are away are not written: the file is that of a mesh that was made at once.
+void pack(Packer& packer, const hierarchy::Elements& elements) {
+  if (hierarchy::awayIn(elements) == 0) return transfer(packer, elements);
+  const hierarchy::Elements present = hierarchy::compacted(elements);
+  transfer(packer, present);
+}
+void pack(Packer& packer, const auto& part) { transfer(packer, part); }
+
+}  // namespace
+
 void writeSolution(const SolutionView& view, const ByteSink& sink) {
   std::vector<std::pair<std::string_view, std::string>> packed;
   forEachSection(view.get(), [&](std::string_view tag, const auto& part) {
     Packer packer;
-    transfer(packer, part);
+    pack(packer, part);
     packed.emplace_back(tag, packer.finish());
   });
   std::vector<Section> sections;

@@ -41,28 +41,19 @@ struct Lots {
 constexpr auto kExceptions = [](const TracedLines& t) -> const auto& { return t.lines.exceptions; };
 constexpr auto kEscapedLines = [](const TracedLines& t) -> const auto& { return t.escaped; };
 
-/// Lines that lead out of the dark, by the leaf in the dark.
-std::vector<std::uint32_t> waysOut(const Lots& lots, std::span<const Place> place, bool skies) {
-  std::vector<std::atomic<std::uint32_t>> ways(place.size());
-  const auto countEnd = [&](std::uint32_t, std::uint32_t j) {
-    if (place[j] == kDim) ways[j].fetch_add(1, std::memory_order_relaxed);
-  };
+/// Lines that lead out of the dark, by the leaf in the dark; those that lead in among them.
+std::vector<std::uint32_t> waysOut(const Lots& lots, std::span<const Place> place, std::span<const std::uint32_t> in,
+                                   bool skies) {
+  std::vector<std::uint32_t> ways(in.begin(), in.end());
   parallelFor(place.size(), kRoomLeaves, [&](std::size_t i) {
-    if (place[i] == kLit) lots.forEachLine(static_cast<std::uint32_t>(i), countEnd);
     if (place[i] != kDim) return;
-    std::uint32_t lit = 0;
-    lots.forEachLine(static_cast<std::uint32_t>(i), [&](std::uint32_t, std::uint32_t j) { lit += place[j] == kLit; });
-    ways[i].fetch_add(lit, std::memory_order_relaxed);
+    lots.forEachLine(static_cast<std::uint32_t>(i),
+                     [&](std::uint32_t, std::uint32_t j) { ways[i] += place[j] == kLit; });
   });
-  lots.forEachListed(kExceptions, [&](const ExceptionalLine& e) {
-    if (place[e.leaf] == kLit) countEnd(e.leaf, e.end);
-    if (place[e.leaf] == kDim && place[e.end] == kLit) ways[e.leaf].fetch_add(1, std::memory_order_relaxed);
-  });
-  if (skies)
-    lots.forEachListed(kEscapedLines, [&](const EscapedLine& e) {
-      if (place[e.leaf] == kDim) ways[e.leaf].fetch_add(1, std::memory_order_relaxed);
-    });
-  return {ways.begin(), ways.end()};
+  lots.forEachListed(kExceptions,
+                     [&](const ExceptionalLine& e) { ways[e.leaf] += place[e.leaf] == kDim && place[e.end] == kLit; });
+  if (skies) lots.forEachListed(kEscapedLines, [&](const EscapedLine& e) { ways[e.leaf] += place[e.leaf] == kDim; });
+  return ways;
 }
 
 DisjointSets roomsOf(const Lots& lots, std::span<const Place> place) {
@@ -93,11 +84,25 @@ std::vector<Place> placesOf(std::span<const float> indirect, double floor, const
   return place;
 }
 
-DimCounts dimCounts(const TracedLines& traced, std::span<const float> area, std::span<const Place> place, bool skies,
-                    const TracedLines* more) {
+std::vector<std::uint32_t> waysInto(const TracedLines& traced, std::span<const Place> place) {
+  std::vector<std::atomic<std::uint32_t>> ways(place.size());
+  const auto countEnd = [&](std::uint32_t, std::uint32_t j) {
+    if (place[j] == kDim) ways[j].fetch_add(1, std::memory_order_relaxed);
+  };
+  const Lots all{traced, nullptr};
+  parallelFor(place.size(), kRoomLeaves, [&](std::size_t i) {
+    if (place[i] == kLit) all.forEachLine(static_cast<std::uint32_t>(i), countEnd);
+  });
+  for (const ExceptionalLine& e : traced.lines.exceptions)
+    if (place[e.leaf] == kLit) countEnd(e.leaf, e.end);
+  return {ways.begin(), ways.end()};
+}
+
+DimCounts dimCounts(const TracedLines& traced, std::span<const float> area, std::span<const Place> place,
+                    std::span<const std::uint32_t> in, bool skies, const TracedLines* more) {
   const Lots lots{traced, more};
   const std::size_t n = place.size();
-  const std::vector<std::uint32_t> out = waysOut(lots, place, skies);
+  const std::vector<std::uint32_t> out = waysOut(lots, place, in, skies);
   DisjointSets rooms = roomsOf(lots, place);
   std::vector<Room> all(n);
   for (std::uint32_t i = 0; i < n; ++i) {

@@ -147,23 +147,22 @@ class LightSearch {
 
 }  // namespace
 
-std::vector<LightWalks> walkForLight(const hierarchy::Elements& elements, const LineTracer& tracer,
-                                     const KnownWalks& known, std::uint64_t& rays) {
+std::uint64_t walkForLight(const hierarchy::Elements& elements, const LineTracer& tracer, const WalksHold& hold,
+                           std::vector<LightWalks>& walks) {
   constexpr std::size_t kBlock = 16;  // [task]
   const Scene& scene = tracer.scene();
   const double hollow =
       std::min(tuning::kHollow / scene.metresPerUnit, tuning::kHollowOfScene * elements.sceneBox.diagonal());
   const LightSearch search(elements, tracer);
-  std::vector<LightWalks> walks(elements.size());
-  rays += parallelSum<std::uint64_t>(elements.inputs.size(), kBlock, [&](std::size_t i) {
+  walks.resize(elements.size());
+  return parallelSum<std::uint64_t>(elements.inputs.size(), kBlock, [&](std::size_t i) {
     std::uint64_t own = 0;
     const hierarchy::ElementId side = elements.inputs[i];
     if (!elements.receives(side)) return own;
-    LightWalks* before = known(side);
-    walks[side.index()] = before ? std::move(*before) : search.from(side, hollow, own);
+    LightWalks& of = walks[side.index()];
+    if (!hold(side, of)) of = search.from(side, hollow, own);
     return own;
   });
-  return walks;
 }
 
 }  // namespace deltalux::lines

@@ -17,12 +17,11 @@ struct LightWalks {
   bool enclosed = false;  // they have found none, in a hollow too small to be a room
 };
 
-/// Walks of a side that are what they would be now; nullptr where none are known.
-using KnownWalks = std::function<LightWalks*(hierarchy::ElementId)>;
-inline LightWalks* nothingKnown(hierarchy::ElementId) { return nullptr; }
+/// Whether walks of a side are what they would be now.
+using WalksHold = std::function<bool(hierarchy::ElementId, const LightWalks&)>;
+inline bool nothingHolds(hierarchy::ElementId, const LightWalks&) { return false; }
 
-/// By element, of the input level. Walks that are known are taken.
-std::vector<LightWalks> walkForLight(const hierarchy::Elements&, const LineTracer&, const KnownWalks&,
-                                     std::uint64_t& rays);
+/// By element, of the input level: those that do not hold are walked again. Returns how many rays that took.
+std::uint64_t walkForLight(const hierarchy::Elements&, const LineTracer&, const WalksHold&, std::vector<LightWalks>&);
 
 }  // namespace deltalux::lines

@@ -15,6 +15,7 @@ constexpr std::size_t kLeaves = 512, kFewLeaves = 32;  // of a task [task]
 constexpr float kLeastEnd = 1e-6f;                     // in place of a chance of 0 [rounding]
 constexpr std::uint32_t kMostCount = 0xffff;           // [layout]
 constexpr std::size_t kLanes = 8;                      // [task]
+constexpr std::size_t kFewRows = 4;                    // share of all, above which all are as soon done [task]
 
 template <class T>
 T sumOf(const std::array<T, kLanes>& lanes) {
@@ -80,6 +81,7 @@ Exchange::Exchange(const Lines& lines, const hierarchy::Elements& elements, cons
     : Exchange(elements, leaves, tracer, lines, covered) {
   build(lines);
   addSpecials(lines);
+  listOneWay();
   setTargets(lines, covered);
   scale();
 }
@@ -90,6 +92,7 @@ Exchange::Exchange(const Exchange& before, const KnownLines& known, const Lines&
     : Exchange(elements, leaves, tracer, lines, covered) {
   build(before, known, lines);
   addSpecials(lines);
+  listOneWay();
   setTargets(lines, covered);
   scale();
 }
@@ -226,6 +229,14 @@ void Exchange::addSpecials(const Lines& lines) {
   }
 }
 
+void Exchange::listOneWay() {
+  const auto rough = [](const Special& s) { return s.rough; };
+  for (std::uint32_t i = 0; i < leaves(); ++i)
+    if (onlyReceives(i) ||
+        std::any_of(specials_.begin() + specialBegin_[i], specials_.begin() + specialBegin_[i + 1], rough))
+      oneWay_.push_back(i);
+}
+
 template <class Visit>
 void Exchange::forEachExchange(std::size_t i, const Visit& visit) const {
   const float own = 1 / e_[i];
@@ -350,6 +361,24 @@ void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E) {
 void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E, std::span<const std::uint32_t> leaves) {
   fill(B);
   parallelFor(leaves.size(), kFewLeaves, [&](std::size_t k) { E[leaves[k]] = irradianceOf(leaves[k], B); });
+}
+
+void Exchange::gatherAbout(std::span<const std::uint32_t> some, std::span<const Rgb> B, std::span<Rgb> E) {
+  std::uint64_t entries = 0;
+  for (const std::uint32_t i : some) entries += begin_[i + 1] - begin_[i];
+  if (entries + oneWay_.size() > leaves() / kFewRows) return gather(B, E);
+  std::vector<char> reached(leaves(), false);
+  std::vector<std::uint32_t> rows;
+  const auto add = [&](std::uint32_t row) {
+    if (!reached[row]) reached[row] = true, rows.push_back(row);
+  };
+  for (const std::uint32_t row : oneWay_) add(row);
+  for (const std::uint32_t i : some) {  // who sees them is seen by them
+    add(i);
+    for (std::uint64_t k = begin_[i]; k < begin_[i + 1]; ++k) add(id_[k]);
+    for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k) add(specials_[k].other);
+  }
+  gather(B, E, rows);
 }
 
 void Exchange::deviation(std::span<const Rgb> B, std::span<float> sigma) {

@@ -47,6 +47,8 @@ class Exchange {
   void gather(std::span<const Rgb> B, std::span<Rgb> E);
   /// The same of some leaves alone.
   void gather(std::span<const Rgb> B, std::span<Rgb> E, std::span<const std::uint32_t> leaves);
+  /// The same of all that the radiosities of some leaves have to do with.
+  void gatherAbout(std::span<const std::uint32_t> leaves, std::span<const Rgb> B, std::span<Rgb> E);
   /// Standard deviation of gather()'s gray irradiance, from the scatter of the leaf's lines [W/m2].
   void deviation(std::span<const Rgb> B, std::span<float> sigma);
   /// Share of what leaf j sends that arrives at leaves: column sums.
@@ -67,6 +69,7 @@ class Exchange {
   void build(const Lines&);
   void build(const Exchange& before, const KnownLines&, const Lines&);
   void addSpecials(const Lines&);
+  void listOneWay();
   void setTargets(const Lines&, std::span<const std::uint32_t> covered);
   void scale();
   void fill(std::span<const Rgb> B);
@@ -84,6 +87,7 @@ class Exchange {
   LargeArray<std::uint16_t> count_;
   std::vector<std::uint32_t> specialBegin_;
   std::vector<Special> specials_;
+  std::vector<std::uint32_t> oneWay_;  // leaves that may see such as have no entry of them
   std::vector<LeafRecord> records_;
 };
 

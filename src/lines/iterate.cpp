@@ -110,7 +110,7 @@ void iterateLate(Exchange& exchange, LeafLight& light, std::span<const Rgb> next
     }
     for (std::size_t k = 0; k < late.size(); ++k) light.B[late[k]] = own[k];
   }
-  exchange.gather(light.B, light.indirect);
+  exchange.gatherAbout(late, light.B, light.indirect);
 }
 
 }  // namespace

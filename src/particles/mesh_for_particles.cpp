@@ -36,15 +36,14 @@ struct PlacedDeposit {
   float weight = 0;
 };
 
-/// Impacts on sides that do not keep their mesh, in the order of the particles.
-std::vector<PlacedDeposit> depositsOn(const hierarchy::Elements& elements, const Scene& scene, const Particles& p,
-                                      const std::vector<bool>& keep) {
+/// Appends impacts on these sides, in the order of the particles.
+void collect(const hierarchy::SideLocator& locator, const Particles& p, const std::vector<char>& sides,
+             std::vector<PlacedDeposit>& deposits) {
   constexpr std::size_t kBlock = 4096;  // [task]
   std::vector<std::vector<PlacedDeposit>> found((p.paths() + kBlock - 1) / kBlock);
-  const hierarchy::SideLocator locator(elements, scene);
   parallelFor(p.paths(), kBlock, [&](std::size_t path) {
     for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) {
-      if (!keep.empty() && keep[sideIndex(p, i)]) continue;
+      if (!sides[sideIndex(p, i)]) continue;
       const hierarchy::Side on{p.primitive[i], p.triangleAndSide[i] >> 1, (p.triangleAndSide[i] & 1) == 0};
       const hierarchy::ElementId side = locator.side(on.primitive, on.triangle, on.front);
       if (!side.valid()) continue;
@@ -52,9 +51,7 @@ std::vector<PlacedDeposit> depositsOn(const hierarchy::Elements& elements, const
       found[path / kBlock].push_back({locator.leafAt(side, Vec2(p.uv[i])), on, p.uv[i], power * gray(p.throughput[i])});
     }
   });
-  std::vector<PlacedDeposit> all;
-  for (const auto& block : found) all.insert(all.end(), block.begin(), block.end());
-  return all;
+  for (const auto& block : found) deposits.insert(deposits.end(), block.begin(), block.end());
 }
 
 /// Which quarter of its leaf's area something was deposited on: of its rectangle, or of its faces in order.
@@ -69,17 +66,18 @@ std::size_t quarterOf(const hierarchy::Elements& elements, const PlacedDeposit& 
   return (f.uv.x > 0.5f * (d.u0 + d.u1) ? 1u : 0u) + (f.uv.y > 0.5f * (d.v0 + d.v1) ? 2u : 0u);
 }
 
-/// By leaf, in the order of ids.
-std::vector<Tally> tally(const hierarchy::Elements& elements, std::span<const PlacedDeposit> deposits) {
+/// By leaf, of those that were not asked.
+std::vector<Tally> tally(const hierarchy::Elements& elements, std::span<const PlacedDeposit> deposits,
+                         const Details& details) {
   std::vector<std::uint32_t> place(elements.size(), Id<void>::kNone);
   std::vector<Tally> tallies;
   for (const PlacedDeposit& f : deposits) {
+    if (details[f.leaf.index()] != Detail::Unasked) continue;
     std::uint32_t& at = place[f.leaf.index()];
     if (at == Id<void>::kNone) at = static_cast<std::uint32_t>(tallies.size()), tallies.emplace_back().leaf = f.leaf;
     tallies[at].quarters[quarterOf(elements, f)].add(f.weight);
     ++tallies[at].count;
   }
-  std::sort(tallies.begin(), tallies.end(), [](const Tally& a, const Tally& b) { return a.leaf < b.leaf; });
   return tallies;
 }
 
@@ -97,31 +95,67 @@ bool showsDetail(const Tally& t, double area) {
 }  // namespace
 
 std::size_t subdivideForParticles(hierarchy::Elements& elements, const Scene& scene, const Particles& p,
-                                  const std::vector<bool>& coarse, const std::vector<bool>& keep) {
-  std::vector<PlacedDeposit> deposits = depositsOn(elements, scene, p, keep);
+                                  const std::vector<bool>& coarse, Details& details, const std::vector<bool>& keep) {
+  const auto sideOf = [&](hierarchy::ElementId e) {
+    return sideIndex(elements.domain[e.index()].primitive, elements.at(e).front);
+  };
+  std::vector<hierarchy::ElementId> leaves;
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    if (const hierarchy::ElementId e(i); elements.isReceivingLeaf(e) && (keep.empty() || !keep[sideOf(e)]))
+      leaves.push_back(e);
+  std::vector<char> collected(2 * scene.primitives.size(), false);
+  std::vector<PlacedDeposit> deposits;
   std::size_t total = 0;
-  while (!deposits.empty()) {
-    std::size_t split = 0;
-    for (const Tally& t : tally(elements, deposits)) {
-      if (t.count < tuning::kDetail) continue;
-      const hierarchy::ElementTopology& e = elements.at(t.leaf);
-      if (coarse[sideIndex(elements.domain[t.leaf.index()].primitive, e.front)] && e.depth >= tuning::kShownDepth)
-        continue;
-      if (showsDetail(t, elements.shape(t.leaf).area)) split += hierarchy::subdivide(elements, scene, t.leaf);
+  while (!leaves.empty()) {
+    details.resize(elements.size(), Detail::Unasked);
+    const hierarchy::SideLocator locator(elements, scene);
+    std::vector<char> sides(collected.size(), false);
+    bool unasked = false;
+    for (const hierarchy::ElementId e : leaves)
+      if (details[e.index()] == Detail::Unasked && !collected[sideOf(e)])
+        sides[sideOf(e)] = collected[sideOf(e)] = unasked = true;
+    if (unasked) collect(locator, p, sides, deposits);
+    for (const Tally& t : tally(elements, deposits, details))
+      if (t.count >= tuning::kDetail && showsDetail(t, elements.shape(t.leaf).area))
+        details[t.leaf.index()] = Detail::Shown;
+    std::vector<hierarchy::ElementId> parts;
+    for (const hierarchy::ElementId e : leaves) {
+      Detail& detail = details[e.index()];
+      if (detail == Detail::Unasked) detail = Detail::Hidden;
+      if (detail == Detail::Hidden || (coarse[sideOf(e)] && elements.at(e).depth >= tuning::kShownDepth)) continue;
+      if (!hierarchy::subdivide(elements, scene, e)) continue;
+      ++total;
+      for (std::size_t c = 0; c < elements.at(e).childCount; ++c) parts.push_back(elements.child(e, c));
     }
-    if (split == 0) break;
-    total += split;
+    leaves = std::move(parts);
     // What stays whole now stays so.
     std::erase_if(deposits, [&](const PlacedDeposit& f) { return elements.isLeaf(f.leaf); });
-    const hierarchy::SideLocator locator(elements, scene);
+    const hierarchy::SideLocator finer(elements, scene);
     parallelFor(deposits.size(), 4096, [&](std::size_t i) {
       PlacedDeposit& f = deposits[i];
       const hierarchy::ElementId from =
-          elements.hasFaces(f.leaf) ? locator.side(f.side.primitive, f.side.triangle, f.side.front) : f.leaf;
-      f.leaf = locator.leafAt(from, Vec2(f.uv));
+          elements.hasFaces(f.leaf) ? finer.side(f.side.primitive, f.side.triangle, f.side.front) : f.leaf;
+      f.leaf = finer.leafAt(from, Vec2(f.uv));
     });
   }
   return total;
+}
+
+void forget(Details& details, const hierarchy::Elements& elements, const Particles& p, const ParticleUpdate& update) {
+  if (update.all) return details.clear();
+  std::vector<char> sides;  // where particles were, or are, that were traced again
+  const auto add = [&](const PathRange& range) {
+    for (std::uint32_t i = range.impact; i < range.impact + range.impacts; ++i) {
+      sides.resize(std::max(sides.size(), sideIndex(p, i) + 1), false);
+      sides[sideIndex(p, i)] = true;
+    }
+  };
+  for (const RetracedPath& r : update.paths) add(r.range), add(p.range[r.path]);
+  for (std::size_t i = 0; i < details.size(); ++i) {
+    if (details[i] == Detail::Unasked) continue;
+    const std::size_t side = sideIndex(elements.domain[i].primitive, elements.topology[i].front);
+    if (side < sides.size() && sides[side]) details[i] = Detail::Unasked;
+  }
 }
 
 std::vector<bool> sidesThatKeepTheirMesh(const Scene& scene, const Particles& p, const ParticleUpdate& update) {

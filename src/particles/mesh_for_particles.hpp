@@ -7,11 +7,19 @@
 
 namespace deltalux::particles {
 
+/// Whether a patch shows what was deposited on it clearly worse than its quarters would.
+enum class Detail : std::uint8_t { Unasked, Shown, Hidden };
+/// By element. A function of what was deposited there, whatever it has been split into.
+using Details = std::vector<Detail>;
+
+/// Of sides that particles were on, or are, that were traced again: they are to be asked again.
+void forget(Details&, const hierarchy::Elements&, const Particles&, const ParticleUpdate&);
+
 /// Returns how many patches were split. `coarse`: sides that stay coarse, because textures show their particles; by
 /// 2 * primitive + (front ? 0 : 1). They are split as far as others need to be lit by them, to a thirty-second part.
-/// `keep`: sides that are not looked at, if any.
+/// `keep`: sides that are not looked at, if any. `details`: what is known, and becomes so.
 std::size_t subdivideForParticles(hierarchy::Elements&, const Scene&, const Particles&, const std::vector<bool>& coarse,
-                                  const std::vector<bool>& keep = {});
+                                  Details& details, const std::vector<bool>& keep = {});
 
 /// Sides for whose particles the mesh need not be looked at anew after these paths were traced: all but those of whose
 /// flux, by nominal senders, new deposits bring a tenth or more.

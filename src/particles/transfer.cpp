@@ -186,6 +186,13 @@ void ParticleTransfer::follow(const Particles& p, const ParticleUpdate& update, 
   levels_.choose(changed, elements, sums_);
 }
 
+void ParticleTransfer::followAllPatches(const hierarchy::Elements& elements) {
+  std::vector<hierarchy::ElementId> under;
+  for (const hierarchy::ElementId e : surfaces_)
+    if (elements.receives(e)) under.push_back(e);
+  levels_.choose(under, elements, sums_);
+}
+
 void ParticleTransfer::followPatches(const hierarchy::Elements& elements,
                                      std::span<const hierarchy::ElementId> patches) {
   std::vector<hierarchy::ElementId> under;

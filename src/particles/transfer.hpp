@@ -28,6 +28,8 @@ class ParticleTransfer {
   /// of all particles, or compacted ones: then make a new one.
   void follow(const Particles&, const ParticleUpdate&, const hierarchy::Elements&, const Scene&);
 
+  /// Takes in that any patch may reflect otherwise or be covered otherwise.
+  void followAllPatches(const hierarchy::Elements&);
   /// Takes in that these patches reflect otherwise or are covered otherwise: particles on them may lie otherwise.
   void followPatches(const hierarchy::Elements&, std::span<const hierarchy::ElementId> patches);
 

@@ -1,5 +1,7 @@
 #include "render/leaf_irradiance.hpp"
 
+#include "hierarchy/leaf_table.hpp"
+
 namespace deltalux::rendering {
 
 std::vector<LeafIrradiance> meshIrradiance(const hierarchy::Elements& elements, const caustics::Caustics& caustics,
@@ -11,9 +13,10 @@ std::vector<LeafIrradiance> meshIrradiance(const hierarchy::Elements& elements, 
                           caustics.of(elements.domain[i].primitive, elements.topology[i].front) != nullptr;
     values[i] = {l.direct, textured ? l.indirect : l.indirect + l.particle, 0, textured ? Rgb(0.0f) : l.particle};
   }
-  std::size_t line = 0;
-  for (std::size_t i = 0; i < elements.size() && line < deviation.size(); ++i)
-    if (elements.isReceivingLeaf(hierarchy::ElementId(i))) values[i].noise = deviation[line++];
+  if (deviation.empty()) return values;
+  const hierarchy::LeafTable leaves(elements);
+  for (std::size_t i = 0; i < leaves.size() && i < deviation.size(); ++i)
+    values[leaves[i].index()].noise = deviation[i];
   return values;
 }
 

@@ -6,6 +6,22 @@
 
 namespace deltalux {
 
+/// The cell of the sky that a line's code points into: there are fewer codes than lines.
+class CellOfCode {
+ public:
+  /// Made when it is first asked for.
+  static const CellOfCode& table();
+  int operator()(lines::LineCode code) const {
+    return cells_[static_cast<std::size_t>(code.y + 128) * kCodes + static_cast<std::size_t>(code.x + 128)];
+  }
+
+ private:
+  CellOfCode();
+
+  static constexpr std::size_t kCodes = 256;  // [layout]
+  std::vector<std::uint16_t> cells_;
+};
+
 direct::SkyVisibility skyVisibility(const hierarchy::Elements&, const hierarchy::LeafTable&, const lines::Lines&);
 
 }  // namespace deltalux

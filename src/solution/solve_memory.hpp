@@ -2,6 +2,7 @@
 // What a solve over lines has found besides the solution, by which an update finds the same without asking again. It is
 // cheaper to find again than to read, so files do not have it.
 #include <memory>
+#include <optional>
 
 #include "direct/dim_direct.hpp"
 #include "direct/leaf_direct.hpp"
@@ -10,6 +11,8 @@
 #include "lines/exchange.hpp"
 #include "lines/first_lines.hpp"
 #include "lines/leaf_scale.hpp"
+#include "particles/mesh_for_particles.hpp"
+#include "particles/transfer.hpp"
 
 namespace deltalux {
 
@@ -33,20 +36,34 @@ struct PatchSamples {
   std::vector<std::unique_ptr<lines::FirstLines>> first;
   std::vector<std::unique_ptr<EvaluatedLight>> evaluated;  // where a choice was made
   std::vector<std::unique_ptr<WholeLight>> whole;          // where light was asked for without a choice
+  std::vector<std::unique_ptr<WholeLight>> coarse;         // the same, of the input level: for the coarse light
+
+  enum class Walled : std::uint8_t { Unasked, No, Yes };
+  std::vector<Walled> walled;  // whether a wall crosses it
 
   void resize(std::size_t elements) {
-    scale.resize(elements), direct.resize(elements), first.resize(elements), evaluated.resize(elements),
-        whole.resize(elements);
+    walled.resize(elements, Walled::Unasked), scale.resize(elements), direct.resize(elements), first.resize(elements),
+        evaluated.resize(elements), whole.resize(elements), coarse.resize(elements);
   }
+  void forget(std::size_t element) {
+    walled[element] = Walled::Unasked, scale[element] = {}, direct[element] = {}, first[element].reset();
+    forgetLight(element);
+  }
+  /// Of direct light from points that are others now what is told of them.
+  void forgetLight(std::size_t element) { evaluated[element].reset(), whole[element].reset(), coarse[element].reset(); }
 };
 
 /// Sky light of the receiving leaves in order, undimmed, and its shadow rays.
 struct KnownSky {
+  static constexpr std::size_t kEach = direct::tuning::kManyRays;
+
   std::uint64_t skies = 0;  // direct::Skies::key()
   std::vector<direct::SkyAtLeaf> at;
   std::vector<direct::SkyKey> key;
-  LargeArray<lines::LineCode> rays;  // kManyRays of each leaf; of those that there were not, without reach
+  LargeArray<lines::LineCode> rays;  // kEach of each leaf; of those that there were not, without reach
   LargeArray<std::uint8_t> cells;    // of the same
+
+  std::span<const lines::LineCode> raysOf(std::size_t leaf) const { return {rays.data() + leaf * kEach, kEach}; }
 };
 
 /// Direct light of a leaf in the dark, from many points.
@@ -56,18 +73,28 @@ struct DimLeaf {
   direct::DimDirect light;
 };
 
+/// Lines and sky light of the input level, by which its coarse light came about.
+struct CoarseLines {
+  lines::TracedLines traced;
+  KnownSky sky;
+  std::vector<std::uint32_t> numberOf;  // by element: of its leaf
+};
+
 /// What stays of a solve.
 struct SolveMemory {
   PatchSamples samples;
+  particles::Details details;               // by element
   std::vector<lines::LightWalks> walks;     // by element of the input level
   std::vector<char> enclosed;               // the same: whether no light comes there, of walks or particles
   std::vector<lines::EscapedLine> escaped;  // of the solution's lines
   std::vector<lines::Bend> bends;           // of the same
   KnownSky sky;
-  std::vector<DimLeaf> dim;                   // ascending
-  std::unique_ptr<lines::Exchange> exchange;  // over those lines
-  std::vector<char> plain;                    // by material: SurfaceResponses::plain()
-  std::vector<Rgb> nominal;                   // by light: the scale that all was decided by
+  std::vector<DimLeaf> dim;                                   // ascending
+  std::unique_ptr<lines::Exchange> exchange;                  // over those lines
+  std::optional<particles::ParticleTransfer> coarseTransfer;  // of the particles, on the input level
+  CoarseLines coarse;
+  std::vector<char> plain;   // by material: SurfaceResponses::plain()
+  std::vector<Rgb> nominal;  // by light: the scale that all was decided by
 };
 
 }  // namespace deltalux

@@ -39,7 +39,8 @@ TracedLines twoRooms(std::uint32_t ways) {
 lines::DimCounts countsOf(const TracedLines& t) {
   std::vector<float> area(20, 1.0f), light(20, 50.0f);
   std::fill(light.begin() + 10, light.end(), 0.01f);
-  return lines::dimCounts(t, area, lines::placesOf(light, kFloor, std::vector<char>(20, 1)), false);
+  const std::vector<lines::Place> places = lines::placesOf(light, kFloor, std::vector<char>(20, 1));
+  return lines::dimCounts(t, area, places, lines::waysInto(t, places), false);
 }
 
 double sum(const std::vector<std::uint32_t>& counts) { return std::accumulate(counts.begin(), counts.end(), 0.0); }

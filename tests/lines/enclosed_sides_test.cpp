@@ -71,13 +71,14 @@ Scene roomWithHollows(bool lamp = true) {
 /// A scene and the walks of its sides.
 class Walked {
  public:
-  explicit Walked(Scene s, const lines::KnownWalks& known = lines::nothingKnown)
+  explicit Walked(Scene s, const lines::WalksHold& hold = lines::nothingHolds, std::vector<LightWalks> before = {})
       : scene(std::move(s)),
         tracer(scene),
         responses(scene, true),
         lines(scene, tracer, responses),
         elements(hierarchy::buildElements(scene, hierarchy::surfaceSides(scene))),
-        walks(lines::walkForLight(elements, lines, known, rays)) {}
+        walks(std::move(before)),
+        rays(lines::walkForLight(elements, lines, hold, walks)) {}
 
   const LightWalks& of(std::size_t primitive, bool front) const {
     return walks[elements.side(PrimitiveId(primitive), 0, front).index()];
@@ -88,8 +89,8 @@ class Walked {
   lines::SurfaceResponses responses;
   lines::LineTracer lines;
   hierarchy::Elements elements;
-  std::uint64_t rays = 0;
   std::vector<LightWalks> walks;
+  std::uint64_t rays;
 };
 
 constexpr std::size_t kRoom = 0, kBox = 6, kFlat = 12, kEnd = 18;  // primitives
@@ -139,12 +140,13 @@ TEST(EnclosedSides, OpenWithTheHollow) {
   for (std::size_t i = kBox; i + 1 < kFlat; ++i) EXPECT_FALSE(x.of(i, false).enclosed) << i;
 }
 
-TEST(LightWalks, ThatAreKnownAreTaken) {
+TEST(LightWalks, ThatHoldStay) {
   Walked fresh(roomWithHollows());
   const hierarchy::ElementId side = fresh.elements.side(PrimitiveId(kRoom), 0, true);
-  LightWalks other{{{Vec3f(1, 2, 3), Vec3f(0, 0, 1), 4}}, {}, true};  // what no walk would find
-  const auto known = [&](hierarchy::ElementId e) { return e == side ? &other : nullptr; };
-  const Walked some(roomWithHollows(), known);
+  std::vector<LightWalks> before = fresh.walks;
+  before[side.index()] = {{{Vec3f(1, 2, 3), Vec3f(0, 0, 1), 4}}, {}, true};  // what no walk would find
+  const auto hold = [&](hierarchy::ElementId e, const LightWalks&) { return e == side; };
+  const Walked some(roomWithHollows(), hold, before);
   EXPECT_LT(some.rays, fresh.rays);
   ASSERT_EQ(some.walks[side.index()].steps.size(), 1u);
   EXPECT_EQ(some.walks[side.index()].steps[0].from, Vec3f(1, 2, 3));
@@ -154,7 +156,8 @@ TEST(LightWalks, ThatAreKnownAreTaken) {
       EXPECT_EQ(some.walks[e].enclosed, fresh.walks[e].enclosed);
     }
   const std::vector<LightWalks> all = fresh.walks;
-  const Walked nothing(roomWithHollows(), [&](hierarchy::ElementId e) { return &fresh.walks[e.index()]; });
+  const Walked nothing(
+      roomWithHollows(), [](hierarchy::ElementId, const LightWalks&) { return true; }, all);
   EXPECT_EQ(nothing.rays, 0u);
   EXPECT_TRUE(nothing.tracer.rays.empty());
   for (std::size_t e = 0; e < all.size(); ++e) {
@@ -179,8 +182,7 @@ TEST(LightWalks, HoldEveryRayThatWasAsked) {
   std::size_t rays = 0, boxes = 0, steps = 0;
   for (const hierarchy::ElementId side : x.elements.inputs) {
     if (!x.elements.receives(side)) continue;
-    LightWalks none;
-    const Walked one(roomWithHollows(), [&](hierarchy::ElementId e) { return e == side ? nullptr : &(none = {}); });
+    const Walked one(roomWithHollows(), [&](hierarchy::ElementId e, const LightWalks&) { return e != side; });
     const LightWalks& walks = one.walks[side.index()];
     (walks.steps.empty() ? boxes : steps) += 1;
     for (const lines::LineSegment& ray : one.tracer.rays)

@@ -182,8 +182,8 @@ TEST(Exchange, FollowsOneChangeAfterTheOther) {
       followed.emplace(exchangeOf(*after, tracedBefore));
     } else {
       const change::MovedSpace space(now.scene, movedThing(then, now, 0));
-      const lines::KnownLines known = change::knownLines(space, tracedBefore, leavesBefore(*before, *after, space),
-                                                         before->elements, before->leaves);
+      const lines::KnownLines known =
+          change::knownLines(space, tracedBefore, leavesBefore(*before, *after, space), after->elements, after->leaves);
       tracedBefore = after->trace(counts, &known);
       followed.emplace(lines::Exchange(*followed, known, tracedBefore.lines, after->elements, after->leaves,
                                        after->tracer, tracedBefore.covered));

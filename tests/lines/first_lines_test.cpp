@@ -30,10 +30,10 @@ void expectTheSameWithFirstLines(const SolutionView& view) {
   const lines::SurfaceResponses responses(s.scene, true);
   const lines::LineTracer tracer(s.scene, *s.tracer, responses);
   const lines::Cover cover(s.scene, *s.tracer);
-  std::uint64_t unused = 0;
+  std::vector<lines::LightWalks> walks;
+  lines::walkForLight(s.elements, tracer, lines::nothingHolds, walks);
   std::vector<char> enclosed;
-  for (const lines::LightWalks& w : lines::walkForLight(s.elements, tracer, lines::nothingKnown, unused))
-    enclosed.push_back(w.enclosed);
+  for (const lines::LightWalks& w : walks) enclosed.push_back(w.enclosed);
   const std::vector<std::uint32_t> counts(leaves.size(), 24);
   const lines::ScaleMeter meter(s.elements, tracer, cover, enclosed);
   std::vector<std::unique_ptr<lines::FirstLines>> first(s.elements.size());

@@ -234,7 +234,8 @@ void splitLeaves(hierarchy::Elements& elements, const Scene& scene, std::size_t 
 TEST(ParticleEdits, TransferFollows) {
   World w;
   hierarchy::Elements elements = hierarchy::buildElements(w.scene, hierarchy::surfaceSides(w.scene));
-  subdivideForParticles(elements, w.scene, w.particles, std::vector<bool>(2 * w.scene.primitives.size()));
+  Details details;
+  subdivideForParticles(elements, w.scene, w.particles, std::vector<bool>(2 * w.scene.primitives.size()), details);
   for (std::size_t i = 0; i < elements.size(); ++i) elements.radiometry[i].B = Rgb(0.1f + 0.01f * float(i % 7));
   ParticleTransfer transfer(w.particles, elements, w.scene);
   std::vector<Rgb> before = irradiances(transfer, elements, w.scene);

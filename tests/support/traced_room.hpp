@@ -148,7 +148,7 @@ struct RoomChange {
       : before(then.scene, meshBefore), after(now.scene, meshAfter), countsAfter(after.counts(24, recount ? 2 : 1)) {
     if (moved < RoomOfThings::kThings) space = change::MovedSpace(now.scene, movedThing(then, now, moved));
     tracedBefore = before.trace(before.counts(24, 1));
-    known = change::knownLines(space, tracedBefore, leavesBefore(before, after, space), before.elements, before.leaves);
+    known = change::knownLines(space, tracedBefore, leavesBefore(before, after, space), after.elements, after.leaves);
   }
 };
 

@@ -36,8 +36,8 @@ void members(auto& archive, Is<SolveReport> auto& r) {
 
 void members(auto& archive, Is<hierarchy::Elements> auto& e) {
   auto& [topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines, frames,
-         faceOrders, sceneRoot, grown, lightRoot, distant, inactive, sceneBox, inputs, sides, contacts] =
-      e;  // orders and the last three follow from the others
+         faceOrders, sceneRoot, grown, lightRoot, distant, inactive, sceneBox, inputs, sides, contacts, folded] =
+      e;  // orders, inputs, sides and contacts follow from the others; nothing is folded
   transferAll(archive, topology, geometry, nodes, domain, moments, light, radiometry, slot, clusters, key, outlines,
               frames, sceneRoot, grown, lightRoot, distant, inactive, sceneBox);
 }
