@@ -113,7 +113,8 @@ bool holdShadowRays(const MovedSpace& space, const direct::DirectSampler& sample
     if (asked == before.lamps.end())
       drawn = true;
     else
-      holds = !sampler.anyRay(patch, known, *asked, stops);
+      holds = !sampler.anyRay(
+          patch, known, *asked, [&](const Vec3f& from) { return mayShadow(space, lamp, at(from)); }, stops);
   });
   return holds && !(drawn && before.drawn > 0 && sampler.anyDrawnRay(patch, known, above, before.drawn, stops));
 }

@@ -215,10 +215,11 @@ LampTree::Cut DirectSampler::cutFor(const hierarchy::ElementGeometry& g, const L
 }
 
 bool DirectSampler::anyRay(hierarchy::ElementId patch, const KnownPoints& known, const LampLight& asked,
-                           const Stops& stops) const {
+                           const StopsAny& any, const Stops& stops) const {
   Points points(elements_, scene_, patch, known);
   const ScrambledSobol numbers = points.numbersOf(asked.lamp);
   for (std::size_t k = 0; k < asked.points && points.have(static_cast<int>(k) + 1); ++k) {
+    if (!any(points.at[k].position)) continue;
     const OpenLight light = openLight(lamps_.sampler(), asked.lamp, points.at[k], numbers(points.number[k]));
     if (!isBlack(light.E) && stops(light.ray(points.at[k]))) return true;
   }

@@ -68,8 +68,11 @@ class DirectSampler {
 
   const Lamps& lamps() const { return lamps_; }
   using Stops = std::function<bool(const tracing::Ray&)>;
-  /// Whether something stops one of the shadow rays that such points of a patch shoot at a lamp.
-  bool anyRay(hierarchy::ElementId patch, const KnownPoints&, const LampLight& asked, const Stops&) const;
+  using StopsAny = std::function<bool(const Vec3f& from)>;
+  /// Whether something stops one of the shadow rays that such points of a patch shoot at a lamp. `any`: whether it may
+  /// stop any ray from there to the lamp, which is soon told.
+  bool anyRay(hierarchy::ElementId patch, const KnownPoints&, const LampLight& asked, const StopsAny& any,
+              const Stops&) const;
   /// The same of those at lamps that are drawn.
   bool anyDrawnRay(hierarchy::ElementId patch, const KnownPoints&, const LampSight& above, std::uint32_t points,
                    const Stops&) const;

@@ -85,6 +85,7 @@ void KnownSolve::renumber(const std::vector<std::uint32_t>& was) {
   reorder(s.whole, was), reorder(s.coarse, was), s.walled.clear();
   reorder(memory_.walks, was), reorder(memory_.enclosed, was), reorder(memory_.details, was);
   reorder(numberOf_, was), reorder(memory_.coarse.numberOf, was), reorder(indirect_, was);
+  reorder(memory_.sky.of, was), reorder(memory_.coarse.sky.of, was);
   there_.assign(was.size(), false);
   for (std::size_t i = 0; i < was.size(); ++i) there_[i] = was[i] != kNone;
   for (DimLeaf& dim : memory_.dim) dim.leaf = hierarchy::ElementId(now[dim.leaf.index()]);
@@ -194,13 +195,10 @@ std::optional<lines::KnownLines> KnownSolve::takeCoarseLines(const hierarchy::El
                             numbersBefore(elements, leaves, memory_.coarse.numberOf), elements, leaves);
 }
 
-const direct::SkyAtLeaf* KnownSolve::sky(const KnownSky& sky, const hierarchy::Elements& elements,
-                                         hierarchy::ElementId leaf, std::uint32_t before, const direct::SkyKey& key,
-                                         std::span<direct::SkyRay> rays) const {
-  if (before >= sky.key.size() || sky.key[before].points != key.points) return nullptr;
-  for (std::size_t k = 0; k < rays.size(); ++k) rays[k].cell = sky.cells[before * KnownSky::kEach + k];
-  const bool hold = change::holdSkyRays(edits_.space, elements, leaf, sky.raysOf(before).first(rays.size()), rays);
-  return hold && sky.key[before].light == key.light ? &sky.at[before] : nullptr;
+bool KnownSolve::holdSkyRays(const hierarchy::Elements& elements, hierarchy::ElementId leaf, const LeafSky& sky,
+                             std::span<direct::SkyRay> rays) const {
+  for (std::size_t k = 0; k < rays.size(); ++k) rays[k].cell = sky.cells[k];
+  return change::holdSkyRays(edits_.space, elements, leaf, std::span(sky.rays).first(rays.size()), rays);
 }
 
 }  // namespace deltalux::engine

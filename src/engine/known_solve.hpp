@@ -61,12 +61,12 @@ class KnownSolve {
   /// The lines, as they are now; once. The same of the input level.
   std::optional<lines::KnownLines> takeLines(const hierarchy::Elements&, const hierarchy::LeafTable&);
   std::optional<lines::KnownLines> takeCoarseLines(const hierarchy::Elements&, const hierarchy::LeafTable&);
-  const KnownSky& sky() const { return memory_.sky; }
-  const KnownSky& coarseSky() const { return memory_.coarse.sky; }
-  /// Sky light of a leaf, that had that number in `sky`, if it follows from what has that key; nullptr, and what is
-  /// known of its rays.
-  const direct::SkyAtLeaf* sky(const KnownSky&, const hierarchy::Elements&, hierarchy::ElementId leaf,
-                               std::uint32_t before, const direct::SkyKey&, std::span<direct::SkyRay>) const;
+  /// Sky light by element; of leaves whose number before is known it is what it was.
+  KnownSky takeSky() { return std::move(memory_.sky); }
+  KnownSky takeCoarseSky() { return std::move(memory_.coarse.sky); }
+  /// Tells what of a leaf's shadow rays to the sky is as it was. Returns whether all are.
+  bool holdSkyRays(const hierarchy::Elements&, hierarchy::ElementId leaf, const LeafSky&,
+                   std::span<direct::SkyRay>) const;
   const lines::Exchange* exchange() const { return memory_.exchange.get(); }
 
  private:

@@ -34,15 +34,13 @@ std::vector<float> powerOf(const LineSolve& x, const hierarchy::LeafTable& leave
   return power;
 }
 
-/// Sky light of every leaf, undimmed; that of leaves which nothing has changed for is taken from before.
-KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::TracedLines& traced) {
-  constexpr std::size_t kEach = KnownSky::kEach;
-  KnownSky sky;
-  sky.at.resize(leaves.size()), sky.skies = x.skies.key();
+/// Sky light of every leaf, undimmed; that of leaves which nothing has changed for is that from before, in `sky`.
+KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::TracedLines& traced, KnownSky sky) {
+  constexpr std::size_t kEach = LeafSky::kRays;
+  const bool sameSkies = std::exchange(sky.skies, x.skies.key()) == x.skies.key();
+  sky.at.assign(leaves.size(), {}), sky.of.resize(x.s.elements.size());
   if (x.skies.empty()) return sky;
   const lines::KnownLines* before = x.knownLines ? &*x.knownLines : nullptr;
-  const KnownSky* known = before ? x.knownSky : nullptr;
-  sky.key.resize(leaves.size()), sky.rays.resize(leaves.size() * kEach), sky.cells.resize(leaves.size() * kEach);
   const direct::SkyVisibility visibility = skyVisibility(x.s.elements, leaves, traced.lines);
   const std::vector<std::uint32_t> first = lines::firstOf(traced.escaped, leaves.size());
   struct Scratch {
@@ -51,11 +49,14 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
   };
   PerThread<Scratch> scratch;
   x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(leaves.size(), kSkyLeaves, [&](std::size_t i) {
-    lines::LineCode* codes = sky.rays.data() + i * kEach;
-    std::uint8_t* cells = sky.cells.data() + i * kEach;
-    std::fill_n(codes, kEach, lines::LineCode{}), std::fill_n(cells, kEach, std::uint8_t{0});
     const std::uint32_t count = traced.lines.countOf(i);
-    if (count == traced.covered[i]) return std::uint64_t(0);
+    std::unique_ptr<LeafSky>& known = sky.of[leaves[i].index()];
+    const std::uint32_t old = before ? before->of[i] : hierarchy::LeafTable::kNone;
+    if (old == hierarchy::LeafTable::kNone) known.reset();
+    if (count == traced.covered[i]) {
+      known.reset();
+      return std::uint64_t(0);
+    }
     auto& [escaped, points] = scratch.local();
     points.clear();
     // Where lines are so many that they would be their own guides, what they have found by chance would count less.
@@ -70,32 +71,29 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
       }
       return direct::SkyLeaf{static_cast<std::uint32_t>(i), leaves[i], count - traced.covered[i], escaped, points};
     };
+    // Of the same lines, and the same estimate, all follows again.
+    const bool same = known && sameSkies && before->whole[old] && before->lines.countOf(old) == count &&
+                      known->key.guide == visibility.key(static_cast<std::uint32_t>(i));
+    const direct::SkyKey key = same ? known->key : direct::skyKey(x.skies, visibility, viewLines());
     std::array<direct::SkyRay, kEach> ran{};
     const std::span<direct::SkyRay> own = std::span(ran).first(points.size());
-    const std::uint32_t old = before ? before->of[i] : hierarchy::LeafTable::kNone;
-    const bool there = old < (known ? known->key.size() : 0);
-    // Of the same lines, and the same estimate, all follows again.
-    const bool same = there && before->whole[old] && before->lines.countOf(old) == count && known->skies == sky.skies &&
-                      known->key[old].guide == visibility.key(static_cast<std::uint32_t>(i));
-    sky.key[i] = same ? known->key[old] : direct::skyKey(x.skies, visibility, viewLines());
-    if (there) {
-      if (const direct::SkyAtLeaf* at = x.known->sky(*known, x.s.elements, leaves[i], old, sky.key[i], own)) {
-        sky.at[i] = *at;
-        std::ranges::copy(known->raysOf(old), codes);
-        for (std::size_t k = 0; k < own.size(); ++k) cells[k] = own[k].cell;
-        return std::uint64_t(0);
-      }
+    if (known && known->key.points == key.points && x.known->holdSkyRays(x.s.elements, leaves[i], *known, own) &&
+        known->key.light == key.light) {
+      known->key = key, sky.at[i] = known->light;
+      return std::uint64_t(0);
     }
-    const direct::SkyLeaf leaf = viewLines();
-    sky.at[i] = direct::skyLight(x.skies, visibility, x.s.elements, x.s.scene, *x.s.tracer, leaf, own);
+    const direct::SkyAtLeaf light =
+        direct::skyLight(x.skies, visibility, x.s.elements, x.s.scene, *x.s.tracer, viewLines(), own);
+    auto now = std::make_unique<LeafSky>(LeafSky{key, light});
     for (std::size_t k = 0; k < own.size(); ++k) {
-      cells[k] = own[k].cell;
+      now->cells[k] = own[k].cell;
       if (own[k].traced())
-        codes[k] = lines::lineCode(own[k].direction, own[k].length);
+        now->rays[k] = lines::lineCode(own[k].direction, own[k].length);
       else if (own[k].known != direct::SkyRay::Visibility::Unknown)
-        codes[k] = known->raysOf(old)[k];
+        now->rays[k] = known->rays[k];
     }
-    return std::uint64_t(sky.at[i].rays);
+    known = std::move(now), sky.at[i] = light;
+    return std::uint64_t(light.rays);
   });
   return sky;
 }
@@ -137,7 +135,7 @@ void lightLeaves(LineSolve& x, lines::TracedLines traced, const Dimming& dimming
   Solution& s = x.s;
   const hierarchy::LeafTable leaves(s.elements);
   x.exchange = exchangeOf(x, leaves, traced);
-  x.sky = skyOf(x, leaves, traced);
+  x.sky = skyOf(x, leaves, traced, std::move(x.sky));
   parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
     s.elements.radiometry[leaves[i].index()].indirect = x.floor > 0 ? startOf(x, leaves[i]) : Rgb(0.0f);
   });

@@ -199,7 +199,7 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const T
   solve->coarseTransfer = transferOf(s, known ? known->takeCoarseTransfer() : std::nullopt, known);
   solve->coarseTransfer->apply(s.elements, solve->nominal);
   swapCoarse(solve->samples, inputs);
-  if (known) solve->knownSky = &known->coarseSky();
+  if (known) solve->sky = known->takeCoarseSky();
   lightLeaves(*solve, traceLeaves(*solve, lines::tuning::kFirstLines, &KnownSolve::takeCoarseLines),
               Dimming::none(s.scene), lines::tuning::kCoarseConverged);
   for (const hierarchy::ElementId e : inputs) {
@@ -207,8 +207,9 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const T
     l.typical = gray(l.direct + l.indirect);
   }
   swapCoarse(solve->samples, inputs);
-  solve->coarse = {
-      {s.lines, solve->escaped, solve->bends, {}, 0}, std::move(solve->sky), hierarchy::LeafTable(s.elements).indexOf};
+  solve->coarse = {{s.lines, solve->escaped, solve->bends, {}, 0},
+                   std::exchange(solve->sky, {}),
+                   hierarchy::LeafTable(s.elements).indexOf};
   solve->floor = floorOf(s.elements);
   hierarchy::pull(s.elements);
   DELTALUX_VALIDATED(validate(s.elements));
@@ -247,7 +248,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
     base = static_cast<std::uint32_t>(
         std::clamp(affordable, double(lines::tuning::kFirstLines), static_cast<double>(wanted)));
   }
-  if (x.known) x.knownSky = &x.known->sky(), x.knownExchange = x.known->exchange();
+  if (x.known) x.sky = x.known->takeSky(), x.knownExchange = x.known->exchange();
   lines::TracedLines traced = traceLeaves(x, base, &KnownSolve::takeLines);
   if (scales != x.nominal) x.transfer->apply(s.elements, scales);
   lightLeaves(x, std::move(traced), Dimming::of(s.scene, x.skies),

@@ -45,11 +45,10 @@ struct LineSolve {
   std::vector<DimLeaf> dim;    // direct light where light hardly comes
   std::vector<lines::EscapedLine> escaped;         // of the lines, in the end
   std::vector<lines::Bend> bends;                  // of the same
-  KnownSky sky;                                    // in the end
+  KnownSky sky;                                    // of this stage; before it, what is known of it
   CoarseLines coarse;                              // of the coarse light
   std::optional<lines::KnownLines> knownLines;     // what is known of the lines before, of those of this stage
-  const KnownSky* knownSky = nullptr;              // the same of their sky light
-  const lines::Exchange* knownExchange = nullptr;  // and of what is exchanged over them
+  const lines::Exchange* knownExchange = nullptr;  // the same of what is exchanged over them
   std::unique_ptr<lines::Exchange> exchange;       // over the lines, in the end
   double floor = 0;                                // light that still matters [W/m2, gray]
   std::optional<particles::ParticleTransfer> transfer, coarseTransfer;  // on the mesh, in the end; on the input level

@@ -103,7 +103,12 @@ void Engine::State::solveAfresh(Progress* progress) {
   s.report = {};
   finished = false;
   clock = {};
-  while (!finished) step(progress);
+  try {
+    while (!finished) step(progress);
+  } catch (...) {  // what was known is half taken: who goes on begins from nothing
+    known.reset(), lineSolve.reset(), newPaths.reset(), textureUpdate.reset();
+    throw;
+  }
 }
 
 EnergyLedger Engine::State::balance() {

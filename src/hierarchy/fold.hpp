@@ -19,7 +19,7 @@ void forgetFolded(Elements&);
 std::size_t awayIn(const Elements&);
 
 /// Brings surfaces of folded elements to the scene's present shapes, as if they were built of it, but for mean free
-/// paths; their parts are forgotten. False, and nothing is done, where they have to be built anew.
+/// paths; their parts are forgotten. False where elements have to be built anew.
 bool bringTo(Elements&, const Scene&, std::span<const PrimitiveId> moved);
 /// Takes over the parts that patches of folded elements had, where elements that were built anew, nothing of which is
 /// split, have the same patch and would split it into the same parts. `stays`: by primitive, whether a surface is where

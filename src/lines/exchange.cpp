@@ -80,6 +80,7 @@ Exchange::Exchange(const Lines& lines, const hierarchy::Elements& elements, cons
                    const LineTracer& tracer, std::span<const std::uint32_t> covered)
     : Exchange(elements, leaves, tracer, lines, covered) {
   build(lines);
+  weigh();
   addSpecials(lines);
   listOneWay();
   setTargets(lines, covered);
@@ -91,6 +92,7 @@ Exchange::Exchange(const Exchange& before, const KnownLines& known, const Lines&
                    std::span<const std::uint32_t> covered)
     : Exchange(elements, leaves, tracer, lines, covered) {
   build(before, known, lines);
+  weigh();
   addSpecials(lines);
   listOneWay();
   setTargets(lines, covered);
@@ -207,6 +209,14 @@ void Exchange::build(const Exchange& before, const KnownLines& known, const Line
   });
 }
 
+void Exchange::weigh() {
+  weight_.resize(begin_[leaves()]);
+  parallelFor(leaves(), kLeaves, [&](std::size_t i) {
+    for (std::uint64_t k = begin_[i]; k < begin_[i + 1]; ++k)
+      weight_[k] = static_cast<float>(count_[k]) / (m_[i] + m_[id_[k]]);
+  });
+}
+
 void Exchange::addSpecials(const Lines& lines) {
   const std::size_t n = lines.leaves();
   specialBegin_.assign(n + 1, 0);
@@ -242,7 +252,7 @@ void Exchange::forEachExchange(std::size_t i, const Visit& visit) const {
   const float own = 1 / e_[i];
   for (std::uint64_t k = begin_[i]; k < begin_[i + 1]; ++k) {
     const std::uint32_t j = id_[k];
-    visit(j, static_cast<float>(count_[k]) * own / (e_[j] * (m_[i] + m_[j])));
+    visit(j, weight_[k] * own / e_[j]);
   }
   for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k)
     if (!specials_[k].rough) visit(specials_[k].other, gray(specials_[k].x));
@@ -250,13 +260,9 @@ void Exchange::forEachExchange(std::size_t i, const Visit& visit) const {
 
 float Exchange::exchangeWith(std::size_t i, std::span<const float> value, std::span<const float> valueOverE) const {
   std::array<float, kLanes> sum{};
-  const float m = m_[i];
-  const float *q = valueOverE.data(), *ms = m_.data();
+  const float *q = valueOverE.data(), *weight = weight_.data();
   const std::uint32_t* id = id_.data();
-  const std::uint16_t* count = count_.data();
-  inLanes(begin_[i], begin_[i + 1], [&](std::uint64_t k, std::size_t lane) {
-    sum[lane] += static_cast<float>(count[k]) * q[id[k]] / (m + ms[id[k]]);
-  });
+  inLanes(begin_[i], begin_[i + 1], [&](std::uint64_t k, std::size_t lane) { sum[lane] += weight[k] * q[id[k]]; });
   float all = sumOf(sum) / e_[i];
   for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k)
     if (!specials_[k].rough) all += value[specials_[k].other] * gray(specials_[k].x);
@@ -320,23 +326,21 @@ void Exchange::scale() {
 void Exchange::fill(std::span<const Rgb> B) {
   parallelFor(leaves(), kLeaves, [&](std::size_t i) {
     const Rgb sent = B[i] * (scale_[i] / e_[i]);
-    records_[i].B = {sent.r, sent.g, sent.b, m_[i]};
+    records_[i].B = {sent.r, sent.g, sent.b, 0};
   });
 }
 
 /// Sum over a row's straight lines of what the records send by them.
 Rgb Exchange::sentOver(std::size_t i) const {
-  const float m = m_[i];
   const LeafRecord* records = records_.data();
   const std::uint32_t* id = id_.data();
-  const std::uint16_t* count = count_.data();
-  std::array<LeafRecord, 2> sums{};
+  const float* weight = weight_.data();
+  std::array<LeafRecord, 4> sums{};
   inLanes(begin_[i], begin_[i + 1], [&](std::uint64_t k, std::size_t lane) {
-    const LeafRecord& other = records[id[k]];
-    const float weight = static_cast<float>(count[k]) / (m + other.B[3]);
-    for (std::size_t c = 0; c < 4; ++c) sums[lane % 2].B[c] += weight * other.B[c];
+    for (std::size_t c = 0; c < 4; ++c) sums[lane % 4].B[c] += weight[k] * records[id[k]].B[c];
   });
-  return {sums[0].B[0] + sums[1].B[0], sums[0].B[1] + sums[1].B[1], sums[0].B[2] + sums[1].B[2]};
+  const auto sum = [&](std::size_t c) { return (sums[0].B[c] + sums[1].B[c]) + (sums[2].B[c] + sums[3].B[c]); };
+  return {sum(0), sum(1), sum(2)};
 }
 
 Rgb Exchange::irradianceOf(std::size_t i, std::span<const Rgb> B) const {
@@ -386,10 +390,10 @@ void Exchange::deviation(std::span<const Rgb> B, std::span<float> sigma) {
   parallelFor(leaves(), kLeaves, [&](std::size_t i) { sent[i] = scale_[i] / e_[i] * gray(B[i]); });
   parallelFor(leaves(), kLeaves, [&](std::size_t i) {
     std::array<double, kLanes> sums{}, squared{}, counts{};
-    const float own = target_[i] * scale_[i] / e_[i], m = m_[i];
+    const float own = target_[i] * scale_[i] / e_[i];
     inLanes(begin_[i], begin_[i + 1], [&](std::uint64_t k, std::size_t lane) {
       const auto count = static_cast<float>(count_[k]);
-      const double each = own * sent[id_[k]] / (m + m_[id_[k]]);
+      const double each = own * sent[id_[k]] * weight_[k] / count;
       sums[lane] += count * each, squared[lane] += count * each * each, counts[lane] += count;
     });
     double sum = sumOf(sums), squares = sumOf(squared), lines = sumOf(counts);
@@ -420,7 +424,8 @@ void Exchange::arriving(std::span<double> share) const {
 
 std::size_t Exchange::memoryBytes() const {
   return leaves() * (6 * sizeof(float) + sizeof(LeafRecord)) + begin_.capacity() * 8 + id_.capacity() * 4 +
-         count_.capacity() * 2 + specialBegin_.capacity() * 4 + specials_.capacity() * sizeof(Special);
+         count_.capacity() * 2 + weight_.capacity() * 4 + specialBegin_.capacity() * 4 +
+         specials_.capacity() * sizeof(Special);
 }
 
 }  // namespace deltalux::lines

@@ -41,6 +41,31 @@ std::vector<float> ownIndirect(const TracedLines& traced, std::span<const float>
   return indirect;
 }
 
+namespace {
+
+/// Of what ascends by leaf: those of the leaves that have lines in `more` from there, all others from the first.
+template <class Listed>
+std::vector<Listed> merged(const std::vector<Listed>& first, const std::vector<Listed>& second, const Lines& more) {
+  std::vector<Listed> all;
+  all.reserve(first.size() + second.size());
+  auto a = first.begin();
+  auto b = second.begin();
+  const auto upTo = [&](std::uint32_t leaf) {
+    return std::ranges::lower_bound(a, first.end(), leaf, {}, &Listed::leaf);
+  };
+  for (std::uint32_t i = 0; i < more.leaves(); ++i) {
+    if (more.countOf(i) == 0) continue;
+    const auto here = upTo(i);
+    all.insert(all.end(), a, here);
+    for (a = here; a != first.end() && a->leaf == i;) ++a;
+    for (; b != second.end() && b->leaf == i; ++b) all.push_back(*b);
+  }
+  all.insert(all.end(), a, first.end());
+  return all;
+}
+
+}  // namespace
+
 TracedLines replaced(const TracedLines& traced, const TracedLines& more) {
   TracedLines out;
   const std::size_t n = traced.lines.leaves();
@@ -59,23 +84,11 @@ TracedLines replaced(const TracedLines& traced, const TracedLines& more) {
     std::copy(l.code.begin() + begin, l.code.begin() + end, out.lines.code.begin() + at);
     out.covered[i] = of(i).covered[i];
   });
-  // Both ascend by leaf: merged.
-  const auto merge = [&](const auto& a, const auto& b, const auto& sink) {
-    std::size_t k = 0;
-    for (const auto& x : a) {
-      for (; k < b.size() && b[k].leaf < x.leaf; ++k) sink(b[k], more);
-      if (more.lines.countOf(x.leaf) == 0) sink(x, traced);
-    }
-    for (; k < b.size(); ++k) sink(b[k], more);
-  };
-  const auto addException = [&](ExceptionalLine e, const TracedLines& from) {
-    e.line = e.line - from.lines.first[e.leaf] + out.lines.first[e.leaf];
-    out.lines.exceptions.push_back(e);
-  };
-  const auto addEscaped = [&](const EscapedLine& e, const TracedLines&) { out.escaped.push_back(e); };
-  merge(traced.lines.exceptions, more.lines.exceptions, addException);
-  merge(traced.escaped, more.escaped, addEscaped);
-  merge(traced.bends, more.bends, [&](const Bend& b, const TracedLines&) { out.bends.push_back(b); });
+  out.lines.exceptions = merged(traced.lines.exceptions, more.lines.exceptions, more.lines);
+  for (ExceptionalLine& e : out.lines.exceptions)
+    e.line = e.line - of(e.leaf).lines.first[e.leaf] + out.lines.first[e.leaf];
+  out.escaped = merged(traced.escaped, more.escaped, more.lines);
+  out.bends = merged(traced.bends, more.bends, more.lines);
   return out;
 }
 

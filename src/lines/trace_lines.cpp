@@ -21,6 +21,17 @@ struct Found {
   std::uint64_t rays = 0;
 };
 
+/// What all tasks have found of something, in their order.
+template <class Listed>
+void joinAll(const std::vector<Found>& found, std::vector<Listed> Found::*list, std::vector<Listed>& all) {
+  std::vector<std::size_t> first{0};
+  for (const Found& f : found) first.push_back(first.back() + (f.*list).size());
+  all.resize(first.back());
+  parallelFor(found.size(), kBlock, [&](std::size_t b) {
+    std::ranges::copy(found[b].*list, all.begin() + static_cast<std::ptrdiff_t>(first[b]));
+  });
+}
+
 /// Of a line's way, what lies behind its first turn: between two mirrors it may run as it did at first again.
 void addBends(std::span<const LineSegment> way, std::uint32_t leaf, std::uint32_t number, std::vector<Bend>& bends) {
   std::size_t straight = 0;
@@ -205,12 +216,10 @@ TracedLines traceLines(const LineScene& s, std::span<const std::uint32_t> counts
   parallelBlocks(leaves, kBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) trace(static_cast<std::uint32_t>(i), out, found[begin / kBlock]);
   });
-  for (const Found& f : found) {
-    out.lines.exceptions.insert(out.lines.exceptions.end(), f.exceptions.begin(), f.exceptions.end());
-    out.escaped.insert(out.escaped.end(), f.escaped.begin(), f.escaped.end());
-    out.bends.insert(out.bends.end(), f.bends.begin(), f.bends.end());
-    out.rays += f.rays;
-  }
+  joinAll(found, &Found::exceptions, out.lines.exceptions);
+  joinAll(found, &Found::escaped, out.escaped);
+  joinAll(found, &Found::bends, out.bends);
+  for (const Found& f : found) out.rays += f.rays;
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // What a solve over lines has found besides the solution, by which an update finds the same without asking again. It is
 // cheaper to find again than to read, so files do not have it.
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -53,17 +54,20 @@ struct PatchSamples {
   void forgetLight(std::size_t element) { evaluated[element].reset(), whole[element].reset(), coarse[element].reset(); }
 };
 
-/// Sky light of the receiving leaves in order, undimmed, and its shadow rays.
+/// Sky light of a leaf, undimmed, what it followed from, and its shadow rays.
+struct LeafSky {
+  static constexpr std::size_t kRays = direct::tuning::kManyRays;
+
+  direct::SkyKey key;
+  direct::SkyAtLeaf light;
+  std::array<lines::LineCode, kRays> rays{};  // of those that there were not, without reach
+  std::array<std::uint8_t, kRays> cells{};    // of the same
+};
+
 struct KnownSky {
-  static constexpr std::size_t kEach = direct::tuning::kManyRays;
-
-  std::uint64_t skies = 0;  // direct::Skies::key()
-  std::vector<direct::SkyAtLeaf> at;
-  std::vector<direct::SkyKey> key;
-  LargeArray<lines::LineCode> rays;  // kEach of each leaf; of those that there were not, without reach
-  LargeArray<std::uint8_t> cells;    // of the same
-
-  std::span<const lines::LineCode> raysOf(std::size_t leaf) const { return {rays.data() + leaf * kEach, kEach}; }
+  std::uint64_t skies = 0;                   // direct::Skies::key()
+  std::vector<direct::SkyAtLeaf> at;         // of the receiving leaves in order
+  std::vector<std::unique_ptr<LeafSky>> of;  // by element, of those leaves; of what was one once, out of date
 };
 
 /// Direct light of a leaf in the dark, from many points.

@@ -87,6 +87,30 @@ TEST(LineUpdate, FollowsAnEditThatComesAfterOneBeforeTheSolve) {
   EXPECT_TRUE(isTheFreshOne(engine));
 }
 
+/// Stops what runs when it has been asked so often.
+struct StopsAfter : Progress {
+  explicit StopsAfter(int asked) : left(asked) {}
+  void report(std::string_view, double) override {}
+  bool stopRequested() const override { return left-- == 0; }
+  mutable int left;
+};
+
+TEST(LineUpdate, GoesOnFromNothingWhenItWasInterrupted) {
+  const std::string object = editableOfFurnishedRoom().objects.front();
+  for (const int asked : {0, 1, 2, 5}) {
+    Engine engine(furnishedRoom(), coarse());
+    engine.solve();
+    engine.apply(TransformObject{object, glm::translate(Mat4(1), Vec3(0.05, 0, 0))});
+    StopsAfter stops(asked);
+    EXPECT_THROW(engine.update(&stops), Interrupted) << asked;
+    engine.update();
+    EXPECT_TRUE(isTheFreshOne(engine)) << asked;
+    engine.apply(TransformObject{object, glm::translate(Mat4(1), Vec3(0, 0.05, 0))});
+    engine.update();
+    EXPECT_TRUE(isTheFreshOne(engine)) << asked;
+  }
+}
+
 TEST(LineUpdate, FollowsLinesBetweenFacingMirrors) {
   // Behind the second mirror they run as they did before the first.
   Scene scene;

@@ -116,7 +116,7 @@ class TracedRoom {
   }
 };
 
-/// By leaf of `after`: which leaf of `before` stood there, of surfaces that have not moved; LeafTable::kNone.
+/// By leaf of `after`: which leaf of `before` stood there, as large, of surfaces that have not moved; LeafTable::kNone.
 inline std::vector<std::uint32_t> leavesBefore(const TracedRoom& before, const TracedRoom& after,
                                                const change::MovedSpace& space) {
   std::unordered_map<std::uint64_t, std::uint32_t> byKey;
@@ -124,8 +124,12 @@ inline std::vector<std::uint32_t> leavesBefore(const TracedRoom& before, const T
   std::vector<std::uint32_t> of;
   for (const hierarchy::ElementId leaf : after.leaves.leaves) {
     const auto at = byKey.find(after.elements.key[leaf.index()]);
-    const bool same = at != byKey.end() && !space.moved(after.elements.domain[leaf.index()].primitive);
-    of.push_back(same ? at->second : hierarchy::LeafTable::kNone);
+    const auto stays = [&] {
+      const hierarchy::ElementGeometry &a = before.elements.shape(before.leaves[at->second]),
+                                       &b = after.elements.shape(leaf);
+      return !space.moved(after.elements.domain[leaf.index()].primitive) && a.lower == b.lower && a.upper == b.upper;
+    };
+    of.push_back(at != byKey.end() && stays() ? at->second : hierarchy::LeafTable::kNone);
   }
   return of;
 }
