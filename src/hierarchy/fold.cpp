@@ -44,10 +44,10 @@ bool sameInput(const Elements& a, ElementId i, const Elements& b, ElementId j) {
          g.normal == h.normal;
 }
 
-/// Appends the parts that a folded patch had to a patch of other elements, folded as well.
+/// Appends the parts that a folded patch had to a patch of other elements, folded as well, but not away yet.
 void appendParts(Elements& to, ElementId whole, const Elements& from, ElementId old) {
   const std::uint8_t count = from.folded[old.index()];
-  const ElementId first = to.addChildren(whole, ElementKind::Away, count);
+  const ElementId first = to.addChildren(whole, ElementKind::Patch, count);
   to.topology[whole.index()].childCount = 0;
   to.folded.resize(to.size(), 0), to.folded[whole.index()] = count;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -55,7 +55,7 @@ void appendParts(Elements& to, ElementId whole, const Elements& from, ElementId 
     ElementTopology& t = to.topology[c];
     const ElementId parent = t.parent;
     t = from.topology[b];
-    t.parent = parent, t.firstChild = {}, t.childCount = 0, t.kind = ElementKind::Away;
+    t.parent = parent, t.firstChild = {}, t.childCount = 0, t.kind = ElementKind::Patch;
     to.geometry[c] = from.geometry[b], to.nodes[c] = from.nodes[b], to.moments[c] = from.moments[b];
     to.light[c] = to.light[whole.index()], to.key[c] = from.key[b];
     PatchDomain& d = to.domain[c];
@@ -140,7 +140,8 @@ std::vector<std::uint32_t> carryOver(Elements& to, const Scene& scene, const Ele
   for (const ElementId e : from.inputs)
     if (from.receives(e)) byKey.emplace_back(from.key[e.index()], e.value);
   std::ranges::sort(byKey);
-  std::vector<std::uint32_t> was(to.size(), kNone);
+  const std::size_t inputs = to.size();
+  std::vector<std::uint32_t> was(inputs, kNone);
   std::vector<ElementId> level;
   for (const ElementId e : to.inputs) {
     if (!to.receives(e) || !stays[to.domain[e.index()].primitive.index()]) continue;
@@ -169,6 +170,7 @@ std::vector<std::uint32_t> carryOver(Elements& to, const Scene& scene, const Ele
     }
     level = std::move(parts);
   }
+  for (std::size_t i = inputs; i < to.size(); ++i) to.topology[i].kind = ElementKind::Away;
   return was;
 }
 

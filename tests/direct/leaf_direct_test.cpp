@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 
 #include "hierarchy/build.hpp"
@@ -71,6 +72,53 @@ TEST(LeafDirect, AHalfShadowVariesAndHasHalfTheLight) {
   const direct::LeafDirect light = lit.front(tile);
   EXPECT_NEAR(light.E.g, 0.5 * whole, 0.03 * whole);
   EXPECT_GT(light.variation, 0.4 * whole);
+}
+
+TEST(LeafDirect, ShadowsThatAreKnownAreNotTracedAgain) {
+  // A tile half under a lid, and half of the rest behind a pane, below the sun and two lamps.
+  Scene scene;
+  const PrimitiveId tile = addTile(scene, -0.5, 0.5);
+  addPolygon(scene, addMaterial(scene, "lid", lambert(0)), {{-2, -2, 0.1}, {0, -2, 0.1}, {0, 2, 0.1}, {-2, 2, 0.1}});
+  addPolygon(scene, addMaterial(scene, "pane", ThinGlass{Rgb(0.7f), 1.5f}),
+             {{0, -2, 0.1}, {2, -2, 0.1}, {2, 0, 0.1}, {0, 0, 0.1}});
+  SunLight sun;
+  sun.direction = {0, 0, 1}, sun.radiance = Rgb(1e5f);
+  addLight(scene, sun);
+  addLight(scene, PointLight{{0.2, 0, 2}, Rgb(10.0f)});
+  addLight(scene, PointLight{{-1, 1, 3}, Rgb(20.0f)});
+  const Lit lit(std::move(scene));
+  const direct::DirectSampler sampler(lit.elements, lit.scene, *lit.tracer, *lit.lamps, 0.05);
+  const hierarchy::ElementId patch = lit.elements.side(tile, 0, true);
+  const direct::LeafDirect anew = sampler.at(patch, {});
+  std::uint64_t clear = 0, shut = 0;
+  for (const direct::LampLight& l : anew.lamps) {
+    EXPECT_EQ(l.shadows.clear & l.shadows.shut, 0u);
+    EXPECT_EQ((l.shadows.clear | l.shadows.shut) >> (l.points - 1) >> 1, 0u);
+    clear += static_cast<std::uint64_t>(std::popcount(l.shadows.clear));
+    shut += static_cast<std::uint64_t>(std::popcount(l.shadows.shut));
+  }
+  EXPECT_GT(clear, 10u);
+  EXPECT_GT(shut, 10u);
+  EXPECT_GT(anew.rays, clear + shut);  // those through the pane
+  const auto sameLight = [&](const direct::LeafDirect& light) {
+    EXPECT_EQ(light.E, anew.E);
+    EXPECT_EQ(light.deviation, anew.deviation);
+    EXPECT_EQ(light.variation, anew.variation);
+    ASSERT_EQ(light.lamps.size(), anew.lamps.size());
+    for (std::size_t i = 0; i < light.lamps.size(); ++i) {
+      EXPECT_EQ(light.lamps[i].E, anew.lamps[i].E);
+      EXPECT_EQ(light.lamps[i].shadows.clear, anew.lamps[i].shadows.clear);
+      EXPECT_EQ(light.lamps[i].shadows.shut, anew.lamps[i].shadows.shut);
+    }
+  };
+  const auto again = [&](bool holds) {
+    const direct::DirectSampler::KnownShadows before{anew.lamps,
+                                                     [=](const direct::Lamp&, const tracing::Ray&) { return holds; }};
+    return sampler.at(patch, {}, {}, {}, &before);
+  };
+  sameLight(again(true)), sameLight(again(false));
+  EXPECT_EQ(again(false).rays, anew.rays);
+  EXPECT_EQ(again(true).rays, anew.rays - clear - shut);
 }
 
 TEST(LeafDirect, ManyLampsAreRightInTheMean) {
