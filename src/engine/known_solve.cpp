@@ -5,7 +5,6 @@
 
 #include "base/parallel.hpp"
 #include "engine/scene_update.hpp"
-#include "engine/tuning.hpp"
 #include "hierarchy/fold.hpp"
 #include "hierarchy/input_level.hpp"
 

@@ -74,7 +74,9 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
     // Of the same lines, and the same estimate, all follows again.
     const bool same = known && sameSkies && before->whole[old] && before->lines.countOf(old) == count &&
                       known->key.guide == visibility.key(static_cast<std::uint32_t>(i));
-    const direct::SkyKey key = same ? known->key : direct::skyKey(x.skies, visibility, viewLines());
+    std::optional<direct::SkyLeaf> leaf;
+    if (!same) leaf = viewLines();
+    const direct::SkyKey key = same ? known->key : direct::skyKey(x.skies, visibility, *leaf);
     std::array<direct::SkyRay, kEach> ran{};
     const std::span<direct::SkyRay> own = std::span(ran).first(points.size());
     if (known && known->key.points == key.points && x.known->holdSkyRays(x.s.elements, leaves[i], *known, own) &&
@@ -82,8 +84,9 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
       known->key = key, sky.at[i] = known->light;
       return std::uint64_t(0);
     }
+    if (!leaf) leaf = viewLines();
     const direct::SkyAtLeaf light =
-        direct::skyLight(x.skies, visibility, x.s.elements, x.s.scene, *x.s.tracer, viewLines(), own);
+        direct::skyLight(x.skies, visibility, x.s.elements, x.s.scene, *x.s.tracer, *leaf, own);
     auto now = std::make_unique<LeafSky>(LeafSky{key, light});
     for (std::size_t k = 0; k < own.size(); ++k) {
       now->cells[k] = own[k].cell;
@@ -124,8 +127,7 @@ lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base, TakeLines takeL
   if (x.known) x.knownLines = (x.known->*takeLines)(elements, leaves);
   const lines::LineScene over{elements, leaves,     locator,         x.tracer,
                               x.cover,  x.enclosed, x.samples.first, x.knownLines ? &*x.knownLines : nullptr};
-  lines::TracedLines traced = lines::traceLines(over, counts);
-  traced = lookIntoTheDark(x, over, std::move(traced));
+  lines::TracedLines traced = lookIntoTheDark(x, over, lines::traceLines(over, counts));
   DELTALUX_VALIDATED(validate(traced.lines));
   x.s.report.counts.raysVisibility += traced.rays;
   return traced;

@@ -14,15 +14,6 @@ namespace {
 constexpr std::uint32_t kNone = Id<void>::kNone;
 constexpr std::size_t kFewElements = 256;  // of a task [task]
 
-/// Of patches that take part again, or newly: nothing of what samples and light have told.
-void startFrom(Elements& elements, ElementId part, ElementId whole) {
-  ElementGeometry& g = elements.geometry[part.index()];
-  g.meanFreePath = elements.shape(whole).meanFreePath, g.exposed = 1;
-  ElementLight& r = elements.radiometry[part.index()];
-  r = elements.radiometry[whole.index()];
-  r.directGathered = r.indirectGathered = r.particle = Rgb(0.0f);
-}
-
 /// Gives an input its plane again, of the same outline; false where that has other corners.
 bool placePlane(Elements& elements, const Scene& scene, ElementId input) {
   const PatchDomain& d = elements.domain[input.index()];
@@ -98,6 +89,14 @@ void fold(Elements& elements) {
   }
 }
 
+void inherit(Elements& elements, ElementId part, ElementId whole) {
+  ElementGeometry& g = elements.geometry[part.index()];
+  g.meanFreePath = elements.shape(whole).meanFreePath, g.exposed = 1;
+  ElementLight& r = elements.radiometry[part.index()];
+  r = elements.radiometry[whole.index()];
+  r.directGathered = r.indirectGathered = r.particle = Rgb(0.0f);
+}
+
 bool unfold(Elements& elements, ElementId e) {
   if (e.index() >= elements.folded.size() || elements.folded[e.index()] == 0) return false;
   ElementTopology& t = elements.topology[e.index()];
@@ -105,7 +104,7 @@ bool unfold(Elements& elements, ElementId e) {
   for (std::size_t i = 0; i < t.childCount; ++i) {
     const ElementId c = elements.child(e, i);
     elements.topology[c.index()].kind = ElementKind::Patch;
-    startFrom(elements, c, e);
+    inherit(elements, c, e);
     if (elements.hasFaces(e)) elements.holdSides(c);
   }
   return true;

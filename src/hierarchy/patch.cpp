@@ -418,11 +418,8 @@ void fillChildren(Elements& elements, const Scene& scene, ElementId e) {
     t.front = parent.front, t.emitter = parent.emitter;
     t.depth = static_cast<std::uint8_t>(parent.depth + 1);
     elements.light[c.index()] = elements.light[e.index()];
-    elements.geometry[c.index()].meanFreePath = elements.geometry[e.index()].meanFreePath;
     elements.key[c.index()] = combineKeys(elements.key[e.index()], elements.domain[c.index()].address);
-    ElementLight& r = elements.radiometry[c.index()];
-    r = elements.radiometry[e.index()];
-    r.directGathered = r.indirectGathered = r.particle = Rgb(0.0f);
+    inherit(elements, c, e);
     if (parent.kind == ElementKind::Distant)
       shapeDistant(elements, scene, c);
     else

@@ -89,9 +89,9 @@ TEST(LeafDirect, ShadowsThatAreKnownAreNotTracedAgain) {
   const Lit lit(std::move(scene));
   const direct::DirectSampler sampler(lit.elements, lit.scene, *lit.tracer, *lit.lamps, 0.05);
   const hierarchy::ElementId patch = lit.elements.side(tile, 0, true);
-  const direct::LeafDirect anew = sampler.at(patch, {});
+  const direct::LeafDirect first = sampler.at(patch, {});
   std::uint64_t clear = 0, shut = 0;
-  for (const direct::LampLight& l : anew.lamps) {
+  for (const direct::LampLight& l : first.lamps) {
     EXPECT_EQ(l.shadows.clear & l.shadows.shut, 0u);
     EXPECT_EQ((l.shadows.clear | l.shadows.shut) >> (l.points - 1) >> 1, 0u);
     clear += static_cast<std::uint64_t>(std::popcount(l.shadows.clear));
@@ -99,26 +99,26 @@ TEST(LeafDirect, ShadowsThatAreKnownAreNotTracedAgain) {
   }
   EXPECT_GT(clear, 10u);
   EXPECT_GT(shut, 10u);
-  EXPECT_GT(anew.rays, clear + shut);  // those through the pane
+  EXPECT_GT(first.rays, clear + shut);  // those through the pane
   const auto sameLight = [&](const direct::LeafDirect& light) {
-    EXPECT_EQ(light.E, anew.E);
-    EXPECT_EQ(light.deviation, anew.deviation);
-    EXPECT_EQ(light.variation, anew.variation);
-    ASSERT_EQ(light.lamps.size(), anew.lamps.size());
+    EXPECT_EQ(light.E, first.E);
+    EXPECT_EQ(light.deviation, first.deviation);
+    EXPECT_EQ(light.variation, first.variation);
+    ASSERT_EQ(light.lamps.size(), first.lamps.size());
     for (std::size_t i = 0; i < light.lamps.size(); ++i) {
-      EXPECT_EQ(light.lamps[i].E, anew.lamps[i].E);
-      EXPECT_EQ(light.lamps[i].shadows.clear, anew.lamps[i].shadows.clear);
-      EXPECT_EQ(light.lamps[i].shadows.shut, anew.lamps[i].shadows.shut);
+      EXPECT_EQ(light.lamps[i].E, first.lamps[i].E);
+      EXPECT_EQ(light.lamps[i].shadows.clear, first.lamps[i].shadows.clear);
+      EXPECT_EQ(light.lamps[i].shadows.shut, first.lamps[i].shadows.shut);
     }
   };
   const auto again = [&](bool holds) {
-    const direct::DirectSampler::KnownShadows before{anew.lamps,
+    const direct::DirectSampler::KnownShadows before{first.lamps,
                                                      [=](const direct::Lamp&, const tracing::Ray&) { return holds; }};
     return sampler.at(patch, {}, {}, {}, &before);
   };
   sameLight(again(true)), sameLight(again(false));
-  EXPECT_EQ(again(false).rays, anew.rays);
-  EXPECT_EQ(again(true).rays, anew.rays - clear - shut);
+  EXPECT_EQ(again(false).rays, first.rays);
+  EXPECT_EQ(again(true).rays, first.rays - clear - shut);
 }
 
 TEST(LeafDirect, ManyLampsAreRightInTheMean) {
