@@ -41,7 +41,7 @@ Sampled sampleLeaves(const Solution& s, const hierarchy::LeafTable& all) {
   double sum = 0, light = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double E = irradianceOf(s.elements.radiometry[all[i].index()]);
-    const double A = s.lines.countOf(i) > 0 && E > 0 ? double(s.elements.geometry[all[i].index()].litArea()) : 0.0;
+    const double A = s.lines.countOf(all[i]) > 0 && E > 0 ? double(s.elements.geometry[all[i].index()].litArea()) : 0.0;
     sum += A, light += A * E, area.push_back(sum);
   }
   Sampled sampled{{}, direct::tuning::kFloor * light / sum};

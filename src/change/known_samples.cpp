@@ -143,56 +143,51 @@ bool holdSkyRays(const MovedSpace& space, const hierarchy::Elements& elements, h
   return all;
 }
 
-lines::KnownLines knownLines(const MovedSpace& space, lines::TracedLines all, std::vector<std::uint32_t> of,
-                             const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves) {
-  constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone;
+lines::KnownLines knownLines(const MovedSpace& space, lines::TracedLines& all, std::vector<char> stands,
+                             const hierarchy::Elements& elements) {
   using lines::KnownLines;
-  const std::size_t n = all.lines.leaves();
-  std::vector<std::uint32_t> now(n, kNone);
-  for (std::uint32_t i = 0; i < of.size(); ++i)
-    if (of[i] != kNone) now[of[i]] = i;
-  KnownLines known;
-  known.of = std::move(of), known.now = std::move(now), known.lines = std::move(all.lines);
-  known.escaped = std::move(all.escaped), known.bends = std::move(all.bends);
-  known.firstEscaped = lines::firstOf(known.escaped, n), known.firstBend = lines::firstOf(known.bends, n);
-  known.whole.assign(n, 0);
-  known.firstException = lines::firstOf(known.lines.exceptions, n);
-  parallelFor(n, kKnownLeaves, [&](std::size_t i) {
-    const BoxF box = known.now[i] != kNone ? boxOf(elements.shape(leaves[known.now[i]])) : BoxF();
-    const bool starts = known.now[i] != kNone && !space.touches(box);
-    std::uint32_t exception = known.firstException[i], bend = known.firstBend[i];
-    const std::uint64_t first = known.lines.first[i];
-    std::vector<char> near(known.lines.countOf(i), 0);
-    if (starts && faces(space, elements, leaves[known.now[i]]))
-      LineSieve(space, box, lines::kDirectionError).mark({known.lines.code.data() + first, near.size()}, near);
+  lines::tidy(all);
+  all.resize(elements.size());
+  KnownLines known{all.lines.of, std::move(stands), std::vector<char>(elements.size(), false)};
+  const auto standsAt = [&](std::uint32_t end) { return known.stands[end] != 0; };
+  parallelFor(elements.size(), kKnownLeaves, [&](std::size_t i) {
+    const hierarchy::ElementId leaf(i);
+    if (!known.stands[i]) return all.drop(i);
+    const BoxF box = boxOf(elements.shape(leaf));
+    const bool starts = !space.touches(box);
+    const std::span<std::uint32_t> ends(all.lines.end.data() + known.before[i].first, known.before[i].count);
+    const std::span<const lines::LineCode> codes(all.lines.code.data() + known.before[i].first, ends.size());
+    std::vector<char> near(ends.size(), 0);
+    if (starts && faces(space, elements, leaf)) LineSieve(space, box, lines::kDirectionError).mark(codes, near);
+    const std::span<const lines::ExceptionalLine> exceptions = all.lines.exceptions.at(leaf);
+    const std::span<const lines::Bend> bends = all.bends.at(leaf);
+    std::size_t exception = 0, bend = 0;
     bool whole = true;
-    for (std::uint64_t k = first; k < known.lines.first[i + 1]; ++k) {
-      std::uint32_t& end = known.lines.end[k];
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      std::uint32_t& end = ends[k];
       const std::uint32_t mark = end;
-      bool holds = starts;
+      bool holds = starts && !KnownLines::isAgain(mark);
       if (mark < lines::kFirstMark) {
-        holds = holds && known.now[mark] != kNone;
-        end = known.now[mark];
+        holds = holds && standsAt(mark);
       } else if (mark == lines::kException) {
-        std::uint32_t& on = known.lines.exceptions[exception++].end;
-        holds = holds && known.now[on] != kNone;
-        if (holds) on = known.now[on];
+        const std::uint32_t on = exceptions[exception++].end;
+        holds = holds && !KnownLines::isAgain(on) && standsAt(on);
       }
-      const lines::LineCode code = known.lines.code[k];
-      holds = holds && !(near[k - first] && code.reach > 0 && mayCross(space, box, code));
+      holds = holds && !(near[k] && codes[k].reach > 0 && mayCross(space, box, codes[k]));
       if (mark >= lines::kFirstMark && mark != lines::kEscaped && mark != lines::kCovered)
-        for (; bend < known.firstBend[i + 1] && known.bends[bend].number <= k - first; ++bend) {
-          const lines::Bend& b = known.bends[bend];
-          holds = holds && (b.number < k - first || !mayCross(space, at(b.from), b.code));
+        for (; bend < bends.size() && bends[bend].number <= k; ++bend) {
+          const lines::Bend& b = bends[bend];
+          holds = holds && (b.number < k || !mayCross(space, at(b.from), b.code));
         }
       whole = whole && holds;
       if (!holds)
-        end = mark == lines::kEscaped                     ? KnownLines::kEscapedAgain
-              : mark == lines::kException                 ? KnownLines::kExceptionAgain
-              : mark >= lines::kFirstMark || end == kNone ? KnownLines::kAgain
-                                                          : end | KnownLines::kLeafAgain;
+        end = mark == lines::kEscaped     ? KnownLines::kEscapedAgain
+              : mark == lines::kException ? KnownLines::kExceptionAgain
+              : mark >= lines::kFirstMark ? KnownLines::kAgain
+                                          : mark | KnownLines::kLeafAgain;
     }
     known.whole[i] = whole;
+    if (!whole) all.lines.of[i] = {};
   });
   return known;
 }

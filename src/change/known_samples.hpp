@@ -36,8 +36,9 @@ bool holdShadowRays(const MovedSpace&, const direct::DirectSampler&, const hiera
 bool holdSkyRays(const MovedSpace&, const hierarchy::Elements&, hierarchy::ElementId patch,
                  std::span<const lines::LineCode>, std::span<direct::SkyRay>);
 
-/// Lines from before as they are now, over these leaves; `of` by leaf: which it was where it stands, or kNone.
-lines::KnownLines knownLines(const MovedSpace&, lines::TracedLines, std::vector<std::uint32_t> of,
-                             const hierarchy::Elements&, const hierarchy::LeafTable&);
+/// What lines from before are worth: marks those that are to be traced again, and takes away those of what does not
+/// stand. `stands`: KnownLines::stands.
+lines::KnownLines knownLines(const MovedSpace&, lines::TracedLines&, std::vector<char> stands,
+                             const hierarchy::Elements&);
 
 }  // namespace deltalux::change

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
+#include <numeric>
 
 #include "base/parallel.hpp"
 #include "direct/dim_direct.hpp"
@@ -19,27 +19,30 @@ namespace {
 
 constexpr std::size_t kRoomLeaves = 1024, kDimLeaves = 16;  // of a task [task]
 
-/// What the leaves' own lines say of what others send them [W/m2, gray].
+/// What the first `counts` lines of leaves say of what others send them [W/m2, gray].
 std::vector<float> roughIndirect(const LineSolve& x, const hierarchy::LeafTable& leaves,
-                                 const lines::TracedLines& traced) {
+                                 std::span<const std::uint32_t> counts, const lines::TracedLines& traced) {
   const std::size_t n = leaves.size();
   std::vector<float> rho(n), source(n);
-  const std::vector<std::uint32_t> firstEscaped = lines::firstOf(traced.escaped, n);
   const CellOfCode& cellOf = CellOfCode::table();
   parallelFor(n, kRoomLeaves, [&](std::size_t i) {
     const std::size_t leaf = leaves[i].index();
     const hierarchy::ElementLight& l = x.s.elements.radiometry[leaf];
     rho[i] = gray(l.rho + l.tau), source[i] = gray(x.samples.direct[leaf].E + l.particle);
-    if (x.skies.empty() || firstEscaped[i] == firstEscaped[i + 1]) return;
+    const std::span<const lines::EscapedLine> escaped = traced.escaped.at(leaves[i]);
+    if (x.skies.empty() || escaped.empty()) return;
     // By the mean of each cell of the sky: as rough as a few lines are.
+    const std::span<const std::uint32_t> ends = traced.lines.endsOf(leaves[i]);
+    const std::span<const lines::LineCode> codes = traced.lines.codesOf(leaves[i]);
     float sky = 0;
-    std::uint32_t escaped = firstEscaped[i];
-    for (std::uint64_t k = traced.lines.first[i]; k < traced.lines.first[i + 1]; ++k)
-      if (traced.lines.end[k] == lines::kEscaped)
-        sky += gray(traced.escaped[escaped++].weight) * x.skies.strength(cellOf(traced.lines.code[k]));
-    source[i] += std::numbers::pi_v<float> * sky / static_cast<float>(traced.lines.countOf(i) - traced.covered[i]);
+    std::uint32_t next = 0, open = 0;
+    for (std::uint32_t k = 0; k < counts[i]; ++k) {
+      open += ends[k] != lines::kCovered;
+      if (ends[k] == lines::kEscaped) sky += gray(escaped[next++].weight) * x.skies.strength(cellOf(codes[k]));
+    }
+    source[i] += std::numbers::pi_v<float> * sky / static_cast<float>(open);
   });
-  return lines::ownIndirect(traced, rho, source);
+  return lines::ownIndirect(traced.lines, leaves, counts, rho, source);
 }
 
 /// Whether a leaf faces what is as wide as a room.
@@ -55,18 +58,16 @@ std::vector<char> inRooms(const LineSolve& x, const hierarchy::LeafTable& leaves
 }
 
 /// Direct light of leaves that got more lines: from as many points.
-void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Lines& lines) {
-  std::vector<std::uint32_t> all;
-  for (std::uint32_t i = 0; i < leaves.size(); ++i)
-    if (lines.countOf(i) > 0) all.push_back(i);
+void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, std::span<const std::uint32_t> all,
+                       const lines::Lines& lines) {
   x.dim.assign(all.size(), {});
   x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(all.size(), kDimLeaves, [&](std::size_t n) {
-    const std::uint32_t i = all[n];
     DimLeaf& dim = x.dim[n];
-    dim.leaf = leaves[i];
+    dim.leaf = leaves[all[n]];
     std::vector<std::uint32_t> points;
-    for (std::uint32_t k = 0; k < lines.countOf(i); ++k) {
-      if (lines.end[lines.first[i] + k] == lines::kCovered) continue;
+    const std::span<const std::uint32_t> ends = lines.endsOf(dim.leaf);
+    for (std::uint32_t k = 0; k < ends.size(); ++k) {
+      if (ends[k] == lines::kCovered) continue;
       points.push_back(k), dim.points = combineKeys(dim.points, k);
     }
     if (const direct::DimDirect* same =
@@ -82,27 +83,31 @@ void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, const l
 
 }  // namespace
 
-lines::TracedLines lookIntoTheDark(LineSolve& x, const lines::LineScene& over, lines::TracedLines traced) {
-  if (!(x.floor > 0)) return traced;
+void lookIntoTheDark(LineSolve& x, const lines::LineScene& over, std::vector<std::uint32_t>& counts,
+                     lines::TracedLines& traced) {
+  if (!(x.floor > 0)) return;
   const hierarchy::LeafTable& leaves = over.leaves;
   const std::vector<lines::Place> places =
-      lines::placesOf(roughIndirect(x, leaves, traced), x.floor, inRooms(x, leaves));
-  if (std::ranges::find(places, lines::kDim) == places.end()) return traced;
+      lines::placesOf(roughIndirect(x, leaves, counts, traced), x.floor, inRooms(x, leaves));
+  if (std::ranges::find(places, lines::kDim) == places.end()) return;
   std::vector<float> area(leaves.size());
   for (std::size_t i = 0; i < leaves.size(); ++i) area[i] = x.s.elements.shape(leaves[i]).area;
-  const std::vector<std::uint32_t> in = lines::waysInto(traced, places);
-  std::optional<lines::TracedLines> more;
+  const std::vector<std::uint32_t> in = lines::waysInto(traced.lines, leaves, counts, places);
+  const double all = std::accumulate(counts.begin(), counts.end(), 0.0);
+  std::vector<char> more(leaves.size(), false);
   for (int round = 0; round < lines::tuning::kDimRounds; ++round) {
-    const lines::DimCounts counts =
-        lines::dimCounts(traced, area, places, in, !x.skies.empty(), more ? &*more : nullptr);
-    if (std::ranges::all_of(counts.lines, [](std::uint32_t count) { return count == 0; })) break;
-    lines::TracedLines next = lines::traceLines(over, counts.lines);
-    more = more ? lines::replaced(*more, next) : std::move(next);
-    if (counts.told) break;
+    const lines::DimCounts wanted = lines::dimCounts(traced, leaves, counts, all, area, places, in, !x.skies.empty());
+    if (std::ranges::all_of(wanted.lines, [](std::uint32_t count) { return count == 0; })) break;
+    for (std::size_t i = 0; i < counts.size(); ++i)
+      if (wanted.lines[i] > 0) counts[i] = wanted.lines[i], more[i] = true;
+    lines::traceLines(over, counts, traced);
+    if (wanted.told) break;
   }
-  if (!more) return traced;
-  lightByManyPoints(x, leaves, more->lines);
-  return lines::replaced(traced, *more);
+  lines::trim(leaves, counts, traced);
+  std::vector<std::uint32_t> dim;
+  for (std::uint32_t i = 0; i < more.size(); ++i)
+    if (more[i]) dim.push_back(i);
+  lightByManyPoints(x, leaves, dim, traced.lines);
 }
 
 }  // namespace deltalux::engine

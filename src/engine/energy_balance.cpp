@@ -144,17 +144,16 @@ Outcome lineLight(const Solution& s) {
   const hierarchy::Elements& elements = s.elements;
   const lines::SurfaceResponses responses(s.scene, !s.settings.diffuseOnly);
   const lines::LineTracer tracer(s.scene, *s.tracer, responses);
-  const hierarchy::LeafTable leaves(elements);
   const auto open = [&](std::size_t e) { return double(elements.geometry[e].litArea()); };
   return ofSentLight(
       elements, tuning::kLedgerLines, open, [&](hierarchy::ElementId leaf, const RgbSum& flux, std::size_t i) {
         Outcome outcome;
-        const std::uint32_t at = leaves.indexOf[leaf.index()], count = s.lines.countOf(at);
+        const std::span<const std::uint32_t> ends = s.lines.endsOf(leaf);
+        const auto count = static_cast<std::uint32_t>(ends.size());
         if (count == 0) return outcome;
         // The next of its lines that is there.
         auto k = static_cast<std::uint32_t>(toUnit(combineKeys(kKey, i)) * count);
-        for (std::uint32_t tries = 0; tries < count && s.lines.end[s.lines.first[at] + k] == lines::kCovered; ++tries)
-          k = (k + 1) % count;
+        for (std::uint32_t tries = 0; tries < count && ends[k] == lines::kCovered; ++tries) k = (k + 1) % count;
         const hierarchy::LeafSequence points(elements, s.scene, leaf);
         const hierarchy::PatchPoint x = points.point(k);
         const lines::LineEnd end = tracer.follow(x.position, x.normal, lines::LineDirections(points.key())(k, x.normal),

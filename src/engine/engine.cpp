@@ -50,7 +50,7 @@ Engine::Engine(SolutionView view) : state_(std::make_unique<State>()) {
     state_->solution->tracer = tracing::makeEmbreeTracer(state_->solution->scene);
   }
   const Solution& s = *state_->solution;
-  state_->finished = s.lines.leaves() > 0 || s.links.size() > 0 || s.elements.size() == 0;
+  state_->finished = !s.lines.empty() || s.links.size() > 0 || s.elements.size() == 0;
   state_->prepareToFollow();
 }
 

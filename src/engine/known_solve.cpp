@@ -12,7 +12,7 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr std::size_t kLeavesOfTask = 1024;            // [task]
+constexpr std::size_t kElementsOfTask = 4096;          // [task]
 constexpr std::uint64_t kUnasked = ~std::uint64_t(0);  // of lamps: all [sentinel]
 
 bool holds(const hierarchy::ElementGeometry& whole, const hierarchy::ElementGeometry& part) {
@@ -39,13 +39,16 @@ KnownSolve::KnownSolve(SolveMemory memory, Solution& s, EditedScene edits,
     : memory_(std::move(memory)),
       elements_(std::exchange(s.elements, {})),
       there_(elements_.size(), true),
-      numberOf_(hierarchy::LeafTable(elements_).indexOf),
+      wasLeaf_(elements_.size()),
       indirect_(elements_.size()),
-      lines_(std::exchange(s.lines, {})),
+      lines_{std::exchange(s.lines, {}), std::move(memory_.escaped), std::move(memory_.bends), 0},
       edits_(std::move(edits)),
       followed_(edits_.retraced),
       transfer_(std::move(transfer)) {
-  for (std::size_t i = 0; i < indirect_.size(); ++i) indirect_[i] = elements_.radiometry[i].indirect;
+  for (std::size_t i = 0; i < indirect_.size(); ++i) {
+    indirect_[i] = elements_.radiometry[i].indirect;
+    wasLeaf_[i] = elements_.isReceivingLeaf(hierarchy::ElementId(i));
+  }
 }
 
 hierarchy::Elements KnownSolve::takeMesh(const Scene& scene, const std::function<hierarchy::Elements()>& build) {
@@ -83,7 +86,10 @@ void KnownSolve::renumber(const std::vector<std::uint32_t>& was) {
   reorder(s.scale, was), reorder(s.direct, was), reorder(s.first, was), reorder(s.evaluated, was);
   reorder(s.whole, was), reorder(s.coarse, was), s.walled.clear();
   reorder(memory_.walks, was), reorder(memory_.enclosed, was), reorder(memory_.details, was);
-  reorder(numberOf_, was), reorder(memory_.coarse.numberOf, was), reorder(indirect_, was);
+  reorder(wasLeaf_, was), reorder(indirect_, was);
+  lines_ = lines::renumbered(lines_, now, was.size());
+  memory_.coarse.traced = lines::renumbered(memory_.coarse.traced, now, was.size());
+  if (memory_.exchange) memory_.exchange->renumber(now, was.size());
   reorder(memory_.sky.of, was), reorder(memory_.coarse.sky.of, was);
   there_.assign(was.size(), false);
   for (std::size_t i = 0; i < was.size(); ++i) there_[i] = was[i] != kNone;
@@ -170,28 +176,28 @@ std::optional<Rgb> KnownSolve::indirect(const hierarchy::Elements& elements, hie
   return indirect_[leaf.index()];
 }
 
-std::vector<std::uint32_t> KnownSolve::numbersBefore(const hierarchy::Elements& elements,
-                                                     const hierarchy::LeafTable& leaves,
-                                                     const std::vector<std::uint32_t>& numberOf) const {
-  std::vector<std::uint32_t> of(leaves.size(), kNone);
-  parallelFor(leaves.size(), kLeavesOfTask, [&](std::size_t i) {
-    if (known(elements, leaves[i])) of[i] = numberOf[leaves[i].index()];
+std::vector<char> KnownSolve::standing(const hierarchy::Elements& elements, const std::vector<char>& wasLeaf) const {
+  std::vector<char> stands(elements.size(), false);
+  parallelFor(std::min(stands.size(), wasLeaf.size()), kElementsOfTask, [&](std::size_t i) {
+    const hierarchy::ElementId e(i);
+    stands[i] = wasLeaf[i] && elements.isReceivingLeaf(e) && known(elements, e);
   });
-  return of;
+  return stands;
 }
 
-std::optional<lines::KnownLines> KnownSolve::takeLines(const hierarchy::Elements& elements,
-                                                       const hierarchy::LeafTable& leaves) {
+std::optional<lines::KnownLines> KnownSolve::takeLines(const hierarchy::Elements& elements, lines::TracedLines& all) {
   if (!holds_) return {};
-  lines::TracedLines all{std::exchange(lines_, {}), std::move(memory_.escaped), std::move(memory_.bends), {}, 0};
-  return change::knownLines(edits_.space, std::move(all), numbersBefore(elements, leaves, numberOf_), elements, leaves);
+  all = std::exchange(lines_, {});
+  return change::knownLines(edits_.space, all, standing(elements, wasLeaf_), elements);
 }
 
 std::optional<lines::KnownLines> KnownSolve::takeCoarseLines(const hierarchy::Elements& elements,
-                                                             const hierarchy::LeafTable& leaves) {
+                                                             lines::TracedLines& all) {
   if (!holds_) return {};
-  return change::knownLines(edits_.space, std::move(memory_.coarse.traced),
-                            numbersBefore(elements, leaves, memory_.coarse.numberOf), elements, leaves);
+  all = std::exchange(memory_.coarse.traced, {});
+  std::vector<char> wasInput(elements.size(), false);
+  for (const hierarchy::ElementId e : elements.inputs) wasInput[e.index()] = elements.receives(e);
+  return change::knownLines(edits_.space, all, standing(elements, wasInput), elements);
 }
 
 bool KnownSolve::holdSkyRays(const hierarchy::Elements& elements, hierarchy::ElementId leaf, const LeafSky& sky,

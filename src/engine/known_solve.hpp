@@ -58,23 +58,23 @@ class KnownSolve {
                                hierarchy::ElementId leaf, std::uint64_t key, std::span<const std::uint32_t> points);
   /// Light of a leaf by way of others as it was; nullopt where it was none [W/m2].
   std::optional<Rgb> indirect(const hierarchy::Elements&, hierarchy::ElementId leaf) const;
-  /// The lines, as they are now; once. The same of the input level.
-  std::optional<lines::KnownLines> takeLines(const hierarchy::Elements&, const hierarchy::LeafTable&);
-  std::optional<lines::KnownLines> takeCoarseLines(const hierarchy::Elements&, const hierarchy::LeafTable&);
+  /// The lines there were, and what they are worth; once. The same of the input level.
+  std::optional<lines::KnownLines> takeLines(const hierarchy::Elements&, lines::TracedLines&);
+  std::optional<lines::KnownLines> takeCoarseLines(const hierarchy::Elements&, lines::TracedLines&);
   /// Sky light by element; of leaves whose number before is known it is what it was.
   KnownSky takeSky() { return std::move(memory_.sky); }
   KnownSky takeCoarseSky() { return std::move(memory_.coarse.sky); }
   /// Tells what of a leaf's shadow rays to the sky is as it was. Returns whether all are.
   bool holdSkyRays(const hierarchy::Elements&, hierarchy::ElementId leaf, const LeafSky&,
                    std::span<direct::SkyRay>) const;
-  const lines::Exchange* exchange() const { return memory_.exchange.get(); }
+  /// What was exchanged over the lines; once.
+  std::unique_ptr<lines::Exchange> takeExchange() { return std::move(memory_.exchange); }
 
  private:
   /// Whether a patch was there, and is where it was.
   bool known(const hierarchy::Elements&, hierarchy::ElementId) const;
-  /// By leaf there is, that number of its before, by element; kNone of others.
-  std::vector<std::uint32_t> numbersBefore(const hierarchy::Elements&, const hierarchy::LeafTable&,
-                                           const std::vector<std::uint32_t>& numberOf) const;
+  /// By element: whether it is a leaf that was one, as `wasLeaf` says, where it stands.
+  std::vector<char> standing(const hierarchy::Elements&, const std::vector<char>& wasLeaf) const;
   /// What is kept by element, by where elements are now. `was`: which each was before, or kNone.
   void renumber(const std::vector<std::uint32_t>& was);
   /// change::lampsThrough() of a patch: out of those of the patch that it is a part of.
@@ -82,11 +82,11 @@ class KnownSolve {
 
   static constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone;
   SolveMemory memory_;
-  hierarchy::Elements elements_;         // until they are taken
-  std::vector<char> there_;              // by element: whether it was there
-  std::vector<std::uint32_t> numberOf_;  // by element: its leaf's number before, or kNone
-  std::vector<Rgb> indirect_;            // by element
-  lines::Lines lines_;
+  hierarchy::Elements elements_;  // until they are taken
+  std::vector<char> there_;       // by element: whether it was there
+  std::vector<char> wasLeaf_;     // by element: whether it was a receiving leaf
+  std::vector<Rgb> indirect_;     // by element
+  lines::TracedLines lines_;
   EditedScene edits_;
   const particles::ParticleUpdate* followed_;  // null: nothing is known of particles
   std::optional<particles::ParticleTransfer> transfer_;

@@ -42,57 +42,51 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
   if (x.skies.empty()) return sky;
   const lines::KnownLines* before = x.knownLines ? &*x.knownLines : nullptr;
   const direct::SkyVisibility visibility = skyVisibility(x.s.elements, leaves, traced.lines);
-  const std::vector<std::uint32_t> first = lines::firstOf(traced.escaped, leaves.size());
   struct Scratch {
     std::vector<direct::EscapedView> escaped;
     std::vector<std::uint32_t> points;
   };
   PerThread<Scratch> scratch;
   x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(leaves.size(), kSkyLeaves, [&](std::size_t i) {
-    const std::uint32_t count = traced.lines.countOf(i);
+    const lines::LineRange& own = traced.lines.at(leaves[i]);
     std::unique_ptr<LeafSky>& known = sky.of[leaves[i].index()];
-    const std::uint32_t old = before ? before->of[i] : hierarchy::LeafTable::kNone;
-    if (old == hierarchy::LeafTable::kNone) known.reset();
-    if (count == traced.covered[i]) {
-      known.reset();
-      return std::uint64_t(0);
-    }
+    if (!before || !before->stands[leaves[i].index()] || own.open() == 0) known.reset();
+    if (own.open() == 0) return std::uint64_t(0);
+    // Of the same lines, and the same estimate, all follows again.
+    const bool same = known && sameSkies && before->same(leaves[i], traced.lines) &&
+                      known->key.guide == visibility.key(static_cast<std::uint32_t>(i));
     auto& [escaped, points] = scratch.local();
     points.clear();
     // Where lines are so many that they would be their own guides, what they have found by chance would count less.
-    const std::size_t rays = count < direct::tuning::kGuideLines ? kEach : 0;
-    for (std::uint32_t k = 0; k < count && points.size() < rays; ++k)
-      if (traced.lines.end[traced.lines.first[i] + k] != lines::kCovered) points.push_back(k);
+    const std::size_t rays = own.count < direct::tuning::kGuideLines ? kEach : 0;
+    const std::span<const std::uint32_t> ends = traced.lines.endsOf(own);
+    for (std::uint32_t k = 0; k < ends.size() && points.size() < rays; ++k)
+      if (ends[k] != lines::kCovered) points.push_back(k);
     const auto viewLines = [&] {
       escaped.clear();
-      for (std::uint32_t k = first[i]; k < first[i + 1]; ++k) {
-        const lines::EscapedLine& e = traced.escaped[k];
+      for (const lines::EscapedLine& e : traced.escaped.at(leaves[i]))
         escaped.push_back({e.direction, e.cosine, e.weight, e.chance});
-      }
-      return direct::SkyLeaf{static_cast<std::uint32_t>(i), leaves[i], count - traced.covered[i], escaped, points};
+      return direct::SkyLeaf{static_cast<std::uint32_t>(i), leaves[i], own.open(), escaped, points};
     };
-    // Of the same lines, and the same estimate, all follows again.
-    const bool same = known && sameSkies && before->whole[old] && before->lines.countOf(old) == count &&
-                      known->key.guide == visibility.key(static_cast<std::uint32_t>(i));
     std::optional<direct::SkyLeaf> leaf;
     if (!same) leaf = viewLines();
     const direct::SkyKey key = same ? known->key : direct::skyKey(x.skies, visibility, *leaf);
     std::array<direct::SkyRay, kEach> ran{};
-    const std::span<direct::SkyRay> own = std::span(ran).first(points.size());
-    if (known && known->key.points == key.points && x.known->holdSkyRays(x.s.elements, leaves[i], *known, own) &&
+    const std::span<direct::SkyRay> shadow = std::span(ran).first(points.size());
+    if (known && known->key.points == key.points && x.known->holdSkyRays(x.s.elements, leaves[i], *known, shadow) &&
         known->key.light == key.light) {
       known->key = key, sky.at[i] = known->light;
       return std::uint64_t(0);
     }
     if (!leaf) leaf = viewLines();
     const direct::SkyAtLeaf light =
-        direct::skyLight(x.skies, visibility, x.s.elements, x.s.scene, *x.s.tracer, *leaf, own);
+        direct::skyLight(x.skies, visibility, x.s.elements, x.s.scene, *x.s.tracer, *leaf, shadow);
     auto now = std::make_unique<LeafSky>(LeafSky{key, light});
-    for (std::size_t k = 0; k < own.size(); ++k) {
-      now->cells[k] = own[k].cell;
-      if (own[k].traced())
-        now->rays[k] = lines::lineCode(own[k].direction, own[k].length);
-      else if (own[k].known != direct::SkyRay::Visibility::Unknown)
+    for (std::size_t k = 0; k < shadow.size(); ++k) {
+      now->cells[k] = shadow[k].cell;
+      if (shadow[k].traced())
+        now->rays[k] = lines::lineCode(shadow[k].direction, shadow[k].length);
+      else if (shadow[k].known != direct::SkyRay::Visibility::Unknown)
         now->rays[k] = known->rays[k];
     }
     known = std::move(now), sky.at[i] = light;
@@ -108,12 +102,13 @@ Rgb startOf(const LineSolve& x, hierarchy::ElementId leaf) {
   return x.s.elements.radiometry[hierarchy::surfaceOf(x.s.elements, leaf).index()].indirect;
 }
 
-std::unique_ptr<lines::Exchange> exchangeOf(const LineSolve& x, const hierarchy::LeafTable& leaves,
-                                            const lines::TracedLines& traced) {
-  const lines::Exchange* before = x.knownLines ? x.knownExchange : nullptr;
-  if (!before) return std::make_unique<lines::Exchange>(traced.lines, x.s.elements, leaves, x.tracer, traced.covered);
-  return std::make_unique<lines::Exchange>(*before, *x.knownLines, traced.lines, x.s.elements, leaves, x.tracer,
-                                           traced.covered);
+/// What is exchanged over the lines: what was known of it follows the changed ones.
+std::unique_ptr<lines::Exchange> exchangeOf(LineSolve& x, const hierarchy::LeafTable& leaves,
+                                            const lines::Lines& traced) {
+  std::unique_ptr<lines::Exchange> exchange = std::move(x.exchange);
+  if (!exchange || !x.knownLines) return std::make_unique<lines::Exchange>(traced, x.s.elements, leaves, x.tracer);
+  exchange->follow(*x.knownLines, traced, x.s.elements, leaves, x.tracer);
+  return exchange;
 }
 
 }  // namespace
@@ -122,21 +117,25 @@ lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base, TakeLines takeL
   const hierarchy::Elements& elements = x.s.elements;
   const hierarchy::LeafTable leaves(elements);
   x.dim.clear();
-  const std::vector<std::uint32_t> counts = lines::lineCounts(elements, leaves, powerOf(x, leaves), x.enclosed, base);
+  std::vector<std::uint32_t> counts = lines::lineCounts(elements, leaves, powerOf(x, leaves), x.enclosed, base);
   const hierarchy::LeafLocator locator(elements, x.s.scene, leaves);
-  if (x.known) x.knownLines = (x.known->*takeLines)(elements, leaves);
+  lines::TracedLines traced;
+  if (x.known) x.knownLines = (x.known->*takeLines)(elements, traced);
   const lines::LineScene over{elements, leaves,     locator,         x.tracer,
                               x.cover,  x.enclosed, x.samples.first, x.knownLines ? &*x.knownLines : nullptr};
-  lines::TracedLines traced = lookIntoTheDark(x, over, lines::traceLines(over, counts));
+  lines::traceLines(over, counts, traced);
+  lookIntoTheDark(x, over, counts, traced);
+  lines::trim(leaves, counts, traced);
   DELTALUX_VALIDATED(validate(traced.lines));
-  x.s.report.counts.raysVisibility += traced.rays;
+  x.s.report.counts.raysVisibility += std::exchange(traced.rays, 0);
   return traced;
 }
 
 void lightLeaves(LineSolve& x, lines::TracedLines traced, const Dimming& dimming, double converged) {
   Solution& s = x.s;
   const hierarchy::LeafTable leaves(s.elements);
-  x.exchange = exchangeOf(x, leaves, traced);
+  x.exchange = exchangeOf(x, leaves, traced.lines);
+  if (!(x.floor > 0)) x.exchange->forget();
   x.sky = skyOf(x, leaves, traced, std::move(x.sky));
   parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
     s.elements.radiometry[leaves[i].index()].indirect = x.floor > 0 ? startOf(x, leaves[i]) : Rgb(0.0f);
@@ -158,7 +157,7 @@ ErrorEstimate estimateError(const Solution& s) {
   for (std::size_t i = 0; i < leaves.size() && i < s.deviation.size(); ++i) {
     const hierarchy::ElementLight& l = s.elements.radiometry[leaves[i].index()];
     const double E = gray(l.direct + l.indirect + l.particle), A = s.elements.shape(leaves[i]).litArea();
-    if (s.lines.countOf(i) == 0 || !(E > 0)) continue;
+    if (s.lines.countOf(leaves[i]) == 0 || !(E > 0)) continue;
     all.push_back({s.deviation[i] / std::max(E, floor), A});
     area += A, widest = std::max(widest, all.back().error);
   }

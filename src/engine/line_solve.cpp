@@ -148,10 +148,10 @@ bool LineSolve::takesPart(hierarchy::ElementId patch) const {
 }
 
 std::size_t changedLeaves(const LineSolve& x) {
-  if (!x.knownLines) return x.s.lines.leaves();
-  return static_cast<std::size_t>(std::ranges::count_if(x.knownLines->of, [&](std::uint32_t old) {
-    return old == hierarchy::LeafTable::kNone || !x.knownLines->whole[old];
-  }));
+  const hierarchy::LeafTable leaves(x.s.elements);
+  if (!x.knownLines) return leaves.size();
+  return static_cast<std::size_t>(std::ranges::count_if(
+      leaves.leaves, [&](hierarchy::ElementId leaf) { return !x.knownLines->whole[leaf.index()]; }));
 }
 
 std::shared_ptr<SolveMemory> memoryOf(LineSolve&& x) {
@@ -207,9 +207,9 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const T
     l.typical = gray(l.direct + l.indirect);
   }
   swapCoarse(solve->samples, inputs);
-  solve->coarse = {{s.lines, solve->escaped, solve->bends, {}, 0},
-                   std::exchange(solve->sky, {}),
-                   hierarchy::LeafTable(s.elements).indexOf};
+  solve->coarse = {{std::exchange(s.lines, {}), std::exchange(solve->escaped, {}), std::exchange(solve->bends, {}), 0},
+                   std::exchange(solve->sky, {})};
+  solve->exchange.reset();
   solve->floor = floorOf(s.elements);
   hierarchy::pull(s.elements);
   DELTALUX_VALIDATED(validate(s.elements));
@@ -248,7 +248,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
     base = static_cast<std::uint32_t>(
         std::clamp(affordable, double(lines::tuning::kFirstLines), static_cast<double>(wanted)));
   }
-  if (x.known) x.sky = x.known->takeSky(), x.knownExchange = x.known->exchange();
+  if (x.known) x.sky = x.known->takeSky(), x.exchange = x.known->takeExchange();
   lines::TracedLines traced = traceLeaves(x, base, &KnownSolve::takeLines);
   if (scales != x.nominal) x.transfer->apply(s.elements, scales);
   lightLeaves(x, std::move(traced), Dimming::of(s.scene, x.skies),

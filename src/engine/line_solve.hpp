@@ -43,14 +43,13 @@ struct LineSolve {
   particles::Details details;  // by element, of particles on it
   std::vector<char> measured;  // by element: that its samples are of this solve, or have been found to hold
   std::vector<DimLeaf> dim;    // direct light where light hardly comes
-  std::vector<lines::EscapedLine> escaped;         // of the lines, in the end
-  std::vector<lines::Bend> bends;                  // of the same
-  KnownSky sky;                                    // of this stage; before it, what is known of it
-  CoarseLines coarse;                              // of the coarse light
-  std::optional<lines::KnownLines> knownLines;     // what is known of the lines before, of those of this stage
-  const lines::Exchange* knownExchange = nullptr;  // the same of what is exchanged over them
-  std::unique_ptr<lines::Exchange> exchange;       // over the lines, in the end
-  double floor = 0;                                // light that still matters [W/m2, gray]
+  lines::ListsOfLeaves<lines::EscapedLine> escaped;  // of the lines, in the end
+  lines::ListsOfLeaves<lines::Bend> bends;           // of the same
+  KnownSky sky;                                      // of this stage; before it, what is known of it
+  CoarseLines coarse;                                // of the coarse light
+  std::optional<lines::KnownLines> knownLines;       // what is known of the lines before, of those of this stage
+  std::unique_ptr<lines::Exchange> exchange;         // over the lines, in the end; before it, what was known of that
+  double floor = 0;                                  // light that still matters [W/m2, gray]
   std::optional<particles::ParticleTransfer> transfer, coarseTransfer;  // on the mesh, in the end; on the input level
   bool allParticles = true;                                             // as many as the error asks for: there was time
 
@@ -73,11 +72,11 @@ bool refineMesh(LineSolve&, std::vector<hierarchy::ElementId> patches, const std
 
 // The light.
 
-/// More lines, and shadow rays, of leaves in rooms where hardly any light arrives. dim_leaves.cpp.
-lines::TracedLines lookIntoTheDark(LineSolve&, const lines::LineScene&, lines::TracedLines);
+/// More lines, and shadow rays, of leaves in rooms where hardly any light arrives: leaves have `counts` lines at least,
+/// which become those that they should have. dim_leaves.cpp.
+void lookIntoTheDark(LineSolve&, const lines::LineScene&, std::vector<std::uint32_t>& counts, lines::TracedLines&);
 /// About `base` lines of each of the leaves there are; those that are known are taken.
-using TakeLines = std::optional<lines::KnownLines> (KnownSolve::*)(const hierarchy::Elements&,
-                                                                   const hierarchy::LeafTable&);
+using TakeLines = std::optional<lines::KnownLines> (KnownSolve::*)(const hierarchy::Elements&, lines::TracedLines&);
 lines::TracedLines traceLeaves(LineSolve&, std::uint32_t base, TakeLines);
 /// Light of the leaves over those, from their direct light and particles: writes the elements' irradiance and
 /// radiosity, the solution's lines and their deviation.

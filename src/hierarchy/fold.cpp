@@ -173,12 +173,18 @@ std::vector<std::uint32_t> carryOver(Elements& to, const Scene& scene, const Ele
   return was;
 }
 
-Elements compacted(const Elements& all) {
-  DELTALUX_CHECK(all.folded.empty(), "elements that are whole");
+std::vector<std::uint32_t> numbersWithoutAway(const Elements& all) {
   std::vector<std::uint32_t> now(all.size(), kNone);
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (all.topology[i].kind != ElementKind::Away) now[i] = count++;
+  return now;
+}
+
+Elements compacted(const Elements& all) {
+  DELTALUX_CHECK(all.folded.empty(), "elements that are whole");
+  const std::vector<std::uint32_t> now = numbersWithoutAway(all);
+  const std::size_t count = all.size() - awayIn(all);
   Elements few = all;
   const auto keep = [&](auto& values) {
     for (std::size_t i = 0; i < all.size(); ++i)

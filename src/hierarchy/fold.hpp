@@ -29,5 +29,7 @@ bool bringTo(Elements&, const Scene&, std::span<const PrimitiveId> moved);
 std::vector<std::uint32_t> carryOver(Elements& to, const Scene&, const Elements& from, const std::vector<char>& stays);
 /// Leaves out what is away, of elements that are not folded; in the order they are in.
 Elements compacted(const Elements&);
+/// By element: which it is of those; Id<void>::kNone where it is away.
+std::vector<std::uint32_t> numbersWithoutAway(const Elements&);
 
 }  // namespace deltalux::hierarchy

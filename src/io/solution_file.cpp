@@ -60,12 +60,20 @@ namespace deltalux::io {
 namespace {
 
 /// Elements that are away are not written: the file is that of a mesh that was made at once.
-void pack(Packer& packer, const hierarchy::Elements& elements) {
+void pack(Packer& packer, const Solution&, const hierarchy::Elements& elements) {
   if (hierarchy::awayIn(elements) == 0) return transfer(packer, elements);
   const hierarchy::Elements present = hierarchy::compacted(elements);
   transfer(packer, present);
 }
-void pack(Packer& packer, const auto& part) { transfer(packer, part); }
+/// And lines in the order of those that are.
+void pack(Packer& packer, const Solution& solution, const lines::Lines& lines) {
+  const hierarchy::Elements& elements = solution.elements;
+  const lines::Lines present = lines.empty() ? lines::Lines()
+                                             : lines::renumbered(lines, hierarchy::numbersWithoutAway(elements),
+                                                                 elements.size() - hierarchy::awayIn(elements));
+  transfer(packer, present);
+}
+void pack(Packer& packer, const Solution&, const auto& part) { transfer(packer, part); }
 
 }  // namespace
 
@@ -73,7 +81,7 @@ void writeSolution(const SolutionView& view, const ByteSink& sink) {
   std::vector<std::pair<std::string_view, std::string>> packed;
   forEachSection(view.get(), [&](std::string_view tag, const auto& part) {
     Packer packer;
-    pack(packer, part);
+    pack(packer, view.get(), part);
     packed.emplace_back(tag, packer.finish());
   });
   std::vector<Section> sections;
@@ -110,7 +118,7 @@ SolutionView readSolution(std::string_view bytes, const std::string& file) {
   }
   solution->elements.listInputs();
   solution->elements.contacts = hierarchy::ContactLines(solution->elements, solution->scene);
-  lines::setDirections(solution->lines, solution->elements, hierarchy::LeafTable(solution->elements), solution->scene);
+  lines::setDirections(solution->lines, solution->elements, solution->scene);
   solution->tracer = tracing::makeEmbreeTracer(solution->scene);
   return SolutionView(std::move(solution));
 }

@@ -15,55 +15,44 @@ namespace {
 
 constexpr std::size_t kRoomLeaves = 1024;  // of a task [task]
 
-/// Lines of leaves, but of those that have lines in another lot the ones from there.
-struct Lots {
-  const TracedLines& first;
-  const TracedLines* more;
+/// So many of the first lines of each leaf, and where those are that they end on.
+struct FirstOfLeaves {
+  const Lines& lines;
+  const hierarchy::LeafTable& leaves;
+  std::span<const std::uint32_t> counts;
 
-  const TracedLines& of(std::size_t leaf) const { return more && more->lines.countOf(leaf) > 0 ? *more : first; }
-  /// visit(leaf, end) of the straight lines of a leaf.
+  /// visit(leaf, end) of the straight lines of a leaf, and exceptional ones.
   template <class Visit>
   void forEachLine(std::uint32_t leaf, const Visit& visit) const {
-    const Lines& lines = of(leaf).lines;
-    for (std::uint64_t k = lines.first[leaf]; k < lines.first[leaf + 1]; ++k)
-      if (lines.end[k] < kFirstMark) visit(leaf, lines.end[k]);
-  }
-  /// visit(x) of what either lot lists, such as exceptions.
-  template <class List, class Visit>
-  void forEachListed(const List& list, const Visit& visit) const {
-    for (const TracedLines* lot : {&first, more})
-      if (lot)
-        for (const auto& x : list(*lot))
-          if (&of(x.leaf) == lot) visit(x);
+    for (const std::uint32_t end : lines.endsOf(leaves[leaf]).first(counts[leaf]))
+      if (end < kFirstMark) visit(leaf, leaves.indexOf[end]);
+    for (const ExceptionalLine& e : lines.exceptions.at(leaves[leaf]))
+      if (e.number < counts[leaf]) visit(leaf, leaves.indexOf[e.end]);
   }
 };
 
-constexpr auto kExceptions = [](const TracedLines& t) -> const auto& { return t.lines.exceptions; };
-constexpr auto kEscapedLines = [](const TracedLines& t) -> const auto& { return t.escaped; };
-
 /// Lines that lead out of the dark, by the leaf in the dark; those that lead in among them.
-std::vector<std::uint32_t> waysOut(const Lots& lots, std::span<const Place> place, std::span<const std::uint32_t> in,
-                                   bool skies) {
+std::vector<std::uint32_t> waysOut(const FirstOfLeaves& first, std::span<const Place> place,
+                                   std::span<const std::uint32_t> in, bool skies) {
   std::vector<std::uint32_t> ways(in.begin(), in.end());
   parallelFor(place.size(), kRoomLeaves, [&](std::size_t i) {
     if (place[i] != kDim) return;
-    lots.forEachLine(static_cast<std::uint32_t>(i),
-                     [&](std::uint32_t, std::uint32_t j) { ways[i] += place[j] == kLit; });
+    first.forEachLine(static_cast<std::uint32_t>(i),
+                      [&](std::uint32_t, std::uint32_t j) { ways[i] += place[j] == kLit; });
+    if (!skies) return;
+    const std::span<const std::uint32_t> ends = first.lines.endsOf(first.leaves[i]).first(first.counts[i]);
+    ways[i] += static_cast<std::uint32_t>(std::ranges::count(ends, kEscaped));
   });
-  lots.forEachListed(kExceptions,
-                     [&](const ExceptionalLine& e) { ways[e.leaf] += place[e.leaf] == kDim && place[e.end] == kLit; });
-  if (skies) lots.forEachListed(kEscapedLines, [&](const EscapedLine& e) { ways[e.leaf] += place[e.leaf] == kDim; });
   return ways;
 }
 
-DisjointSets roomsOf(const Lots& lots, std::span<const Place> place) {
+DisjointSets roomsOf(const FirstOfLeaves& first, std::span<const Place> place) {
   DisjointSets rooms(place.size());
-  const auto join = [&](std::uint32_t i, std::uint32_t j) {
-    if (place[i] == kDim && place[j] == kDim) rooms.join(i, j);
-  };
   for (std::uint32_t i = 0; i < place.size(); ++i)
-    if (place[i] == kDim) lots.forEachLine(i, join);
-  lots.forEachListed(kExceptions, [&](const ExceptionalLine& e) { join(e.leaf, e.end); });
+    if (place[i] == kDim)
+      first.forEachLine(i, [&](std::uint32_t, std::uint32_t j) {
+        if (place[j] == kDim) rooms.join(i, j);
+      });
   return rooms;
 }
 
@@ -84,35 +73,39 @@ std::vector<Place> placesOf(std::span<const float> indirect, double floor, const
   return place;
 }
 
-std::vector<std::uint32_t> waysInto(const TracedLines& traced, std::span<const Place> place) {
+std::vector<std::uint32_t> waysInto(const Lines& lines, const hierarchy::LeafTable& leaves,
+                                    std::span<const std::uint32_t> counts, std::span<const Place> place) {
   std::vector<std::atomic<std::uint32_t>> ways(place.size());
-  const auto countEnd = [&](std::uint32_t, std::uint32_t j) {
-    if (place[j] == kDim) ways[j].fetch_add(1, std::memory_order_relaxed);
+  std::vector<char> dim(leaves.indexOf.size(), false);  // by element
+  for (std::size_t i = 0; i < place.size(); ++i) dim[leaves[i].index()] = place[i] == kDim;
+  const auto countEnd = [&](std::uint32_t end) {
+    if (dim[end]) ways[leaves.indexOf[end]].fetch_add(1, std::memory_order_relaxed);
   };
-  const Lots all{traced, nullptr};
   parallelFor(place.size(), kRoomLeaves, [&](std::size_t i) {
-    if (place[i] == kLit) all.forEachLine(static_cast<std::uint32_t>(i), countEnd);
+    if (place[i] != kLit) return;
+    for (const std::uint32_t end : lines.endsOf(leaves[i]).first(counts[i]))
+      if (end < kFirstMark) countEnd(end);
+    for (const ExceptionalLine& e : lines.exceptions.at(leaves[i]))
+      if (e.number < counts[i]) countEnd(e.end);
   });
-  for (const ExceptionalLine& e : traced.lines.exceptions)
-    if (place[e.leaf] == kLit) countEnd(e.leaf, e.end);
   return {ways.begin(), ways.end()};
 }
 
-DimCounts dimCounts(const TracedLines& traced, std::span<const float> area, std::span<const Place> place,
-                    std::span<const std::uint32_t> in, bool skies, const TracedLines* more) {
-  const Lots lots{traced, more};
+DimCounts dimCounts(const TracedLines& traced, const hierarchy::LeafTable& leaves, std::span<const std::uint32_t> had,
+                    double lines, std::span<const float> area, std::span<const Place> place,
+                    std::span<const std::uint32_t> in, bool skies) {
+  const FirstOfLeaves first{traced.lines, leaves, had};
   const std::size_t n = place.size();
-  const std::vector<std::uint32_t> out = waysOut(lots, place, in, skies);
-  DisjointSets rooms = roomsOf(lots, place);
+  const std::vector<std::uint32_t> out = waysOut(first, place, in, skies);
+  DisjointSets rooms = roomsOf(first, place);
   std::vector<Room> all(n);
   for (std::uint32_t i = 0; i < n; ++i) {
     if (place[i] != kDim) continue;
     Room& room = all[rooms.of(i)];
-    room.area += area[i], room.lines += lots.of(i).lines.countOf(i), room.ways += out[i];
+    room.area += area[i], room.lines += had[i], room.ways += out[i];
   }
   // In octaves, so that small changes leave nearly all leaves' lines as they are; by so many less, all of them, that
   // they are not too many.
-  const auto lines = static_cast<double>(traced.lines.size());
   const double most = std::max(tuning::kDimShare * lines, tuning::kDimFree - lines);
   DimCounts counts{std::vector<std::uint32_t>(n, 0)};
   for (double share = 1, added = kInfinity; added > most; share /= 2) {
@@ -122,7 +115,7 @@ DimCounts dimCounts(const TracedLines& traced, std::span<const float> area, std:
       if (place[i] != kDim) continue;
       const Room& room = all[rooms.of(i)];
       const double wanted = std::min(share * room.wanted() * area[i] / room.area, tuning::kMostDim);
-      if (!(wanted > 2.0 * lots.of(i).lines.countOf(i))) continue;
+      if (!(wanted > 2.0 * had[i])) continue;
       counts.lines[i] = std::bit_floor(static_cast<std::uint32_t>(wanted)), added += counts.lines[i];
       counts.told = counts.told && room.ways > 0;
     }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <type_traits>
 
 #include "base/parallel.hpp"
-#include "lines/tuning.hpp"
 
 namespace deltalux::lines {
 
@@ -15,7 +15,8 @@ constexpr std::size_t kLeaves = 512, kFewLeaves = 32;  // of a task [task]
 constexpr float kLeastEnd = 1e-6f;                     // in place of a chance of 0 [rounding]
 constexpr std::uint32_t kMostCount = 0xffff;           // [layout]
 constexpr std::size_t kLanes = 8;                      // [task]
-constexpr std::size_t kFewRows = 4;                    // share of all, above which all are as soon done [task]
+constexpr double kFewEntries = 0.25;                   // of all, above which all are as soon done [task]
+constexpr std::uint32_t kRoom = 8;                     // part of a row that there is room for behind it [task]
 
 template <class T>
 T sumOf(const std::array<T, kLanes>& lanes) {
@@ -41,17 +42,13 @@ struct RowChange {
   std::int32_t lines;
 };
 
-/// change(leaf, lines) of the straight lines of leaf i by the leaves that they end on, of those that there were too.
+/// change(leaf, lines) of straight lines by the leaves that they end on, of those that there were too.
 template <class Change>
-void forEachChange(const KnownLines& known, const Lines& lines, std::uint32_t i, const Change& change) {
+void forEachChange(std::span<const std::uint32_t> before, std::span<const std::uint32_t> now, const Change& change) {
   constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone;
-  const std::uint32_t old = known.of[i], count = lines.countOf(i),
-                      countBefore = old == kNone ? 0 : known.lines.countOf(old);
-  const std::uint32_t* now = lines.end.data() + lines.first[i];
-  const std::uint32_t* before = old == kNone ? nullptr : known.lines.end.data() + known.lines.first[old];
-  for (std::uint32_t k = 0; k < std::max(count, countBefore); ++k) {
-    const std::uint32_t a = k < countBefore ? KnownLines::leafOf(before[k]) : kNone,
-                        b = k < count && now[k] < kFirstMark ? now[k] : kNone;
+  for (std::size_t k = 0; k < std::max(before.size(), now.size()); ++k) {
+    const std::uint32_t a = k < before.size() ? KnownLines::leafOf(before[k]) : kNone,
+                        b = k < now.size() && now[k] < kFirstMark ? now[k] : kNone;
     if (a == b) continue;
     if (a != kNone) change(a, -1);
     if (b != kNone) change(b, 1);
@@ -60,55 +57,115 @@ void forEachChange(const KnownLines& known, const Lines& lines, std::uint32_t i,
 
 }  // namespace
 
-/// Without rows.
-Exchange::Exchange(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves, const LineTracer& tracer,
-                   const Lines& lines, std::span<const std::uint32_t> covered) {
-  const std::size_t n = leaves.size();
-  area_.resize(n), m_.resize(n), e_.resize(n), closed_.resize(n), target_.resize(n), records_.resize(n);
-  scale_.assign(n, 1.0f);
-  parallelFor(n, kLeaves, [&](std::size_t i) {
-    const hierarchy::ElementGeometry& g = elements.shape(leaves[i]);
-    const hierarchy::Side side = elements.sideOf(leaves[i]);
-    const auto count = static_cast<float>(lines.countOf(i) - covered[i]);
-    e_[i] = std::max(tracer.responses().at(side.primitive, side.front).ends, kLeastEnd);
-    area_[i] = count > 0 ? g.litArea() : 0.0f;
-    m_[i] = area_[i] > 0 ? count / (area_[i] * e_[i]) : 0.0f;
+Exchange::Exchange(const Lines& lines, const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
+                   const LineTracer& tracer) {
+  setLeaves(lines, elements, leaves, tracer);
+  build(lines);
+  parallelFor(leaves_.size(), kLeaves, [&](std::size_t i) { weigh(slot_[i]); });
+  addSpecials(lines);
+  listOneWay();
+  parallelFor(leaves_.size(), kLeaves,
+              [&](std::size_t i) { countOwn(lines, leaves_[i]), setShare(lines, leaves_[i]); });
+  touched_.assign(row_.size(), true);
+  scale(touched_);
+}
+
+void Exchange::setLeaves(const Lines& lines, const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
+                         const LineTracer& tracer) {
+  leaves_ = leaves.leaves;
+  slotOf_.resize(elements.size(), kNone), slot_.resize(leaves.size());
+  std::size_t slots = row_.size();
+  for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
+    std::uint32_t& slot = slotOf_[leaves_[i].index()];
+    if (slot == kNone && !free_.empty()) slot = free_.back(), free_.pop_back();
+    if (slot == kNone) slot = static_cast<std::uint32_t>(slots++);
+    slot_[i] = slot;
+  }
+  for (std::vector<float>* values : {&area_, &m_, &e_, &closed_, &target_, &share_, &scale_}) values->resize(slots);
+  own_.resize(slots), row_.resize(slots), records_.resize(slots), numberOf_.assign(slots, kNone);
+  parallelFor(leaves_.size(), kLeaves, [&](std::size_t i) {
+    const std::uint32_t at = slot_[i];
+    const hierarchy::Side side = elements.sideOf(leaves_[i]);
+    const auto count = static_cast<float>(lines.at(leaves_[i]).open());
+    numberOf_[at] = static_cast<std::uint32_t>(i);
+    e_[at] = std::max(tracer.responses().at(side.primitive, side.front).ends, kLeastEnd);
+    area_[at] = count > 0 ? elements.shape(leaves_[i]).litArea() : 0.0f;
+    m_[at] = area_[at] > 0 ? count / (area_[at] * e_[at]) : 0.0f;
   });
 }
 
-Exchange::Exchange(const Lines& lines, const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
-                   const LineTracer& tracer, std::span<const std::uint32_t> covered)
-    : Exchange(elements, leaves, tracer, lines, covered) {
-  build(lines);
-  weigh();
+void Exchange::follow(const KnownLines& known, const Lines& lines, const hierarchy::Elements& elements,
+                      const hierarchy::LeafTable& leaves, const LineTracer& tracer) {
+  const std::vector<float> before = m_;
+  setLeaves(lines, elements, leaves, tracer);
+  std::vector<char> changed(row_.size(), false);
+  touched_.resize(row_.size(), true);
+  for (std::size_t i = 0; i < leaves_.size(); ++i)
+    changed[slot_[i]] = touched_[slot_[i]] || !known.stands[leaves_[i].index()];
+  change(known, lines, changed);
+  freeSlots(changed);
+  tidy();
+  // What two leaves exchange follows from the lines and the numbers of both.
+  std::vector<std::uint32_t> others, recounted;
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    const std::uint32_t at = slot_[i];
+    const bool same = at < before.size() && before[at] == m_[at];
+    if (!same) recounted.push_back(at);
+    if (!same || !known.same(leaves_[i], lines)) others.push_back(at), changed[at] = true;
+  }
+  for (const std::uint32_t i : recounted)
+    for (std::uint64_t k = row_[i].first; k < row_[i].end(); ++k) changed[id_[k]] = true;
+  for (const std::uint32_t i : others) markSpecials(i, changed);
   addSpecials(lines);
+  for (const std::uint32_t i : others) markSpecials(i, changed);
   listOneWay();
-  setTargets(lines, covered);
-  scale();
+  parallelFor(leaves_.size(), kLeaves, [&](std::size_t i) {
+    if (!known.same(leaves_[i], lines)) countOwn(lines, leaves_[i]);
+    if (!changed[slot_[i]]) return;
+    weigh(slot_[i]);
+    setShare(lines, leaves_[i]);
+  });
+  scale(changed);
+  touched_ = std::move(changed);  // with those that were
 }
 
-Exchange::Exchange(const Exchange& before, const KnownLines& known, const Lines& lines,
-                   const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves, const LineTracer& tracer,
-                   std::span<const std::uint32_t> covered)
-    : Exchange(elements, leaves, tracer, lines, covered) {
-  build(before, known, lines);
-  weigh();
-  addSpecials(lines);
-  listOneWay();
-  setTargets(lines, covered);
-  scale();
+void Exchange::renumber(std::span<const std::uint32_t> now, std::size_t elements) {
+  std::vector<std::uint32_t> slotOf(elements, kNone);
+  std::vector<char> gone(row_.size(), false);
+  for (std::size_t old = 0; old < slotOf_.size(); ++old) {
+    if (slotOf_[old] == kNone) continue;
+    if (now[old] != kNone)
+      slotOf[now[old]] = slotOf_[old];
+    else
+      gone[slotOf_[old]] = true, free_.push_back(slotOf_[old]);
+  }
+  slotOf_ = std::move(slotOf);
+  parallelFor(row_.size(), kLeaves, [&](std::size_t i) {
+    Row& row = row_[i];
+    if (gone[i]) row = {};
+    std::uint64_t to = row.first;
+    for (std::uint64_t k = row.first; k < row.end(); ++k)
+      if (!gone[id_[k]]) id_[to] = id_[k], count_[to] = count_[k], weight_[to] = weight_[k], ++to;
+    touched_[i] = touched_[i] || to != row.end();
+    row.count = static_cast<std::uint32_t>(to - row.first);
+  });
+  for (std::uint32_t i = 0; i < gone.size(); ++i) {
+    if (!gone[i]) continue;
+    markSpecials(i, touched_);
+    m_[i] = -1;  // that of another leaf
+  }
 }
 
 void Exchange::build(const Lines& lines) {
-  const std::size_t n = lines.leaves();
+  const std::size_t n = row_.size();
   std::vector<std::atomic<std::uint32_t>> degree(n);
   /// visit(row, other) of both ends of all straight lines.
   const auto forEachEnd = [&](const auto& visit) {
-    parallelFor(n, kLeaves, [&](std::size_t i) {
-      for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k) {
-        if (lines.end[k] >= kFirstMark) continue;
-        visit(static_cast<std::uint32_t>(i), lines.end[k]);
-        if (!onlyReceives(i)) visit(lines.end[k], static_cast<std::uint32_t>(i));
+    parallelFor(leaves_.size(), kLeaves, [&](std::size_t i) {
+      for (const std::uint32_t end : lines.endsOf(leaves_[i])) {
+        if (end >= kFirstMark) continue;
+        visit(slot_[i], slotOf_[end]);
+        if (!onlyReceives(slot_[i])) visit(slotOf_[end], slot_[i]);
       }
     });
   };
@@ -120,8 +177,7 @@ void Exchange::build(const Lines& lines) {
   forEachEnd([&](std::uint32_t i, std::uint32_t j) {
     ends[first[i] + degree[i].fetch_sub(1, std::memory_order_relaxed) - 1] = j;
   });
-  // In the order of ids, whichever thread came first; lines of one pair become one entry.
-  std::vector<std::uint32_t> distinct(n, 0);
+  // In the order of slots, whichever thread came first; lines of one pair become one entry.
   const auto forEachEntry = [&](std::size_t i, const auto& visit) {
     for (std::uint64_t k = first[i]; k < first[i + 1];) {
       std::uint64_t last = k + 1;
@@ -133,28 +189,33 @@ void Exchange::build(const Lines& lines) {
   parallelFor(n, kLeaves, [&](std::size_t i) {
     std::sort(ends.begin() + static_cast<std::ptrdiff_t>(first[i]),
               ends.begin() + static_cast<std::ptrdiff_t>(first[i + 1]));
-    forEachEntry(i, [&](std::uint32_t, std::uint16_t) { ++distinct[i]; });
+    forEachEntry(i, [&](std::uint32_t, std::uint16_t) { ++row_[i].count; });
   });
-  begin_.resize(n + 1);
-  begin_[0] = 0;
-  for (std::size_t i = 0; i < n; ++i) begin_[i + 1] = begin_[i] + distinct[i];
-  id_.resize(begin_[n]), count_.resize(begin_[n]);
+  std::uint64_t next = 0;
+  for (Row& row : row_) row.first = next, row.room = row.count + row.count / kRoom, next += row.room;
+  id_.resize(next), count_.resize(next), weight_.resize(next);
   parallelFor(n, kLeaves, [&](std::size_t i) {
-    std::uint64_t at = begin_[i];
+    std::uint64_t at = row_[i].first;
     forEachEntry(i, [&](std::uint32_t j, std::uint16_t count) { id_[at] = j, count_[at++] = count; });
   });
 }
 
-void Exchange::build(const Exchange& before, const KnownLines& known, const Lines& lines) {
-  const std::size_t n = lines.leaves(), blocks = (n + kLeaves - 1) / kLeaves;
+void Exchange::change(const KnownLines& known, const Lines& lines, std::vector<char>& changed) {
+  const std::size_t elements = slotOf_.size(), n = row_.size();
   // Ends of straight lines that are others.
-  std::vector<std::vector<RowChange>> found(blocks);
-  parallelBlocks(n, kLeaves, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      forEachChange(known, lines, static_cast<std::uint32_t>(i), [&](std::uint32_t j, std::int32_t more) {
-        found[begin / kLeaves].push_back({static_cast<std::uint32_t>(i), j, more});
-        if (!onlyReceives(i)) found[begin / kLeaves].push_back({j, static_cast<std::uint32_t>(i), more});
+  std::vector<std::vector<RowChange>> found((elements + kLeaves - 1) / kLeaves);
+  parallelBlocks(elements, kLeaves, [&](std::size_t begin, std::size_t end) {
+    std::vector<RowChange>& to = found[begin / kLeaves];
+    for (std::size_t i = begin; i < end; ++i) {
+      const hierarchy::ElementId leaf(i);
+      if (known.before[i].count + lines.countOf(leaf) == 0 || known.same(leaf, lines)) continue;
+      const std::uint32_t own = slotOf_[i];
+      forEachChange(lines.endsOf(known.before[i]), lines.endsOf(leaf), [&](std::uint32_t on, std::int32_t more) {
+        const std::uint32_t other = slotOf_[on];
+        to.push_back({own, other, more});
+        if (!onlyReceives(own)) to.push_back({other, own, more});
       });
+    }
   });
   std::vector<std::uint64_t> first(n + 1, 0);
   for (const auto& block : found)
@@ -165,92 +226,137 @@ void Exchange::build(const Exchange& before, const KnownLines& known, const Line
   for (const auto& block : found)
     for (const RowChange& c : block) changes[next[c.row]++] = c;
 
-  struct Rows {
-    std::vector<std::uint32_t> id, size;
+  /// Rows that have outgrown their room, one after the other.
+  struct Outgrown {
+    std::vector<std::uint32_t> rows, id;
     std::vector<std::uint16_t> count;
   };
-  std::vector<Rows> rows(blocks);
+  const std::size_t blocks = (n + kLeaves - 1) / kLeaves;
+  std::vector<Outgrown> outgrown(blocks);
   parallelBlocks(n, kLeaves, [&](std::size_t begin, std::size_t end) {
-    Rows& to = rows[begin / kLeaves];
-    std::vector<RowEntry> row;
+    std::vector<RowEntry> merged;
     for (std::size_t i = begin; i < end; ++i) {
-      row.clear();
-      bool ordered = first[i] == first[i + 1];
-      if (const std::uint32_t old = known.of[i]; old != hierarchy::LeafTable::kNone) {
-        for (std::uint64_t k = before.begin_[old]; k < before.begin_[old + 1]; ++k) {
-          const std::uint32_t j = known.now[before.id_[k]];
-          if (j == hierarchy::LeafTable::kNone) continue;
-          ordered = ordered && (row.empty() || row.back().id <= j);
-          row.push_back({j, before.count_[k]});
-        }
-      }
-      for (std::uint64_t k = first[i]; k < first[i + 1]; ++k) row.push_back({changes[k].other, changes[k].lines});
-      if (!ordered) std::ranges::stable_sort(row, {}, &RowEntry::id);
-      const std::size_t entries = to.id.size();
-      for (std::size_t k = 0; k < row.size();) {
+      if (first[i] == first[i + 1] || numberOf_[i] == kNone) continue;
+      changed[i] = true;
+      Row& row = row_[i];
+      const auto own = std::span(changes).subspan(first[i], first[i + 1] - first[i]);
+      std::ranges::sort(own, {}, &RowChange::other);
+      merged.clear();
+      std::uint64_t k = row.first;
+      std::size_t c = 0;
+      while (k < row.end() || c < own.size()) {
+        const std::uint32_t j = std::min(k < row.end() ? id_[k] : kNone, c < own.size() ? own[c].other : kNone);
         std::int64_t left = 0;
-        const std::uint32_t j = row[k].id;
-        for (; k < row.size() && row[k].id == j; ++k) left += row[k].lines;
-        for (; left > 0; left -= kMostCount) {
-          to.id.push_back(j);
-          to.count.push_back(static_cast<std::uint16_t>(std::min<std::int64_t>(left, kMostCount)));
-        }
+        for (; k < row.end() && id_[k] == j; ++k) left += count_[k];
+        for (; c < own.size() && own[c].other == j; ++c) left += own[c].lines;
+        for (; left > 0; left -= kMostCount)
+          merged.push_back({j, static_cast<std::int32_t>(std::min<std::int64_t>(left, kMostCount))});
       }
-      to.size.push_back(static_cast<std::uint32_t>(to.id.size() - entries));
+      row.count = static_cast<std::uint32_t>(merged.size());
+      if (row.count <= row.room) {
+        for (std::size_t m = 0; m < merged.size(); ++m)
+          id_[row.first + m] = merged[m].id, count_[row.first + m] = static_cast<std::uint16_t>(merged[m].lines);
+        continue;
+      }
+      Outgrown& to = outgrown[begin / kLeaves];
+      to.rows.push_back(static_cast<std::uint32_t>(i));
+      for (const RowEntry& m : merged) to.id.push_back(m.id), to.count.push_back(static_cast<std::uint16_t>(m.lines));
     }
   });
-  begin_.resize(n + 1);
-  begin_[0] = 0;
-  for (std::size_t i = 0; i < n; ++i) begin_[i + 1] = begin_[i] + rows[i / kLeaves].size[i % kLeaves];
-  id_.resize(begin_[n]), count_.resize(begin_[n]);
+  std::uint64_t end = id_.size();
+  for (const Outgrown& block : outgrown)
+    for (const std::uint32_t i : block.rows) {
+      row_[i].first = end, row_[i].room = row_[i].count + row_[i].count / kRoom;
+      end += row_[i].room;
+    }
+  id_.resize(end), count_.resize(end), weight_.resize(end);
   parallelFor(blocks, 1, [&](std::size_t b) {
-    std::ranges::copy(rows[b].id, id_.data() + begin_[b * kLeaves]);
-    std::ranges::copy(rows[b].count, count_.data() + begin_[b * kLeaves]);
+    std::size_t from = 0;
+    for (const std::uint32_t i : outgrown[b].rows) {
+      const Row& row = row_[i];
+      std::copy_n(outgrown[b].id.data() + from, row.count, id_.data() + row.first);
+      std::copy_n(outgrown[b].count.data() + from, row.count, count_.data() + row.first);
+      from += row.count;
+    }
   });
 }
 
-void Exchange::weigh() {
-  weight_.resize(begin_[leaves()]);
-  parallelFor(leaves(), kLeaves, [&](std::size_t i) {
-    for (std::uint64_t k = begin_[i]; k < begin_[i + 1]; ++k)
-      weight_[k] = static_cast<float>(count_[k]) / (m_[i] + m_[id_[k]]);
-  });
+void Exchange::freeSlots(std::vector<char>& changed) {
+  for (std::uint32_t& slot : slotOf_) {
+    if (slot == kNone || numberOf_[slot] != kNone) continue;
+    markSpecials(slot, changed);
+    row_[slot] = {}, m_[slot] = -1;
+    free_.push_back(slot), slot = kNone;
+  }
+}
+
+void Exchange::markSpecials(std::uint32_t slot, std::vector<char>& marked) const {
+  if (slot + 1 >= specialBegin_.size()) return;  // there was none
+  for (std::uint32_t k = specialBegin_[slot]; k < specialBegin_[slot + 1]; ++k) marked[specials_[k].other] = true;
+}
+
+/// Moves rows together where half of what there is is no row's any more.
+void Exchange::tidy() {
+  std::uint64_t used = 0;
+  for (const Row& row : row_) used += row.room;
+  if (id_.size() <= 2 * used) return;
+  const std::vector<Row> before = row_;
+  std::uint64_t next = 0;
+  for (Row& row : row_) row.first = next, next += row.room;
+  const auto move = [&](auto& values) {
+    std::remove_reference_t<decltype(values)> moved;
+    moved.resize(next);
+    parallelFor(row_.size(), kLeaves, [&](std::size_t i) {
+      std::copy_n(values.data() + before[i].first, before[i].count, moved.data() + row_[i].first);
+    });
+    values = std::move(moved);
+  };
+  move(id_), move(count_), move(weight_);
+}
+
+void Exchange::weigh(std::uint32_t i) {
+  for (std::uint64_t k = row_[i].first; k < row_[i].end(); ++k)
+    weight_[k] = static_cast<float>(count_[k]) / (m_[i] + m_[id_[k]]);
 }
 
 void Exchange::addSpecials(const Lines& lines) {
-  const std::size_t n = lines.leaves();
+  const std::size_t n = row_.size();
   specialBegin_.assign(n + 1, 0);
-  for (const ExceptionalLine& e : lines.exceptions) {
-    ++specialBegin_[e.leaf + 1];
-    if (!e.rough && !onlyReceives(e.leaf)) ++specialBegin_[e.end + 1];
-  }
+  const auto forEachException = [&](const auto& visit) {
+    for (std::size_t i = 0; i < leaves_.size(); ++i)
+      for (const ExceptionalLine& e : lines.exceptions.at(leaves_[i])) visit(slot_[i], slotOf_[e.end], e);
+  };
+  forEachException([&](std::uint32_t i, std::uint32_t j, const ExceptionalLine& e) {
+    ++specialBegin_[i + 1];
+    if (!e.rough && !onlyReceives(i)) ++specialBegin_[j + 1];
+  });
   for (std::size_t i = 0; i < n; ++i) specialBegin_[i + 1] += specialBegin_[i];
   specials_.resize(specialBegin_[n]);
   std::vector<std::uint32_t> next(specialBegin_.begin(), specialBegin_.end() - 1);
-  for (const ExceptionalLine& e : lines.exceptions) {
-    const std::uint32_t i = e.leaf, j = e.end;
+  forEachException([&](std::uint32_t i, std::uint32_t j, const ExceptionalLine& e) {
     if (e.rough) {
       specials_[next[i]++] = {j, e.weight / (m_[i] * e_[i] * e_[j]), true};
-      continue;
+      return;
     }
     const Rgb x = e.weight / (e_[i] * e_[j] * (m_[i] + m_[j]));  // [VG95 (balance heuristic)]
     specials_[next[i]++] = {j, x, false};
     if (!onlyReceives(i)) specials_[next[j]++] = {i, x, false};
-  }
+  });
 }
 
 void Exchange::listOneWay() {
   const auto rough = [](const Special& s) { return s.rough; };
-  for (std::uint32_t i = 0; i < leaves(); ++i)
-    if (onlyReceives(i) ||
-        std::any_of(specials_.begin() + specialBegin_[i], specials_.begin() + specialBegin_[i + 1], rough))
+  oneWay_.clear();
+  for (std::uint32_t i = 0; i < leaves_.size(); ++i)
+    if (onlyReceives(slot_[i]) || std::any_of(specials_.begin() + specialBegin_[slot_[i]],
+                                              specials_.begin() + specialBegin_[slot_[i] + 1], rough))
       oneWay_.push_back(i);
 }
 
 template <class Visit>
-void Exchange::forEachExchange(std::size_t i, const Visit& visit) const {
+void Exchange::forEachExchange(std::uint32_t i, const Visit& visit) const {
   const float own = 1 / e_[i];
-  for (std::uint64_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+  for (std::uint64_t k = row_[i].first; k < row_[i].end(); ++k) {
     const std::uint32_t j = id_[k];
     visit(j, weight_[k] * own / e_[j]);
   }
@@ -258,140 +364,211 @@ void Exchange::forEachExchange(std::size_t i, const Visit& visit) const {
     if (!specials_[k].rough) visit(specials_[k].other, gray(specials_[k].x));
 }
 
-float Exchange::exchangeWith(std::size_t i, std::span<const float> value, std::span<const float> valueOverE) const {
+float Exchange::exchangeWith(std::uint32_t i, std::span<const float> valueOverE) const {
   std::array<float, kLanes> sum{};
   const float *q = valueOverE.data(), *weight = weight_.data();
   const std::uint32_t* id = id_.data();
-  inLanes(begin_[i], begin_[i + 1], [&](std::uint64_t k, std::size_t lane) { sum[lane] += weight[k] * q[id[k]]; });
+  inLanes(row_[i].first, row_[i].end(), [&](std::uint64_t k, std::size_t lane) { sum[lane] += weight[k] * q[id[k]]; });
   float all = sumOf(sum) / e_[i];
   for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k)
-    if (!specials_[k].rough) all += value[specials_[k].other] * gray(specials_[k].x);
+    if (!specials_[k].rough) all += q[specials_[k].other] * e_[specials_[k].other] * gray(specials_[k].x);
   return all;
+}
+
+void Exchange::countOwn(const Lines& lines, hierarchy::ElementId leaf) {
+  // What lines meet first counts whole, whether they end there or go on: that is 1 / e_ of those that end, on average,
+  // without its noise.
+  OwnLines& own = own_[slotOf_[leaf.index()]];
+  own = {};
+  for (const std::uint32_t end : lines.endsOf(leaf)) {
+    if (end < kFirstMark) own.met += 1, own.ended += 1 / e_[slotOf_[end]];
+    if (end == kLostBeyond) own.met += 1;
+  }
 }
 
 /// What the symmetric part of a row shall sum to: the share of the leaf's own lines, where few of them escape; what
 /// lines of both ends say where many do.
-void Exchange::setTargets(const Lines& lines, std::span<const std::uint32_t> covered) {
-  std::vector<float> rough(lines.leaves(), 0.0f), other(lines.leaves(), 0.0f), beyond(lines.leaves(), 0.0f);
-  std::vector<float> one(lines.leaves(), 1.0f), overE(lines.leaves());
-  for (std::size_t i = 0; i < overE.size(); ++i) overE[i] = 1 / e_[i];
-  for (const ExceptionalLine& e : lines.exceptions) {
-    (e.rough ? rough : other)[e.leaf] += gray(e.weight) / e_[e.end];
-    if (e.beyond) beyond[e.leaf] += 1;
+void Exchange::setShare(const Lines& lines, hierarchy::ElementId leaf) {
+  const std::uint32_t i = slotOf_[leaf.index()];
+  closed_[i] = share_[i] = 0;
+  const auto count = static_cast<float>(lines.at(leaf).open());
+  if (!(count > 0) || !(area_[i] > 0)) return;
+  float rough = 0, other = 0, beyond = 0;
+  for (const ExceptionalLine& line : lines.exceptions.at(leaf)) {
+    (line.rough ? rough : other) += gray(line.weight) / e_[slotOf_[line.end]];
+    if (line.beyond) beyond += 1;
   }
-  parallelFor(lines.leaves(), kLeaves, [&](std::size_t i) {
-    const auto count = static_cast<float>(lines.countOf(i) - covered[i]);
-    if (!(count > 0) || !(area_[i] > 0)) return;
-    // What lines meet first counts whole, whether they end there or go on: that is 1 / e_ of those that end, on
-    // average, without its noise. Where hardly any end, what others see beyond must not stand for it.
-    float met = beyond[i], ended = 0;
-    for (std::uint64_t k = lines.first[i]; k < lines.first[i + 1]; ++k) {
-      const std::uint32_t end = lines.end[k];
-      if (end < kFirstMark) met += 1, ended += overE[end];
-      if (end == kLostBeyond) met += 1;
-    }
-    const float f = (std::min(met, tuning::kMostMissed * ended) + other[i]) / count;
-    const float g = exchangeWith(i, one, overE) / area_[i];
-    const float sure = std::min(f, 1.0f);
-    target_[i] = std::min(sure * f + (1 - sure) * g, std::max(f, 1.0f));
-    closed_[i] = target_[i] + rough[i] / count;
-  });
+  float g = 0;
+  forEachExchange(i, [&](std::uint32_t, float x) { g += x; });
+  // Where hardly any of what is met ends, what others see beyond must not stand for it.
+  const float met = beyond + own_[i].met, f = (std::min(met, tuning::kMostMissed * own_[i].ended) + other) / count;
+  const float sure = std::min(f, 1.0f);
+  share_[i] = std::min(sure * f + (1 - sure) * g / area_[i], std::max(f, 1.0f));
+  closed_[i] = share_[i] + rough / count;
+}
+
+bool Exchange::owe(std::span<const Other> others, std::vector<float>& owed, std::vector<char>& marked) const {
+  std::uint64_t entries = 0;
+  for (const Other& o : others) entries += row_[o.slot].count;
+  if (static_cast<double>(entries) > kFewEntries * static_cast<double>(id_.size())) return true;
+  for (const auto& [i, by] : others) {  // who sees them is seen by them
+    marked[i] = true;
+    for (std::uint64_t k = row_[i].first; k < row_[i].end(); ++k) owed[id_[k]] += weight_[k] * by;
+    markSpecials(i, marked);
+  }
+  return false;
 }
 
 /// [SK67], symmetric: each factor takes half of what its row is off by.
-void Exchange::scale() {
-  std::vector<float> next(leaves()), overE(leaves());
-  const auto sumOfRow = [&](std::size_t i) { return scale_[i] * exchangeWith(i, scale_, overE); };
-  const auto setOverE = [&] { parallelFor(leaves(), kLeaves, [&](std::size_t i) { overE[i] = scale_[i] / e_[i]; }); };
-  for (int pass = 0; pass < tuning::kScalingPasses; ++pass) {
-    setOverE();
-    parallelFor(leaves(), kLeaves, [&](std::size_t i) {
-      next[i] = scale_[i];
-      const float sum = sumOfRow(i);
-      if (sum > 0 && area_[i] > 0)
-        next[i] =
-            std::clamp(scale_[i] * std::sqrt(target_[i] * area_[i] / sum), 1 / tuning::kMostScale, tuning::kMostScale);
+void Exchange::scale(std::vector<char>& changed) {
+  const std::size_t blocks = (slot_.size() + kLeaves - 1) / kLeaves;
+  scale_.resize(row_.size());
+  for (std::vector<float>& factors : passes_) factors.resize(row_.size());
+  for (std::vector<float>& owed : owedFactor_) owed.resize(row_.size(), 0);
+  std::vector<Other> others;  // whose factor of the last pass is another
+  std::vector<char> marked;
+  std::size_t pass = 0;
+  /// next(slot) of those rows which may be others: their factors, to `factors`.
+  const auto setFactors = [&](std::vector<float>& factors, const auto& next) {
+    std::vector<float>& owed = owedFactor_[pass];
+    marked = changed;
+    const bool all = owe(others, owed, marked);
+    const std::vector<float>& q = passes_[pass > 0 ? pass - 1 : 0];
+    std::vector<std::vector<Other>> found(blocks);
+    parallelBlocks(slot_.size(), kLeaves, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const std::uint32_t i = slot_[k];
+        if (!all && !marked[i] && !(owed[i] * q[i] > tuning::kFollowed * share_[i] * area_[i])) continue;
+        owed[i] = 0;
+        const float now = next(i), before = factors[i];
+        if (std::abs(now - before) <= tuning::kFollowed * before) continue;
+        factors[i] = now, found[begin / kLeaves].push_back({i, std::abs(now - before)});
+      }
     });
-    scale_.swap(next);
+    others.clear(), ++pass;
+    for (const auto& block : found) others.insert(others.end(), block.begin(), block.end());
+  };
+  setFactors(passes_[0], [&](std::uint32_t i) { return 1 / e_[i]; });
+  while (pass < passes_.size()) {
+    const std::vector<float>& q = passes_[pass - 1];
+    setFactors(passes_[pass], [&](std::uint32_t i) {
+      const float own = q[i] * e_[i], sum = own * exchangeWith(i, q);
+      if (!(sum > 0) || !(area_[i] > 0)) return q[i];
+      return std::clamp(own * std::sqrt(share_[i] * area_[i] / sum), 1 / tuning::kMostScale, tuning::kMostScale) /
+             e_[i];
+    });
   }
+  const std::vector<float>& q = passes_.back();
+  for (const auto& [i, by] : others) scale_[i] = q[i] * e_[i], changed[i] = true;
   // What scaling has not reached must not make rows exceed one.
-  setOverE();
-  parallelFor(leaves(), kLeaves, [&](std::size_t i) {
-    const float sum = sumOfRow(i);
-    next[i] = sum > target_[i] * area_[i] ? target_[i] * area_[i] / sum : 1.0f;
+  setFactors(target_, [&](std::uint32_t i) {
+    const float sum = scale_[i] * exchangeWith(i, q);
+    return sum > share_[i] * area_[i] ? share_[i] * area_[i] / sum : 1.0f;
   });
-  target_.swap(next);
+  for (const auto& [i, by] : others) changed[i] = true;
 }
 
-void Exchange::fill(std::span<const Rgb> B) {
-  parallelFor(leaves(), kLeaves, [&](std::size_t i) {
-    const Rgb sent = B[i] * (scale_[i] / e_[i]);
-    records_[i].B = {sent.r, sent.g, sent.b, 0};
-  });
+LeafRecord Exchange::sentBy(std::uint32_t i, const Rgb& B) const {
+  const Rgb sent = B * passes_.back()[i];
+  return {{sent.r, sent.g, sent.b, 0}};
 }
 
 /// Sum over a row's straight lines of what the records send by them.
-Rgb Exchange::sentOver(std::size_t i) const {
+Rgb Exchange::sentOver(std::uint32_t i) const {
   const LeafRecord* records = records_.data();
   const std::uint32_t* id = id_.data();
   const float* weight = weight_.data();
   std::array<LeafRecord, 4> sums{};
-  inLanes(begin_[i], begin_[i + 1], [&](std::uint64_t k, std::size_t lane) {
+  inLanes(row_[i].first, row_[i].end(), [&](std::uint64_t k, std::size_t lane) {
     for (std::size_t c = 0; c < 4; ++c) sums[lane % 4].B[c] += weight[k] * records[id[k]].B[c];
   });
   const auto sum = [&](std::size_t c) { return (sums[0].B[c] + sums[1].B[c]) + (sums[2].B[c] + sums[3].B[c]); };
   return {sum(0), sum(1), sum(2)};
 }
 
-Rgb Exchange::irradianceOf(std::size_t i, std::span<const Rgb> B) const {
+Rgb Exchange::irradianceOf(std::uint32_t i, std::span<const Rgb> B) const {
   if (!(area_[i] > 0)) return Rgb(0.0f);
   Rgb sum = sentOver(i) / e_[i];
   Rgb oneWay(0.0f);
   for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k) {
     const Special& s = specials_[k];
     if (s.rough)
-      oneWay += s.x * B[s.other];
+      oneWay += s.x * B[numberOf_[s.other]];
     else
-      sum += s.x * scale_[s.other] * B[s.other];
+      sum += s.x * scale_[s.other] * B[numberOf_[s.other]];
   }
   return (target_[i] * scale_[i] * sum + oneWay) / area_[i];
 }
 
 void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E) {
-  fill(B);
-  parallelFor(leaves(), kLeaves, [&](std::size_t i) { E[i] = irradianceOf(i, B); });
+  parallelFor(leaves(), kLeaves, [&](std::size_t i) { records_[slot_[i]] = sentBy(slot_[i], B[i]); });
+  parallelFor(leaves(), kLeaves, [&](std::size_t i) { E[i] = irradianceOf(slot_[i], B); });
+  remembers_ = true;
+  touched_.assign(row_.size(), false), owedLight_.assign(row_.size(), 0);
 }
 
-void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E, std::span<const std::uint32_t> leaves) {
-  fill(B);
-  parallelFor(leaves.size(), kFewLeaves, [&](std::size_t k) { E[leaves[k]] = irradianceOf(leaves[k], B); });
+void Exchange::gatherAmong(std::span<const std::uint32_t> some, std::span<const Rgb> B, std::span<Rgb> E) {
+  for (const std::uint32_t i : some) records_[slot_[i]] = sentBy(slot_[i], B[i]);
+  parallelFor(some.size(), kFewLeaves, [&](std::size_t k) { E[some[k]] = irradianceOf(slot_[some[k]], B); });
 }
 
 void Exchange::gatherAbout(std::span<const std::uint32_t> some, std::span<const Rgb> B, std::span<Rgb> E) {
-  std::uint64_t entries = 0;
-  for (const std::uint32_t i : some) entries += begin_[i + 1] - begin_[i];
-  if (entries + oneWay_.size() > leaves() / kFewRows) return gather(B, E);
-  std::vector<char> reached(leaves(), false);
-  std::vector<std::uint32_t> rows;
-  const auto add = [&](std::uint32_t row) {
-    if (!reached[row]) reached[row] = true, rows.push_back(row);
-  };
-  for (const std::uint32_t row : oneWay_) add(row);
-  for (const std::uint32_t i : some) {  // who sees them is seen by them
-    add(i);
-    for (std::uint64_t k = begin_[i]; k < begin_[i + 1]; ++k) add(id_[k]);
-    for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k) add(specials_[k].other);
+  std::vector<Other> others;
+  for (const std::uint32_t i : some) {
+    records_[slot_[i]] = sentBy(slot_[i], B[i]);
+    others.push_back({slot_[i], std::numeric_limits<float>::infinity()});
   }
-  gather(B, E, rows);
+  gatherBy(others, B, E);
+}
+
+void Exchange::gatherOthers(std::span<const Rgb> B, std::span<Rgb> E) {
+  if (!remembers_) return gather(B, E);
+  std::vector<std::vector<Other>> found((leaves() + kLeaves - 1) / kLeaves);
+  parallelBlocks(leaves(), kLeaves, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      LeafRecord& known = records_[slot_[i]];
+      const LeafRecord sent = sentBy(slot_[i], B[i]);
+      float by = 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float change = std::abs(sent.B[c] - known.B[c]);
+        if (change > tuning::kFollowed * known.B[c]) by = std::max(by, change);
+      }
+      if (by > 0) known = sent, found[begin / kLeaves].push_back({slot_[i], by});
+    }
+  });
+  std::vector<Other> others;
+  for (const auto& block : found) others.insert(others.end(), block.begin(), block.end());
+  gatherBy(others, B, E);
+}
+
+/// Irradiance of what is touched, and of all that some slots have to do with, by the records.
+void Exchange::gatherBy(std::span<const Other> others, std::span<const Rgb> B, std::span<Rgb> E) {
+  owedLight_.resize(row_.size(), 0);
+  std::vector<char> marked = touched_;
+  const bool all = owe(others, owedLight_, marked);
+  if (!others.empty())
+    for (const std::uint32_t i : oneWay_) marked[slot_[i]] = true;
+  parallelFor(leaves(), kLeaves, [&](std::size_t n) {
+    const std::uint32_t i = slot_[n];
+    const float owed = owedLight_[i] * target_[i] * passes_.back()[i];
+    if (!all && !marked[i] && !(owed > tuning::kFollowed * gray(E[n]) * area_[i])) return;
+    owedLight_[i] = 0;
+    E[n] = irradianceOf(i, B);
+  });
+  touched_.assign(row_.size(), false);
 }
 
 void Exchange::deviation(std::span<const Rgb> B, std::span<float> sigma) {
-  std::vector<float> sent(leaves());
-  parallelFor(leaves(), kLeaves, [&](std::size_t i) { sent[i] = scale_[i] / e_[i] * gray(B[i]); });
+  std::vector<float> sent(scale_.size());
   parallelFor(leaves(), kLeaves, [&](std::size_t i) {
+    const std::uint32_t e = slot_[i];
+    sent[e] = passes_.back()[e] * gray(B[i]);
+  });
+  parallelFor(leaves(), kLeaves, [&](std::size_t i) {
+    const std::uint32_t e = slot_[i];
     std::array<double, kLanes> sums{}, squared{}, counts{};
-    const float own = target_[i] * scale_[i] / e_[i];
-    inLanes(begin_[i], begin_[i + 1], [&](std::uint64_t k, std::size_t lane) {
+    const float own = target_[e] * scale_[e] / e_[e];
+    inLanes(row_[e].first, row_[e].end(), [&](std::uint64_t k, std::size_t lane) {
       const auto count = static_cast<float>(count_[k]);
       const double each = own * sent[id_[k]] * weight_[k] / count;
       sums[lane] += count * each, squared[lane] += count * each * each, counts[lane] += count;
@@ -400,30 +577,31 @@ void Exchange::deviation(std::span<const Rgb> B, std::span<float> sigma) {
     const auto add = [&](double count, double each) {
       sum += count * each, squares += count * each * each, lines += count;
     };
-    for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k) {
+    for (std::uint32_t k = specialBegin_[e]; k < specialBegin_[e + 1]; ++k) {
       const Special& s = specials_[k];
-      add(1, gray(s.x * B[s.other]) * (s.rough ? 1.0f : target_[i] * scale_[i] * scale_[s.other]));
+      add(1, gray(s.x * B[numberOf_[s.other]]) * (s.rough ? 1.0f : target_[e] * scale_[e] * scale_[s.other]));
     }
     const double variance = lines > 1 ? std::max(0.0, squares - sum * sum / lines) * lines / (lines - 1) : sum * sum;
-    sigma[i] = area_[i] > 0 ? static_cast<float>(std::sqrt(variance)) / area_[i] : 0.0f;
+    sigma[i] = area_[e] > 0 ? static_cast<float>(std::sqrt(variance)) / area_[e] : 0.0f;
   });
 }
 
 void Exchange::arriving(std::span<double> share) const {
   // Symmetric: what i gets from j by radiosity, j gets from i; the factor of the receiver comes on top.
-  parallelFor(leaves(), kLeaves, [&](std::size_t j) {
+  parallelFor(leaves(), kLeaves, [&](std::size_t n) {
+    const std::uint32_t j = slot_[n];
     double sum = 0;
     forEachExchange(j, [&](std::uint32_t i, float x) { sum += double(target_[i]) * scale_[i] * x; });
-    share[j] = area_[j] > 0 ? sum * scale_[j] / area_[j] : 0;
+    share[n] = area_[j] > 0 ? sum * scale_[j] / area_[j] : 0;
   });
-  for (std::size_t i = 0; i < leaves(); ++i)
+  for (const std::uint32_t i : slot_)
     for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k)
       if (specials_[k].rough && area_[specials_[k].other] > 0)
-        share[specials_[k].other] += gray(specials_[k].x) / area_[specials_[k].other];
+        share[numberOf_[specials_[k].other]] += gray(specials_[k].x) / area_[specials_[k].other];
 }
 
 std::size_t Exchange::memoryBytes() const {
-  return leaves() * (6 * sizeof(float) + sizeof(LeafRecord)) + begin_.capacity() * 8 + id_.capacity() * 4 +
+  return row_.size() * (7 * sizeof(float) + sizeof(LeafRecord) + sizeof(Row) + sizeof(OwnLines)) + id_.capacity() * 4 +
          count_.capacity() * 2 + weight_.capacity() * 4 + specialBegin_.capacity() * 4 +
          specials_.capacity() * sizeof(Special);
 }

@@ -15,12 +15,13 @@
 // closed room is kept to the last digit; and the exchange stays reciprocal, so no light is made or lost between two
 // leaves. [lines.md]
 //
-// Lines of one pair are one entry: leaf, count, and count / (m_i + m_j) where m = n / e. Cost: 10 bytes an entry, half
-// a nanosecond a pass on two threads. Sums over a row run in lanes, of every eighth entry each, so that processors do
-// eight at once; the order is the same everywhere.
+// Lines of one pair are one entry: the other leaf, their number, and that over (m_i + m_j) where m = n / e. Cost: 10
+// bytes an entry, half a nanosecond a pass on two threads. Sums over a row run in lanes, of every eighth entry each, so
+// that processors do eight at once; the order is the same everywhere.
 #include <array>
 
 #include "lines/lines.hpp"
+#include "lines/tuning.hpp"
 
 namespace deltalux::lines {
 
@@ -31,24 +32,31 @@ struct alignas(16) LeafRecord {
 
 class Exchange {
  public:
-  Exchange(const Lines&, const hierarchy::Elements&, const hierarchy::LeafTable&, const LineTracer&,
-           std::span<const std::uint32_t> covered);
-  /// The same, to the last bit, from that over the lines from before: for the lines that are others. `known`: what was
-  /// known of them.
-  Exchange(const Exchange& before, const KnownLines& known, const Lines&, const hierarchy::Elements&,
-           const hierarchy::LeafTable&, const LineTracer&, std::span<const std::uint32_t> covered);
+  Exchange(const Lines&, const hierarchy::Elements&, const hierarchy::LeafTable&, const LineTracer&);
+  /// Becomes that over the lines there are, as if it had been made of them, within kFollowed: by those that are others.
+  /// `known`: what was known of the lines that it was of.
+  void follow(const KnownLines& known, const Lines&, const hierarchy::Elements&, const hierarchy::LeafTable&,
+              const LineTracer&);
+  /// Knows leaves by what their elements are now; to follow() then. `now`: by element, kNone where it is no more.
+  void renumber(std::span<const std::uint32_t> now, std::size_t elements);
 
-  std::size_t leaves() const { return area_.size(); }
-  /// Lit area [unit^2]; share of a leaf's own lines that end on leaves.
-  float area(std::size_t leaf) const { return area_[leaf]; }
-  float closed(std::size_t leaf) const { return closed_[leaf]; }
+  std::size_t leaves() const { return leaves_.size(); }
+  /// Lit area [unit^2]; share of a leaf's own lines that end on leaves. Leaves are in the order of LeafTable.
+  float area(std::size_t leaf) const { return area_[slot_[leaf]]; }
+  float closed(std::size_t leaf) const { return closed_[slot_[leaf]]; }
 
   /// Irradiance of every leaf from the radiosities of all [W/m2]. Sizes must agree.
   void gather(std::span<const Rgb> B, std::span<Rgb> E);
-  /// The same of some leaves alone.
-  void gather(std::span<const Rgb> B, std::span<Rgb> E, std::span<const std::uint32_t> leaves);
-  /// The same of all that the radiosities of some leaves have to do with.
+  /// The same of some leaves alone, of which the radiosities are others than when all was gathered last, and no others.
+  void gatherAmong(std::span<const std::uint32_t> leaves, std::span<const Rgb> B, std::span<Rgb> E);
+  /// The same of all that the radiosities of those have to do with.
   void gatherAbout(std::span<const std::uint32_t> leaves, std::span<const Rgb> B, std::span<Rgb> E);
+  /// Whether it remembers the radiosities by which irradiance was gathered last.
+  bool remembers() const { return remembers_; }
+  void forget() { remembers_ = false; }
+  /// Irradiance by radiosities of which all, within kFollowed, are those that it remembers, or are taken in now. `E`:
+  /// what was gathered by those; of leaves that were no such leaves before it may be anything.
+  void gatherOthers(std::span<const Rgb> B, std::span<Rgb> E);
   /// Standard deviation of gather()'s gray irradiance, from the scatter of the leaf's lines [W/m2].
   void deviation(std::span<const Rgb> B, std::span<float> sigma);
   /// Share of what leaf j sends that arrives at leaves: column sums.
@@ -57,40 +65,82 @@ class Exchange {
   std::size_t memoryBytes() const;
 
  private:
+  /// Where the entries of a leaf are, and the room for more of them behind.
+  struct Row {
+    std::uint64_t first = 0;
+    std::uint32_t count = 0, room = 0;
+
+    std::uint64_t end() const { return first + count; }
+  };
   struct Special {
     std::uint32_t other;
     Rgb x{0.0f};  // as in the header, the scaling left out; rough ones per area of the leaf
     bool rough;
   };
+  /// What a leaf's own straight lines meet and end on, by which its row is scaled.
+  struct OwnLines {
+    float met = 0, ended = 0;
+  };
   /// Whether no line ends there, since it sends nothing diffusely: its lines count at their start alone.
-  bool onlyReceives(std::size_t leaf) const { return e_[leaf] < 1e-3f; }
-  Exchange(const hierarchy::Elements&, const hierarchy::LeafTable&, const LineTracer&, const Lines&,
-           std::span<const std::uint32_t> covered);
+  bool onlyReceives(std::uint32_t slot) const { return e_[slot] < 1e-3f; }
+  void setLeaves(const Lines&, const hierarchy::Elements&, const hierarchy::LeafTable&, const LineTracer&);
   void build(const Lines&);
-  void build(const Exchange& before, const KnownLines&, const Lines&);
-  void weigh();
+  /// Rows of the changed lines; marks those whose entries are others.
+  void change(const KnownLines&, const Lines&, std::vector<char>& changed);
+  /// Slots of what is no leaf any more become free; marks what exchanged with them.
+  void freeSlots(std::vector<char>& changed);
+  /// Marks what exchanges something with a slot otherwise than over straight lines.
+  void markSpecials(std::uint32_t slot, std::vector<char>& marked) const;
+  void tidy();
+  void weigh(std::uint32_t slot);
   void addSpecials(const Lines&);
   void listOneWay();
-  void setTargets(const Lines&, std::span<const std::uint32_t> covered);
-  void scale();
-  void fill(std::span<const Rgb> B);
-  Rgb sentOver(std::size_t leaf) const;
-  Rgb irradianceOf(std::size_t leaf, std::span<const Rgb> B) const;
+  void countOwn(const Lines&, hierarchy::ElementId leaf);
+  void setShare(const Lines&, hierarchy::ElementId leaf);
+  /// Factors of rows that are `changed`, and of those that they have to do with; becomes those of which what they bring
+  /// is another.
+  void scale(std::vector<char>& changed);
+  /// What a slot hands on, by how much it is another.
+  struct Other {
+    std::uint32_t slot;
+    float by;
+  };
+  /// Adds that to what others are owed over their lines; marks those that exchange with them otherwise, and themselves.
+  /// Returns whether they are so many that it is as well to take all rows.
+  bool owe(std::span<const Other> others, std::vector<float>& owed, std::vector<char>& marked) const;
+  LeafRecord sentBy(std::uint32_t slot, const Rgb& B) const;
+  void gatherBy(std::span<const Other> others, std::span<const Rgb> B, std::span<Rgb> E);
+  Rgb sentOver(std::uint32_t slot) const;
+  Rgb irradianceOf(std::uint32_t slot, std::span<const Rgb> B) const;
   /// visit(other, x) of all symmetric exchange of a leaf, unscaled, gray.
   template <class Visit>
-  void forEachExchange(std::size_t leaf, const Visit&) const;
-  /// Sum of all symmetric exchange of a leaf, unscaled, gray, times a value of the other over its chance of ends.
-  float exchangeWith(std::size_t leaf, std::span<const float> value, std::span<const float> valueOverE) const;
+  void forEachExchange(std::uint32_t slot, const Visit&) const;
+  /// Sum of all symmetric exchange of a leaf, unscaled, gray, times a value of the other, given over its chance of
+  /// ends.
+  float exchangeWith(std::uint32_t slot, std::span<const float> valueOverE) const;
 
-  std::vector<float> area_, m_, e_, closed_, target_, scale_;  // by leaf; m: n / e
-  LargeArray<std::uint64_t> begin_;                            // of the entries of a leaf
-  LargeArray<std::uint32_t> id_;
+  static constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone;
+  // Leaves keep their slots: at first they are in order, and what is read together lies together.
+  std::vector<hierarchy::ElementId> leaves_;  // in order
+  std::vector<std::uint32_t> slot_;           // of these
+  std::vector<std::uint32_t> slotOf_;         // by element, kNone of what is no leaf
+  std::vector<std::uint32_t> numberOf_;       // by slot: of its leaf in the order, kNone of free ones
+  std::vector<std::uint32_t> free_;
+  std::vector<float> area_, m_, e_, closed_, target_, share_, scale_;  // by slot; m: n / e
+  std::vector<OwnLines> own_;
+  std::vector<Row> row_;
+  std::array<std::vector<float>, tuning::kScalingPasses + 1> passes_;      // s / e after each pass
+  std::array<std::vector<float>, tuning::kScalingPasses + 2> owedFactor_;  // to each, and in the end: see owe()
+  std::vector<float> owedLight_;
+  std::vector<LeafRecord> records_;
+  std::vector<char> touched_;  // rows that were others since all was gathered last
+  bool remembers_ = false;
+  std::vector<std::uint32_t> specialBegin_;  // one more for the end
+  std::vector<Special> specials_;
+  LargeArray<std::uint32_t> id_;  // slots
   LargeArray<std::uint16_t> count_;
   LargeArray<float> weight_;
-  std::vector<std::uint32_t> specialBegin_;
-  std::vector<Special> specials_;
   std::vector<std::uint32_t> oneWay_;  // leaves that may see such as have no entry of them
-  std::vector<LeafRecord> records_;
 };
 
 }  // namespace deltalux::lines

@@ -92,23 +92,18 @@ double relativeChange(const Rgb& before, const Rgb& now) {
 }
 
 /// Where light is still on its way when the rest has converged, as in dark rooms and on what an edit has moved: passes
-/// over those leaves alone. `next`: what the last pass makes of light.B.
-void iterateLate(Exchange& exchange, LeafLight& light, std::span<const Rgb> next) {
-  const double arrived = tuning::kLate * tuning::kLeafConverged;
-  std::vector<std::uint32_t> late;
-  for (std::uint32_t i = 0; i < next.size(); ++i)
-    if (relativeChange(light.B[i], next[i]) > arrived) late.push_back(i);
-  std::ranges::copy(next, light.B.begin());
+/// over those leaves alone; all was gathered by light.B.
+void iterateLate(Exchange& exchange, LeafLight& light, std::span<const std::uint32_t> late) {
   std::vector<Rgb> own(late.size());
   double most = kInfinity;
-  for (int pass = 0; pass < kMostPasses && most > arrived; ++pass) {
-    exchange.gather(light.B, light.indirect, late);
+  for (int pass = 0; pass < kMostPasses && most > tuning::kLate * tuning::kLeafConverged; ++pass) {
     most = 0;
     for (std::size_t k = 0; k < late.size(); ++k) {
       own[k] = reflected(light, late[k]);
       most = std::max(most, relativeChange(light.B[late[k]], own[k]));
     }
     for (std::size_t k = 0; k < late.size(); ++k) light.B[late[k]] = own[k];
+    exchange.gatherAmong(late, light.B, light.indirect);
   }
   exchange.gatherAbout(late, light.B, light.indirect);
 }
@@ -139,7 +134,12 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
   report.emitted = parallelSum<RgbSum>(n, kLeafBlock, [&](std::size_t i) {
     return double(exchange.area(i)) * RgbSum((light.rho[i] + light.tau[i]) * light.source[i]);
   });
-  exchange.gather(light.B, light.indirect);
+  // What it remembers is what the light to start with was gathered by.
+  const bool follows = exchange.remembers();
+  const auto gather = [&] {
+    follows ? exchange.gatherOthers(light.B, light.indirect) : exchange.gather(light.B, light.indirect);
+  };
+  gather();
   while (true) {
     reflectAll(next);
     ++report.passes;
@@ -151,10 +151,12 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     const bool power = gray(report.residual) <= converged * gray(report.emitted),
                leaves = report.change <= tuning::kLeafConverged;
     if ((power && leaves) || report.passes == most) break;
-    if (power)
-      iterateLate(exchange, light, next);
-    else
-      light.B.swap(next), exchange.gather(light.B, light.indirect);
+    std::vector<std::uint32_t> late;
+    for (std::uint32_t i = 0; power && i < n; ++i)
+      if (relativeChange(light.B[i], next[i]) > tuning::kLate * tuning::kLeafConverged) late.push_back(i);
+    light.B.swap(next);
+    gather();
+    if (power) iterateLate(exchange, light, late);
   }
   light.B.swap(next);
   return report;

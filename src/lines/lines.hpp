@@ -5,6 +5,10 @@
 // A line is kept as 8 bytes: the leaf that it ends on, and a code of where it runs, by which an edit finds those it can
 // touch. Lines that pass panes or go on over mirrors, gloss and glass are kept besides as exceptions, with their
 // weight. They are a function of the scene and the mesh alone: line k of a leaf is the same whatever their number.
+//
+// Leaves are known by their elements, which an edit leaves as they are: so lines that an edit does not touch stay where
+// they are stored. What is traced again is stored behind all others, and what it was before is left until it is as much
+// as tidy() allows.
 #include <memory>
 #include <span>
 #include <vector>
@@ -31,34 +35,16 @@ enum LineMark : std::uint32_t {
 
 /// A line that is not straight through clear air to a leaf.
 struct ExceptionalLine {
-  std::uint64_t line = 0;
-  std::uint32_t leaf = 0, end = 0;  // where it starts and ends
-  Rgb weight{1.0f};                 // throughput over the chance of its way, that of ending left out
+  std::uint32_t number = 0;  // which of its leaf's
+  std::uint32_t end = 0;     // the element that it ends on
+  Rgb weight{1.0f};          // throughput over the chance of its way, that of ending left out
   bool turned = false, rough = false;
   bool beyond = false;      // it went on over a surface that has a diffuse part, through clear air so far
   std::uint8_t unused = 0;  // so that no byte of a stored record is left to chance
 };
 
-struct Lines {
-  LargeArray<std::uint64_t> first{0};       // by leaf: its lines; one more for the end
-  LargeArray<std::uint32_t> end;            // by line
-  LargeArray<LineCode> code;                // by line
-  std::vector<ExceptionalLine> exceptions;  // ascending
-
-  std::size_t leaves() const { return first.size() - 1; }
-  std::uint64_t size() const { return first.back(); }
-  std::uint32_t countOf(std::size_t leaf) const { return static_cast<std::uint32_t>(first[leaf + 1] - first[leaf]); }
-  std::size_t memoryBytes() const;
-  /// Of where every line goes; equal for equal lines of equal leaves, whatever the leaves' numbers: `keys` by leaf.
-  std::uint64_t hash(std::span<const std::uint64_t> keys) const;
-};
-
-/// Recounts: ends and exceptions are of leaves that there are, in order. Throws std::logic_error.
-void validate(const Lines&);
-
 /// A line that leaves the scene straight, for the sky's light.
 struct EscapedLine {
-  std::uint32_t leaf = 0;
   Vec3f direction{0.0f};
   float cosine = 0;
   Rgb weight{1.0f};
@@ -67,49 +53,100 @@ struct EscapedLine {
 
 /// A segment of a line behind the first surface that it went on over.
 struct Bend {
-  std::uint32_t leaf = 0, number = 0;  // of the line: where it starts, and which of that leaf's
+  std::uint32_t number = 0;  // of the line: which of its leaf's
   Vec3f from{0.0f};
   LineCode code;
 };
 
-/// By leaf: the first of those that start there, of lines ascending by leaf; one more for the end.
-template <class OfLeaf>
-std::vector<std::uint32_t> firstOf(const std::vector<OfLeaf>& ascending, std::size_t leaves) {
-  std::vector<std::uint32_t> first(leaves + 1, 0);
-  for (const OfLeaf& x : ascending) ++first[x.leaf + 1];
-  for (std::size_t i = 0; i < leaves; ++i) first[i + 1] += first[i];
-  return first;
-}
+/// What leaves have several of, in order of their lines.
+template <class T>
+struct ListsOfLeaves {
+  struct Range {
+    std::uint32_t first = 0, count = 0;
+  };
+  std::vector<Range> of;  // by element
+  std::vector<T> all;
+
+  std::span<const T> at(hierarchy::ElementId e) const {
+    const Range r = of[e.index()];
+    return {all.data() + r.first, r.count};
+  }
+};
+
+/// Where a leaf's lines are among all.
+struct LineRange {
+  std::uint64_t first = 0;
+  std::uint32_t count = 0, covered = 0;  // of which so many are not there
+
+  std::uint32_t open() const { return count - covered; }
+};
+
+struct Lines {
+  std::vector<LineRange> of;      // by element; none of what is no receiving leaf
+  LargeArray<std::uint32_t> end;  // by line: the element that it ends on, or a LineMark
+  LargeArray<LineCode> code;      // by line
+  ListsOfLeaves<ExceptionalLine> exceptions;
+
+  bool empty() const { return of.empty(); }
+  std::uint64_t size() const;
+  const LineRange& at(hierarchy::ElementId e) const { return of[e.index()]; }
+  std::uint32_t countOf(hierarchy::ElementId e) const { return at(e).count; }
+  std::span<const std::uint32_t> endsOf(const LineRange& r) const { return {end.data() + r.first, r.count}; }
+  std::span<const std::uint32_t> endsOf(hierarchy::ElementId e) const { return endsOf(at(e)); }
+  std::span<const LineCode> codesOf(hierarchy::ElementId e) const { return {code.data() + at(e).first, at(e).count}; }
+  std::size_t memoryBytes() const;
+  /// Of where every line goes; equal for equal lines of equal leaves, wherever they are stored: `keys` by element.
+  std::uint64_t hash(std::span<const std::uint64_t> keys) const;
+};
+
+/// Recounts: ranges lie within what there is, ends and exceptions are of elements that there are, in order. Throws
+/// std::logic_error.
+void validate(const Lines&);
 
 struct TracedLines {
   Lines lines;
-  std::vector<EscapedLine> escaped;    // ascending by leaf
-  std::vector<Bend> bends;             // ascending by leaf, number and way
-  std::vector<std::uint32_t> covered;  // by leaf: lines that are not there
+  ListsOfLeaves<EscapedLine> escaped;
+  ListsOfLeaves<Bend> bends;
   std::uint64_t rays = 0;
+
+  void resize(std::size_t elements) {
+    lines.of.resize(elements), lines.exceptions.of.resize(elements), escaped.of.resize(elements);
+    bends.of.resize(elements);
+  }
+  /// Of an element all lines.
+  void drop(std::size_t element) {
+    lines.of[element] = {}, lines.exceptions.of[element] = {}, escaped.of[element] = {}, bends.of[element] = {};
+  }
 };
+
+/// The same lines of `elements` others, one leaf's behind the other's in their order: `now` by element, kNone where it
+/// is no more. Lines that ended there are marked by KnownLines::kAgain.
+Lines renumbered(const Lines&, std::span<const std::uint32_t> now, std::size_t elements);
+TracedLines renumbered(const TracedLines&, std::span<const std::uint32_t> now, std::size_t elements);
 
 struct FirstLines;
 
 /// Lines that were traced before and are what they would be now, but for those that are marked to be traced again.
+/// By element.
 struct KnownLines {
   static constexpr std::uint32_t kAgain = kFirstMark - 1, kEscapedAgain = kFirstMark - 2,
                                  kExceptionAgain = kFirstMark - 3;  // [sentinel]
   static constexpr std::uint32_t kLeafAgain = 1u << 31;             // set in the leaf where such a line ended [layout]
 
   static bool isAgain(std::uint32_t end) { return end < kFirstMark && (end & kLeafAgain) != 0; }
-  /// The leaf, of those that there are now, where a straight line ended, whether it holds or not; kNone for others.
+  /// The element where a straight line ended, whether it holds or not; kNone for others.
   static std::uint32_t leafOf(std::uint32_t end) {
     return end < kExceptionAgain ? end & ~kLeafAgain : hierarchy::LeafTable::kNone;
   }
 
-  std::vector<std::uint32_t> of;   // by leaf: the leaf of `lines` that it was; LeafTable::kNone: none
-  std::vector<std::uint32_t> now;  // by leaf of `lines`: which that is now
-  Lines lines;                     // they end on leaves that there are now
-  std::vector<EscapedLine> escaped;
-  std::vector<Bend> bends;
-  std::vector<std::uint32_t> firstEscaped, firstException, firstBend;  // by leaf of `lines`
-  std::vector<char> whole;                                             // the same: all of its lines hold
+  std::vector<LineRange> before;  // where their lines were, and still lie; none of what was no leaf
+  std::vector<char> stands;       // whether it is a leaf that was one, where it was
+  std::vector<char> whole;        // the same, of which all lines hold
+
+  /// Whether a leaf has the lines that it had.
+  bool same(hierarchy::ElementId e, const Lines& now) const {
+    return whole[e.index()] && before[e.index()].count == now.countOf(e);
+  }
 };
 
 /// What lines are traced over. All must outlive whoever uses it.
@@ -124,11 +161,15 @@ struct LineScene {
   const KnownLines* known = nullptr;
 };
 
-/// `counts` lines of each leaf.
-TracedLines traceLines(const LineScene&, std::span<const std::uint32_t> counts);
+/// Traces lines until each leaf has `counts` of them at least: by leaf, in order. What is there and known is kept.
+void traceLines(const LineScene&, std::span<const std::uint32_t> counts, TracedLines&);
+/// Leaves of each leaf no more than `counts`.
+void trim(const hierarchy::LeafTable&, std::span<const std::uint32_t> counts, TracedLines&);
+/// Moves lines together where so many that are no more lie among them that it is worth it.
+void tidy(TracedLines&);
 
 /// Sets the directions in the lines' codes, which follow from the leaves that they start on.
-void setDirections(Lines&, const hierarchy::Elements&, const hierarchy::LeafTable&, const Scene&);
+void setDirections(Lines&, const hierarchy::Elements&, const Scene&);
 
 /// Direction i of a leaf's lines, about its normal there.
 class LineDirections {

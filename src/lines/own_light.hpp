@@ -5,11 +5,10 @@
 
 namespace deltalux::lines {
 
-/// By leaf [W/m2, gray]: what arrives over lines after kDimBounces of the light of `source`, but for what the brightest
-/// of its lines brings, which may be chance. `rho`: gray reflectance, through and back.
-std::vector<float> ownIndirect(const TracedLines&, std::span<const float> rho, std::span<const float> source);
-
-/// What was traced, but of leaves that have lines in `more` those in their place. Both of the same leaves.
-TracedLines replaced(const TracedLines&, const TracedLines& more);
+/// By leaf [W/m2, gray]: what arrives over its first `counts` lines, which it has, after kDimBounces of the light of
+/// `source`, but for what the brightest of its lines brings, which may be chance. `rho`: gray reflectance, through and
+/// back.
+std::vector<float> ownIndirect(const Lines&, const hierarchy::LeafTable&, std::span<const std::uint32_t> counts,
+                               std::span<const float> rho, std::span<const float> source);
 
 }  // namespace deltalux::lines

@@ -22,12 +22,15 @@ const CellOfCode& CellOfCode::table() {
 direct::SkyVisibility skyVisibility(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
                                     const lines::Lines& lines) {
   std::vector<std::uint32_t> counts(leaves.size(), 0);
-  for (std::size_t i = 0; i < lines.leaves(); ++i) counts[i] = lines.countOf(i);
+  if (!lines.empty())
+    for (std::size_t i = 0; i < leaves.size(); ++i) counts[i] = lines.countOf(leaves[i]);
   const CellOfCode& cellOf = CellOfCode::table();
   return {elements, leaves, counts, [&](std::size_t leaf, const auto& sink) {
             if (counts[leaf] == 0) return;
-            for (std::uint64_t k = lines.first[leaf]; k < lines.first[leaf + 1]; ++k)
-              if (lines.end[k] != lines::kCovered) sink(cellOf(lines.code[k]), lines.end[k] == lines::kEscaped);
+            const std::span<const std::uint32_t> ends = lines.endsOf(leaves[leaf]);
+            const std::span<const lines::LineCode> codes = lines.codesOf(leaves[leaf]);
+            for (std::size_t k = 0; k < ends.size(); ++k)
+              if (ends[k] != lines::kCovered) sink(cellOf(codes[k]), ends[k] == lines::kEscaped);
           }};
 }
 

@@ -30,13 +30,10 @@ std::vector<CausticReport> SolutionView::caustics() const {
 
 SolutionHashes hashesOf(const Solution& s) {
   SolutionHashes hashes;
-  const hierarchy::LeafTable leaves(s.elements);
-  std::vector<std::uint64_t> keys;
-  for (const hierarchy::ElementId leaf : leaves.leaves) {
-    keys.push_back(s.elements.key[leaf.index()]);
-    hashes.mesh += combineKeys(keys.back(), std::bit_cast<std::uint32_t>(s.elements.shape(leaf).exposed));
-  }
-  if (s.lines.leaves() == leaves.size()) hashes.lines = s.lines.hash(keys);
+  for (const hierarchy::ElementId leaf : hierarchy::LeafTable(s.elements).leaves)
+    hashes.mesh +=
+        combineKeys(s.elements.key[leaf.index()], std::bit_cast<std::uint32_t>(s.elements.shape(leaf).exposed));
+  if (!s.lines.empty()) hashes.lines = s.lines.hash(s.elements.key);
   hashes.particles = s.particles.hash();
   return hashes;
 }

@@ -20,8 +20,8 @@ struct Solution {
   hierarchy::Elements elements;
   hierarchy::Links links;               // that light is exchanged over, by the paper's method
   particles::Particles particles;       // a function of scene, seed and target count
-  lines::Lines lines;                   // of the receiving leaves in order, where light is exchanged by lines
-  std::vector<float> deviation;         // the same: standard error of a leaf's irradiance, gray [W/m2]
+  lines::Lines lines;                   // of the receiving leaves, where light is exchanged by lines
+  std::vector<float> deviation;         // of them in order: standard error of a leaf's irradiance, gray [W/m2]
   std::shared_ptr<SolveMemory> memory;  // of the last solve over lines, had it all the time it wanted; not in files
   std::vector<Rgb> sampledScale;        // by light: its scale when links last followed it
   caustics::Caustics caustics;          // how the particles' light is shown; never feeds back

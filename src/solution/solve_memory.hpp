@@ -81,17 +81,16 @@ struct DimLeaf {
 struct CoarseLines {
   lines::TracedLines traced;
   KnownSky sky;
-  std::vector<std::uint32_t> numberOf;  // by element: of its leaf
 };
 
 /// What stays of a solve.
 struct SolveMemory {
   PatchSamples samples;
-  particles::Details details;               // by element
-  std::vector<lines::LightWalks> walks;     // by element of the input level
-  std::vector<char> enclosed;               // the same: whether no light comes there, of walks or particles
-  std::vector<lines::EscapedLine> escaped;  // of the solution's lines
-  std::vector<lines::Bend> bends;           // of the same
+  particles::Details details;                        // by element
+  std::vector<lines::LightWalks> walks;              // by element of the input level
+  std::vector<char> enclosed;                        // the same: whether no light comes there, of walks or particles
+  lines::ListsOfLeaves<lines::EscapedLine> escaped;  // of the solution's lines
+  lines::ListsOfLeaves<lines::Bend> bends;           // of the same
   KnownSky sky;
   std::vector<DimLeaf> dim;                                   // ascending
   std::unique_ptr<lines::Exchange> exchange;                  // over those lines

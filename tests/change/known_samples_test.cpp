@@ -18,39 +18,40 @@ const Vec3 kBy(-0.4, 0.35, 0);
 
 bool same(lines::LineCode a, lines::LineCode b) { return a.x == b.x && a.y == b.y && a.reach == b.reach; }
 
-void expectSame(const TracedLines& a, const TracedLines& b) {
-  EXPECT_EQ(a.lines.first, b.lines.first);
-  EXPECT_EQ(a.lines.end, b.lines.end);
-  EXPECT_EQ(a.covered, b.covered);
-  for (std::size_t k = 0; k < a.lines.size(); ++k) ASSERT_TRUE(same(a.lines.code[k], b.lines.code[k])) << k;
-  ASSERT_EQ(a.lines.exceptions.size(), b.lines.exceptions.size());
-  for (std::size_t k = 0; k < a.lines.exceptions.size(); ++k) {
-    const lines::ExceptionalLine &x = a.lines.exceptions[k], &y = b.lines.exceptions[k];
-    ASSERT_TRUE(x.line == y.line && x.leaf == y.leaf && x.end == y.end && x.weight == y.weight) << k;
-    ASSERT_TRUE(x.turned == y.turned && x.rough == y.rough && x.beyond == y.beyond) << k;
-  }
-  ASSERT_EQ(a.escaped.size(), b.escaped.size());
-  for (std::size_t k = 0; k < a.escaped.size(); ++k) {
-    const lines::EscapedLine &x = a.escaped[k], &y = b.escaped[k];
-    ASSERT_TRUE(x.leaf == y.leaf && x.direction == y.direction && x.cosine == y.cosine && x.weight == y.weight &&
-                x.chance == y.chance)
-        << k;
-  }
-  ASSERT_EQ(a.bends.size(), b.bends.size());
-  for (std::size_t k = 0; k < a.bends.size(); ++k) {
-    const lines::Bend &x = a.bends[k], &y = b.bends[k];
-    ASSERT_TRUE(x.leaf == y.leaf && x.number == y.number && x.from == y.from && same(x.code, y.code)) << k;
+/// Of these leaves.
+void expectSame(const TracedLines& a, const TracedLines& b, const hierarchy::LeafTable& leaves) {
+  for (const hierarchy::ElementId leaf : leaves.leaves) {
+    ASSERT_TRUE(std::ranges::equal(a.lines.endsOf(leaf), b.lines.endsOf(leaf)));
+    ASSERT_EQ(a.lines.at(leaf).covered, b.lines.at(leaf).covered);
+    ASSERT_TRUE(std::ranges::equal(a.lines.codesOf(leaf), b.lines.codesOf(leaf), same));
+    ASSERT_TRUE(std::ranges::equal(a.lines.exceptions.at(leaf), b.lines.exceptions.at(leaf),
+                                   [](const lines::ExceptionalLine& x, const lines::ExceptionalLine& y) {
+                                     return x.number == y.number && x.end == y.end && x.weight == y.weight &&
+                                            x.turned == y.turned && x.rough == y.rough && x.beyond == y.beyond;
+                                   }));
+    ASSERT_TRUE(std::ranges::equal(
+        a.escaped.at(leaf), b.escaped.at(leaf), [](const lines::EscapedLine& x, const lines::EscapedLine& y) {
+          return x.direction == y.direction && x.cosine == y.cosine && x.weight == y.weight && x.chance == y.chance;
+        }));
+    ASSERT_TRUE(std::ranges::equal(a.bends.at(leaf), b.bends.at(leaf), [](const lines::Bend& x, const lines::Bend& y) {
+      return x.number == y.number && x.from == y.from && same(x.code, y.code);
+    }));
   }
 }
 
 /// Traces the room after a change with what is known, and without; returns the share of rays that were asked again.
 double expectTheSameFromKnown(const RoomChange& x) {
-  const TracedLines fresh = x.after.trace(x.countsAfter), taken = x.after.trace(x.countsAfter, &x.known);
-  EXPECT_GT(fresh.lines.exceptions.size(), 100u);
-  EXPECT_GT(fresh.escaped.size(), 100u);
-  EXPECT_GT(fresh.bends.size(), 100u);
+  const TracedLines fresh = x.after.trace(x.countsAfter), taken = x.taken();
+  EXPECT_GT(fresh.lines.exceptions.all.size(), 100u);
+  EXPECT_GT(fresh.escaped.all.size(), 100u);
+  EXPECT_GT(fresh.bends.all.size(), 100u);
   EXPECT_GT(std::ranges::count(fresh.lines.end, lines::kCovered), 100);
-  expectSame(taken, fresh);
+  EXPECT_NO_THROW(lines::validate(taken.lines));
+  expectSame(taken, fresh, x.after.leaves);
+  TracedLines tidied = taken;
+  lines::tidy(tidied);
+  EXPECT_LE(tidied.lines.end.size(), taken.lines.end.size());
+  expectSame(tidied, fresh, x.after.leaves);
   return static_cast<double>(taken.rays) / static_cast<double>(fresh.rays);
 }
 
@@ -99,23 +100,21 @@ TEST_P(MarkedLinesOfAThing, AreAllThatStartThereEndThereOrPassByIt) {
     return std::ranges::any_of(
         moved, [&](const SceneChange::Moved& m) { return meets(from, to, m.before) || meets(from, to, m.after); });
   };
-  const lines::Lines& all = x.tracedBefore.lines;
+  const lines::Lines &all = x.tracedBefore.lines, &marks = x.marked.lines;
   std::size_t again = 0, start = 0, end = 0, pass = 0, bent = 0, cutElsewhere = 0;
-  for (std::uint32_t i = 0; i < all.leaves(); ++i) {
-    const hierarchy::ElementId leaf = x.before.leaves[i];
+  for (const hierarchy::ElementId leaf : x.before.leaves.leaves) {
+    const std::uint32_t stands = x.elementNow[leaf.index()];
     const hierarchy::LeafSequence points(x.before.elements, x.before.scene, leaf);
     lines::LineDirections directions(points.key());
-    const bool starts = x.space.moved(x.before.elements.domain[leaf.index()].primitive), gone = x.known.now[i] == kNone;
+    const bool starts = x.space.moved(x.before.elements.domain[leaf.index()].primitive), gone = stands == kNone;
     EXPECT_TRUE(gone || !starts);
     cutElsewhere += gone && !starts;  // at the foot of what has moved
     bool whole = true;
-    for (std::uint32_t k = 0; k < all.countOf(i); ++k) {
-      const std::uint64_t line = all.first[i] + k;
-      const bool marked = KnownLines::isAgain(x.known.lines.end[line]);
+    for (std::uint32_t k = 0; k < all.countOf(leaf); ++k) {
+      const bool marked = gone || KnownLines::isAgain(marks.endsOf(x.known.before[stands])[k]);
       again += marked, whole = whole && !marked;
       start += starts;
-      EXPECT_TRUE(marked || !gone);
-      if (all.end[line] == lines::kCovered) continue;
+      if (all.endsOf(leaf)[k] == lines::kCovered) continue;
       const hierarchy::PatchPoint p = points.point(k);
       std::vector<lines::LineSegment> way;
       const lines::LineEnd to = x.before.tracer.follow(p.position, p.normal, directions(k, p.normal),
@@ -131,13 +130,15 @@ TEST_P(MarkedLinesOfAThing, AreAllThatStartThereEndThereOrPassByIt) {
         EXPECT_TRUE(marked);
       }
     }
-    EXPECT_EQ(whole, x.known.whole[i] != 0) << i;
+    if (!gone) {
+      EXPECT_EQ(whole, x.known.whole[stands] != 0);
+    }
   }
   const bool ends = GetParam() != kPane && GetParam() != kBall;  // nothing starts or ends on glass
   EXPECT_EQ(start > 100, ends);
   EXPECT_EQ(end > 20, ends);
   EXPECT_GT(pass, 100u);
-  EXPECT_LT(cutElsewhere, all.leaves() / 20);
+  EXPECT_LT(cutElsewhere, x.before.leaves.size() / 20);
   EXPECT_GT(bent, 2u);
   EXPECT_LT(again, 0.7 * static_cast<double>(all.size()));
 }
@@ -147,14 +148,38 @@ INSTANTIATE_TEST_SUITE_P(Each, MarkedLinesOfAThing, testing::Range(0, RoomOfThin
 TEST(KnownLines, TellWhereLinesEndedThatAreTracedAgain) {
   const RoomChange x(kBox, kBy, {}, {2, 0, true}, false);
   const lines::Lines& all = x.tracedBefore.lines;
-  for (std::uint64_t k = 0; k < all.size(); ++k) {
-    const bool straight = all.end[k] < lines::kFirstMark;
-    EXPECT_EQ(KnownLines::leafOf(x.known.lines.end[k]), straight ? x.known.now[all.end[k]] : kNone) << k;
-  }
-  for (std::uint32_t i = 0; i < x.known.of.size(); ++i)
-    if (x.known.of[i] != kNone) {
-      EXPECT_EQ(x.known.now[x.known.of[i]], i);
+  std::size_t told = 0;
+  for (const hierarchy::ElementId leaf : x.before.leaves.leaves) {
+    const std::uint32_t stands = x.elementNow[leaf.index()];
+    if (stands == kNone) continue;
+    const std::span<const std::uint32_t> before = all.endsOf(leaf), marked = x.marked.lines.endsOf(x.known.before[stands]);
+    ASSERT_EQ(before.size(), marked.size());
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      EXPECT_EQ(KnownLines::leafOf(marked[k]), before[k] < lines::kFirstMark ? x.elementNow[before[k]] : kNone) << k;
+      told += KnownLines::isAgain(marked[k]) && KnownLines::leafOf(marked[k]) != kNone;
     }
+  }
+  EXPECT_GT(told, 100u);
+}
+
+TEST(TraceLines, GoOnFromThoseThereAre) {
+  // Some leaves get more, once and again, and fewer in the end.
+  const TracedRoom room(RoomOfThings().scene, {});
+  std::vector<std::uint32_t> counts = room.counts(24, 1);
+  TracedLines further = room.trace(counts);
+  const std::uint64_t rays = further.rays;
+  for (const std::uint64_t seed : {2u, 3u}) {
+    std::vector<std::uint32_t> more = counts;
+    for (std::size_t i = 0; i < more.size(); i += seed) more[i] *= 4;
+    lines::traceLines({room.elements, room.leaves, room.locator, room.tracer, room.cover, room.enclosed}, more,
+                      further);
+  }
+  for (std::size_t i = 0; i < counts.size(); i += 5) counts[i] = i % 2 == 0 ? 0 : counts[i] / 2 + 3;
+  for (std::size_t i = 0; i < counts.size(); i += 6) counts[i] *= 4;
+  lines::trim(room.leaves, counts, further);
+  EXPECT_NO_THROW(lines::validate(further.lines));
+  EXPECT_GT(further.rays, 2 * rays);
+  expectSame(further, room.trace(counts), room.leaves);
 }
 
 }  // namespace

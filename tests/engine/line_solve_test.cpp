@@ -236,11 +236,11 @@ TEST(LineSolve, TheReportKnowsItsError) {
     std::vector<ProbePoint> points;
     double area = 0, next = 0;
     for (std::size_t i = 0; i < leaves.size(); ++i)
-      if (s.lines.countOf(i) > 0) area += s.elements.shape(leaves[i]).area;
+      if (s.lines.countOf(leaves[i]) > 0) area += s.elements.shape(leaves[i]).area;
     const double step = area / kLeaves;
     area = 0;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      if (s.lines.countOf(i) == 0) continue;
+      if (s.lines.countOf(leaves[i]) == 0) continue;
       const hierarchy::LeafSequence sequence(s.elements, s.scene, leaves[i]);
       for (area += s.elements.shape(leaves[i]).area; next < area; next += step) {
         chosen.push_back(i);

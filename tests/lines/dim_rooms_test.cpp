@@ -12,17 +12,28 @@ namespace {
 
 using lines::TracedLines;
 
-/// Leaves of so many lines each, which end where `end(leaf, line)` says.
+/// Leaves of so many lines each, which end where `end(leaf, line)` says; leaf by leaf an element.
 template <class End>
 TracedLines traced(std::uint32_t leaves, std::uint32_t each, const End& end) {
   TracedLines t;
-  t.lines.first.resize(leaves + 1);
-  t.lines.end.resize(std::size_t(leaves) * each), t.lines.code.resize(std::size_t(leaves) * each);
-  for (std::uint32_t i = 0; i <= leaves; ++i) t.lines.first[i] = std::uint64_t(i) * each;
-  for (std::uint32_t i = 0; i < leaves; ++i)
-    for (std::uint32_t k = 0; k < each; ++k) t.lines.end[std::size_t(i) * each + k] = end(i, k);
-  t.covered.assign(leaves, 0);
+  t.resize(leaves);
+  for (std::uint32_t i = 0; i < leaves; ++i) {
+    t.lines.of[i] = {std::uint64_t(i) * each, each, 0};
+    for (std::uint32_t k = 0; k < each; ++k) t.lines.end.push_back(end(i, k)), t.lines.code.push_back({});
+  }
   return t;
+}
+
+hierarchy::LeafTable tableOf(const TracedLines& t) {
+  hierarchy::LeafTable leaves;
+  for (std::uint32_t i = 0; i < t.lines.of.size(); ++i) leaves.leaves.emplace_back(i), leaves.indexOf.push_back(i);
+  return leaves;
+}
+
+std::vector<std::uint32_t> allOf(const TracedLines& t) {
+  std::vector<std::uint32_t> counts;
+  for (const lines::LineRange& r : t.lines.of) counts.push_back(r.count);
+  return counts;
 }
 
 constexpr std::uint32_t kEach = 128;
@@ -40,7 +51,10 @@ lines::DimCounts countsOf(const TracedLines& t) {
   std::vector<float> area(20, 1.0f), light(20, 50.0f);
   std::fill(light.begin() + 10, light.end(), 0.01f);
   const std::vector<lines::Place> places = lines::placesOf(light, kFloor, std::vector<char>(20, 1));
-  return lines::dimCounts(t, area, places, lines::waysInto(t, places), false);
+  const hierarchy::LeafTable leaves = tableOf(t);
+  const std::vector<std::uint32_t> counts = allOf(t);
+  return lines::dimCounts(t, leaves, counts, std::accumulate(counts.begin(), counts.end(), 0.0), area, places,
+                          lines::waysInto(t.lines, leaves, counts, places), false);
 }
 
 double sum(const std::vector<std::uint32_t>& counts) { return std::accumulate(counts.begin(), counts.end(), 0.0); }
@@ -70,28 +84,17 @@ TEST(OwnLight, IsWhatOthersSendButForTheBrightestLine) {
   // One leaf of eight lines sees a lamp-lit one twice, the other a dark one.
   const TracedLines t = traced(3, 8, [](std::uint32_t i, std::uint32_t k) { return i == 2 && k < 2 ? 0u : 1u; });
   const std::vector<float> rho(3, 0.5f), source{80, 0, 0};
-  const std::vector<float> light = lines::ownIndirect(t, rho, source);
+  const std::vector<float> light = lines::ownIndirect(t.lines, tableOf(t), allOf(t), rho, source);
   EXPECT_NEAR(light[2], 80 * 0.5 / 8, 1e-4);  // of two such lines one counts
   EXPECT_NEAR(light[1], 0, 1e-6);
 }
 
-TEST(Replaced, TakesLinesOfWhatWasTracedAgain) {
-  const TracedLines t = twoRooms(4);
-  TracedLines more = traced(20, 0, [](std::uint32_t, std::uint32_t) { return 0u; });
-  std::vector<std::uint64_t> first(21, 0);
-  for (std::size_t i = 0; i <= 20; ++i) more.lines.first[i] = i > 12 ? 3 : 0;
-  more.lines.end.resize(3), more.lines.code.resize(3);
-  more.lines.end[0] = 1, more.lines.end[1] = lines::kEscaped, more.lines.end[2] = lines::kException;
-  more.lines.exceptions.push_back({2, 12, 5});
-  more.escaped.push_back({12, {0, 0, 1}, 1});
-  const TracedLines r = lines::replaced(TracedLines(t), more);
-  EXPECT_NO_THROW(lines::validate(r.lines));
-  EXPECT_EQ(r.lines.size(), 19 * kEach + 3);
-  EXPECT_EQ(r.lines.countOf(12), 3u);
-  EXPECT_EQ(r.lines.end[r.lines.first[12]], 1u);
-  EXPECT_EQ(r.lines.exceptions.front().line, r.lines.first[12] + 2);
-  EXPECT_EQ(r.escaped.size(), 1u);
-  EXPECT_EQ(r.lines.end[r.lines.first[19] + 5], t.lines.end[t.lines.first[19] + 5]);
+TEST(OwnLight, IsOfTheFirstLinesThatAreAskedFor) {
+  const TracedLines t = traced(3, 8, [](std::uint32_t i, std::uint32_t k) { return i == 2 && k < 2 ? 0u : 1u; });
+  const std::vector<float> rho(3, 0.5f), source{80, 0, 0};
+  const std::vector<float> light =
+      lines::ownIndirect(t.lines, tableOf(t), std::vector<std::uint32_t>(3, 4), rho, source);
+  EXPECT_NEAR(light[2], 80 * 0.5 / 4, 1e-4);
 }
 
 }  // namespace

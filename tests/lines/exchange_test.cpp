@@ -23,11 +23,7 @@ struct Exchanged {
     const Solution& s = view.get();
     responses.emplace(s.scene, true);
     tracer.emplace(s.scene, *s.tracer, *responses);
-    std::vector<std::uint32_t> covered(leaves.size(), 0);
-    for (std::size_t i = 0; i < leaves.size(); ++i)
-      for (std::uint64_t k = s.lines.first[i]; k < s.lines.first[i + 1]; ++k)
-        covered[i] += s.lines.end[k] == lines::kCovered;
-    exchange.emplace(s.lines, s.elements, leaves, *tracer, covered);
+    exchange.emplace(s.lines, s.elements, leaves, *tracer);
   }
   static SolutionView solve(Scene scene) {
     SolveSettings settings;
@@ -117,33 +113,45 @@ std::vector<Rgb> randomLight(std::size_t leaves, std::uint64_t seed) {
   return B;
 }
 
+/// Within what an update leaves to be the same, some times that.
 void expectSame(lines::Exchange& a, lines::Exchange& b) {
+  constexpr float kSame = 5 * lines::tuning::kFollowed;
   ASSERT_EQ(a.leaves(), b.leaves());
   const std::size_t n = a.leaves();
   const std::vector<Rgb> B = randomLight(n, 3);
   std::vector<Rgb> Ea(n), Eb(n);
   a.gather(B, Ea), b.gather(B, Eb);
-  EXPECT_EQ(Ea, Eb);
   EXPECT_GT(std::ranges::count_if(Ea, [](const Rgb& E) { return !isBlack(E); }), static_cast<std::ptrdiff_t>(n / 8));
   std::vector<double> arrivingA(n), arrivingB(n);
   a.arriving(arrivingA), b.arriving(arrivingB);
-  EXPECT_EQ(arrivingA, arrivingB);
   std::vector<float> sigmaA(n), sigmaB(n);
   a.deviation(B, sigmaA), b.deviation(B, sigmaB);
-  EXPECT_EQ(sigmaA, sigmaB);
-  for (std::size_t i = 0; i < n; ++i) ASSERT_TRUE(a.area(i) == b.area(i) && a.closed(i) == b.closed(i)) << i;
+  for (std::size_t i = 0; i < n; ++i) {
+    ASSERT_EQ(a.area(i), b.area(i)) << i;
+    ASSERT_NEAR(a.closed(i), b.closed(i), 1e-5) << i;
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(Ea[i][c], Eb[i][c], kSame * Eb[i][c]) << i;
+    ASSERT_NEAR(arrivingA[i], arrivingB[i], kSame * arrivingB[i]) << i;
+    ASSERT_NEAR(sigmaA[i], sigmaB[i], kSame * (sigmaB[i] + Eb[i].g)) << i;  // a difference of such
+  }
 }
 
 lines::Exchange exchangeOf(const TracedRoom& room, const lines::TracedLines& traced) {
-  return {traced.lines, room.elements, room.leaves, room.tracer, traced.covered};
+  return {traced.lines, room.elements, room.leaves, room.tracer};
+}
+
+/// That of before a change, over the lines after it.
+lines::Exchange followed(lines::Exchange exchange, std::span<const std::uint32_t> elementsNow,
+                         const lines::KnownLines& known, const TracedRoom& room, const lines::TracedLines& now) {
+  exchange.renumber(elementsNow, room.elements.size());
+  exchange.follow(known, now.lines, room.elements, room.leaves, room.tracer);
+  return exchange;
 }
 
 void expectToFollow(const RoomChange& x) {
-  const lines::TracedLines now = x.after.trace(x.countsAfter, &x.known);
-  const lines::Exchange before = exchangeOf(x.before, x.tracedBefore);
-  lines::Exchange followed(before, x.known, now.lines, x.after.elements, x.after.leaves, x.after.tracer, now.covered);
-  lines::Exchange anew = exchangeOf(x.after, now);
-  expectSame(followed, anew);
+  const lines::TracedLines now = x.taken();
+  lines::Exchange following = followed(exchangeOf(x.before, x.tracedBefore), x.elementNow, x.known, x.after, now);
+  lines::Exchange whole = exchangeOf(x.after, now);
+  expectSame(following, whole);
 }
 
 const Vec3 kBy(-0.4, 0.35, 0);
@@ -168,30 +176,35 @@ INSTANTIATE_TEST_SUITE_P(Each, ExchangeOfAThing, testing::Range(0, RoomOfThings:
 
 TEST(Exchange, FollowsOneChangeAfterTheOther) {
   // The box goes to and fro, and the mesh is another each time.
-  std::optional<lines::Exchange> followed;
+  std::optional<lines::Exchange> following;
   std::unique_ptr<TracedRoom> before;
   RoomOfThings then;
-  lines::TracedLines tracedBefore;
-  for (int step = 0; step < 5; ++step) {
-    const RoomOfThings now(0, double(step) * Vec3(-0.2, 0.1, 0.05));
+  lines::TracedLines traced;
+  for (int step = 0; step < 9; ++step) {
+    const RoomOfThings room(0, double(step % 5) * Vec3(-0.2, 0.1, 0.05));
     const auto seed = static_cast<std::uint64_t>(step);
-    auto after = std::make_unique<TracedRoom>(now.scene, MeshOfRoom{2, seed % 3, step % 2 == 1});
+    auto after = std::make_unique<TracedRoom>(room.scene, MeshOfRoom{2, seed % 3, step % 2 == 1});
     const std::vector<std::uint32_t> counts = after->counts(24, seed / 2);
-    if (!followed) {
-      tracedBefore = after->trace(counts);
-      followed.emplace(exchangeOf(*after, tracedBefore));
+    if (!following) {
+      traced = after->trace(counts);
+      following.emplace(exchangeOf(*after, traced));
     } else {
-      const change::MovedSpace space(now.scene, movedThing(then, now, 0));
-      const lines::KnownLines known =
-          change::knownLines(space, tracedBefore, leavesBefore(*before, *after, space), after->elements, after->leaves);
-      tracedBefore = after->trace(counts, &known);
-      followed.emplace(lines::Exchange(*followed, known, tracedBefore.lines, after->elements, after->leaves,
-                                       after->tracer, tracedBefore.covered));
-      lines::Exchange anew = exchangeOf(*after, tracedBefore);
-      expectSame(*followed, anew);
+      const change::MovedSpace space(room.scene, movedThing(then, room, 0));
+      const std::vector<std::uint32_t> now = leavesAfter(*before, *after, space);
+      const lines::KnownLines known = knownAfter(space, now, after->elements, traced);
+      traced = after->trace(counts, &known, std::move(traced));
+      following.emplace(followed(std::move(*following), now, known, *after, traced));
+      lines::Exchange whole = exchangeOf(*after, traced);
+      expectSame(*following, whole);
     }
-    before = std::move(after), then = now;
+    before = std::move(after), then = room;
   }
+}
+
+std::vector<std::uint32_t> allStay(const TracedRoom& room) {
+  std::vector<std::uint32_t> now(room.elements.size(), hierarchy::LeafTable::kNone);
+  for (const hierarchy::ElementId leaf : room.leaves.leaves) now[leaf.index()] = leaf.value;
+  return now;
 }
 
 TEST(Exchange, FollowsPairsOfMoreLinesThanAnEntryHolds) {
@@ -200,75 +213,101 @@ TEST(Exchange, FollowsPairsOfMoreLinesThanAnEntryHolds) {
   addPolygon(scene, white, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   addPolygon(scene, white, {{0, 0, 0.1}, {0, 1, 0.1}, {1, 1, 0.1}, {1, 0, 0.1}});
   const TracedRoom room(scene, {.levels = 0});
-  std::vector<std::uint32_t> of(room.leaves.size());
-  std::iota(of.begin(), of.end(), 0u);
-  lines::TracedLines before = room.trace(std::vector<std::uint32_t>(room.leaves.size(), 40000));
+  const std::vector<std::uint32_t> stay = allStay(room);
+  const lines::TracedLines before = room.trace(std::vector<std::uint32_t>(room.leaves.size(), 40000));
   const lines::Exchange rows = exchangeOf(room, before);
   for (const std::uint32_t count : {100u, 40000u, 90000u}) {
-    const lines::KnownLines known = change::knownLines({}, before, of, room.elements, room.leaves);
-    const lines::TracedLines now = room.trace(std::vector<std::uint32_t>(room.leaves.size(), count), &known);
-    lines::Exchange followed(rows, known, now.lines, room.elements, room.leaves, room.tracer, now.covered);
-    lines::Exchange anew = exchangeOf(room, now);
-    expectSame(followed, anew);
+    lines::TracedLines marked = before;
+    const lines::KnownLines known = knownAfter({}, stay, room.elements, marked);
+    const lines::TracedLines now =
+        room.trace(std::vector<std::uint32_t>(room.leaves.size(), count), &known, std::move(marked));
+    lines::Exchange following = followed(rows, stay, known, room, now), whole = exchangeOf(room, now);
+    expectSame(following, whole);
   }
 }
 
-/// Lines that end by chance: a few of them exceptional, one of four leaves nowhere seen.
-lines::TracedLines randomLines(const TracedRoom& room, Rng& random) {
+/// Gives a leaf lines that end by chance, stored behind all others: a few of them exceptional, one of four leaves
+/// nowhere seen. `held`: what most of them end on.
+void setRandomLines(const TracedRoom& room, hierarchy::ElementId leaf, std::span<const std::uint32_t> held, Rng& random,
+                    lines::TracedLines& t) {
   const auto below = [&](std::size_t n) {
     return static_cast<std::uint32_t>(random.uniform() * static_cast<double>(n));
   };
-  const std::size_t n = room.leaves.size();
-  lines::TracedLines t;
-  t.lines.first.resize(n + 1);
-  t.lines.first[0] = 0;
-  for (std::size_t i = 0; i < n; ++i) t.lines.first[i + 1] = t.lines.first[i] + below(40);
-  t.lines.end.resize(t.lines.size()), t.lines.code.resize(t.lines.size());
-  t.covered.assign(n, 0);
-  for (std::uint32_t i = 0; i < n; ++i)
-    for (std::uint64_t k = t.lines.first[i]; k < t.lines.first[i + 1]; ++k) {
-      const double what = random.uniform();
-      const std::uint32_t end = below(n / 4) * 4 + below(3);
-      t.lines.end[k] = what < 0.8 ? end : what < 0.9 ? lines::kException : what < 0.95 ? lines::kCovered : lines::kLost;
-      t.covered[i] += t.lines.end[k] == lines::kCovered;
-      if (t.lines.end[k] == lines::kException)
-        t.lines.exceptions.push_back({k, i, end, Rgb(0.5f), what < 0.87, what < 0.85, what < 0.83});
+  lines::LineRange& range = t.lines.of[leaf.index()];
+  range = {t.lines.end.size(), below(40), 0};
+  auto& listed = t.lines.exceptions.of[leaf.index()];
+  listed = {static_cast<std::uint32_t>(t.lines.exceptions.all.size()), 0};
+  for (std::uint32_t k = 0; k < range.count; ++k) {
+    const double what = random.uniform();
+    std::uint32_t end = room.leaves[below(room.leaves.size() / 4) * 4 + below(3)].value;
+    if (what >= 0.8 && what < 0.9) {
+      t.lines.exceptions.all.push_back({k, end, Rgb(0.5f), what < 0.87, what < 0.85, what < 0.83});
+      end = lines::kException, ++listed.count;
+    } else if (what >= 0.9) {
+      end = what < 0.95 ? lines::kCovered : lines::kLost, range.covered += end == lines::kCovered;
+    } else if (k < held.size() && held[k] < lines::kFirstMark && !lines::KnownLines::isAgain(held[k]) && what < 0.56) {
+      end = held[k];
     }
-  return t;
+    t.lines.end.push_back(end), t.lines.code.push_back({});
+  }
 }
 
 TEST(Exchange, FollowsWhateverLinesThereAre) {
-  // A change that leaves nothing as it was but some lines by chance; leaves come, go, and get other numbers.
+  // A change that leaves nothing as it was but some lines by chance; leaves come, go, and are stored elsewhere.
   const TracedRoom room(RoomOfThings().scene, {});
-  constexpr std::uint32_t kNone = hierarchy::LeafTable::kNone;
-  const auto n = static_cast<std::uint32_t>(room.leaves.size());
+  const std::size_t n = room.leaves.size();
   Rng random(9);
-  for (int round = 0; round < 4; ++round) {
-    const lines::TracedLines before = randomLines(room, random);
-    const lines::Exchange rows = exchangeOf(room, before);
-    // The numbers of sides that send or do not are theirs, so pairs of leaves of a surface change places.
-    std::vector<std::uint32_t> of(n);
-    std::iota(of.begin(), of.end(), 0u);
-    for (std::uint32_t i = 0; i + 1 < n; i += 2)
-      if (random.uniform() < 0.5 && room.elements.sideOf(room.leaves[i]) == room.elements.sideOf(room.leaves[i + 1]))
-        std::swap(of[i], of[i + 1]);
-    for (std::uint32_t& o : of)
-      if (random.uniform() < 0.1) o = kNone;
-    const lines::KnownLines known = change::knownLines({}, before, of, room.elements, room.leaves);
-    lines::TracedLines now = randomLines(room, random);
-    for (std::uint32_t i = 0; i < n; ++i) {
-      if (of[i] == kNone) continue;
-      for (std::uint32_t k = 0; k < std::min(now.lines.countOf(i), known.lines.countOf(of[i])); ++k) {
-        std::uint32_t& end = now.lines.end[now.lines.first[i] + k];
-        const std::uint32_t held = known.lines.end[known.lines.first[of[i]] + k];
-        if (end != lines::kException && end != lines::kCovered && !lines::KnownLines::isAgain(held) &&
-            held < lines::kFirstMark && random.uniform() < 0.7)
-          end = held;
-      }
+  lines::TracedLines traced;
+  traced.resize(room.elements.size());
+  for (const hierarchy::ElementId leaf : room.leaves.leaves) setRandomLines(room, leaf, {}, random, traced);
+  lines::Exchange following = exchangeOf(room, traced);
+  for (int round = 0; round < 8; ++round) {
+    // What leaves send or do not is their surface's, so pairs of leaves of a surface change places.
+    std::vector<std::uint32_t> now = allStay(room);
+    for (std::uint32_t i = 0; i + 1 < n; i += 2) {
+      const hierarchy::ElementId a = room.leaves[i], b = room.leaves[i + 1];
+      if (random.uniform() < 0.5 && room.elements.sideOf(a) == room.elements.sideOf(b))
+        std::swap(now[a.index()], now[b.index()]);
     }
-    lines::Exchange followed(rows, known, now.lines, room.elements, room.leaves, room.tracer, now.covered);
-    lines::Exchange anew = exchangeOf(room, now);
-    expectSame(followed, anew);
+    for (std::uint32_t& e : now)
+      if (random.uniform() < 0.1) e = hierarchy::LeafTable::kNone;
+    lines::KnownLines known = knownAfter({}, now, room.elements, traced);
+    std::size_t same = 0;
+    for (const hierarchy::ElementId leaf : room.leaves.leaves) {
+      char& whole = known.whole[leaf.index()];
+      whole = whole && random.uniform() < 0.5, same += whole;
+      if (whole) continue;
+      const auto& before = known.before[leaf.index()];
+      const std::vector<std::uint32_t> held(
+          traced.lines.end.begin() + static_cast<std::ptrdiff_t>(before.first),
+          traced.lines.end.begin() + static_cast<std::ptrdiff_t>(before.first + before.count));
+      setRandomLines(room, leaf, held, random, traced);
+    }
+    EXPECT_NO_THROW(lines::validate(traced.lines));
+    following = followed(std::move(following), now, known, room, traced);
+    lines::Exchange whole = exchangeOf(room, traced);
+    expectSame(following, whole);
+  }
+}
+
+TEST(Exchange, GathersOthersAsAllAreGathered) {
+  const TracedRoom room(RoomOfThings().scene, {3, 0, false});
+  lines::Exchange all = exchangeOf(room, room.trace(room.counts(48, 1))), others = all;
+  const std::size_t n = all.leaves();
+  std::vector<Rgb> B = randomLight(n, 4), E(n), exact(n);
+  EXPECT_FALSE(others.remembers());
+  others.gather(B, E);
+  EXPECT_TRUE(others.remembers());
+  Rng random(5);
+  for (int round = 0; round < 40; ++round) {
+    // A few leaves become others, all of them a little.
+    for (Rgb& b : B) b *= 1 + 2e-4f * static_cast<float>(random.uniform() - 0.4);
+    for (int i = 0; i < 5; ++i) B[static_cast<std::size_t>(random.uniform() * static_cast<double>(n))] = Rgb(0.5f);
+    others.gatherOthers(B, E);
+    all.gather(B, exact);
+    for (std::size_t i = 0; i < n; ++i)
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(E[i][c], exact[i][c], 3 * lines::tuning::kFollowed * exact[i][c]) << round << ' ' << i;
   }
 }
 

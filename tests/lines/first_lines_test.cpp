@@ -39,28 +39,24 @@ void expectTheSameWithFirstLines(const SolutionView& view) {
   std::vector<std::unique_ptr<lines::FirstLines>> first(s.elements.size());
   for (std::size_t i = 0; i < leaves.size(); i += i % 3 == 0 ? 1 : 2)
     meter.measure(leaves[i], *(first[leaves[i].index()] = std::make_unique<lines::FirstLines>()));
-  const lines::TracedLines all = lines::traceLines({s.elements, leaves, locator, tracer, cover, enclosed}, counts);
-  const lines::TracedLines rest =
-      lines::traceLines({s.elements, leaves, locator, tracer, cover, enclosed, first}, counts);
+  lines::TracedLines all, rest;
+  lines::traceLines({s.elements, leaves, locator, tracer, cover, enclosed}, counts, all);
+  lines::traceLines({s.elements, leaves, locator, tracer, cover, enclosed, first}, counts, rest);
   EXPECT_LT(rest.rays, all.rays);
-  EXPECT_EQ(rest.lines.end, all.lines.end);
-  EXPECT_EQ(rest.covered, all.covered);
-  for (std::size_t k = 0; k < all.lines.code.size(); ++k) {
-    const lines::LineCode a = all.lines.code[k], b = rest.lines.code[k];
-    ASSERT_TRUE(a.x == b.x && a.y == b.y && a.reach == b.reach) << k;
-  }
-  ASSERT_EQ(rest.lines.exceptions.size(), all.lines.exceptions.size());
-  for (std::size_t k = 0; k < all.lines.exceptions.size(); ++k) {
-    EXPECT_EQ(rest.lines.exceptions[k].line, all.lines.exceptions[k].line);
-    EXPECT_EQ(rest.lines.exceptions[k].end, all.lines.exceptions[k].end);
-    EXPECT_EQ(rest.lines.exceptions[k].weight, all.lines.exceptions[k].weight);
-  }
-  ASSERT_EQ(rest.escaped.size(), all.escaped.size());
-  for (std::size_t k = 0; k < all.escaped.size(); ++k) {
-    EXPECT_EQ(rest.escaped[k].leaf, all.escaped[k].leaf);
-    EXPECT_EQ(rest.escaped[k].direction, all.escaped[k].direction);
-    EXPECT_EQ(rest.escaped[k].cosine, all.escaped[k].cosine);
-    EXPECT_EQ(rest.escaped[k].weight, all.escaped[k].weight);
+  for (const hierarchy::ElementId leaf : leaves.leaves) {
+    ASSERT_TRUE(std::ranges::equal(rest.lines.endsOf(leaf), all.lines.endsOf(leaf)));
+    ASSERT_EQ(rest.lines.at(leaf).covered, all.lines.at(leaf).covered);
+    ASSERT_TRUE(std::ranges::equal(
+        rest.lines.codesOf(leaf), all.lines.codesOf(leaf),
+        [](lines::LineCode a, lines::LineCode b) { return a.x == b.x && a.y == b.y && a.reach == b.reach; }));
+    ASSERT_TRUE(std::ranges::equal(rest.lines.exceptions.at(leaf), all.lines.exceptions.at(leaf),
+                                   [](const lines::ExceptionalLine& a, const lines::ExceptionalLine& b) {
+                                     return a.number == b.number && a.end == b.end && a.weight == b.weight;
+                                   }));
+    ASSERT_TRUE(std::ranges::equal(rest.escaped.at(leaf), all.escaped.at(leaf),
+                                   [](const lines::EscapedLine& a, const lines::EscapedLine& b) {
+                                     return a.direction == b.direction && a.cosine == b.cosine && a.weight == b.weight;
+                                   }));
   }
 }
 

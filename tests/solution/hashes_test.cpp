@@ -36,9 +36,9 @@ SolutionHashes changed(const Change& change) {
 std::pair<std::uint32_t, std::uint32_t> siblings(const Solution& s) {
   const hierarchy::LeafTable leaves(s.elements);
   for (std::uint32_t i = 0; i + 1 < leaves.size(); ++i)
-    if (s.lines.countOf(i) > 0 && s.lines.countOf(i + 1) > 0 &&
+    if (s.lines.countOf(leaves[i]) > 0 && s.lines.countOf(leaves[i + 1]) > 0 &&
         s.elements.at(leaves[i]).parent == s.elements.at(leaves[i + 1]).parent && s.elements.at(leaves[i]).depth > 0)
-      return {i, i + 1};
+      return {leaves[i].value, leaves[i + 1].value};
   return {};
 }
 
@@ -57,8 +57,7 @@ TEST(Hashes, TellWhatIsOther) {
   EXPECT_EQ(differences(changed([&](Solution& s) { s.elements.geometry[leaves[3].index()].exposed *= 0.5f; }), hashes),
             "mesh ");
   // Lines know leaves by their keys.
-  EXPECT_EQ(differences(changed([&](Solution& s) { ++s.elements.key[leaves[siblings(s).first].index()]; }), hashes),
-            "mesh lines ");
+  EXPECT_EQ(differences(changed([&](Solution& s) { ++s.elements.key[siblings(s).first]; }), hashes), "mesh lines ");
   const auto straight = [](const Solution& s) {
     std::uint64_t k = 0;
     while (s.lines.end[k] >= lines::kFirstMark) ++k;
@@ -66,9 +65,10 @@ TEST(Hashes, TellWhatIsOther) {
   };
   EXPECT_EQ(differences(changed([&](Solution& s) { s.lines.end[straight(s)] = lines::kEscaped; }), hashes), "lines ");
   EXPECT_EQ(differences(changed([&](Solution& s) { s.lines.end[straight(s)] ^= 1; }), hashes), "lines ");
-  ASSERT_FALSE(furnished().lines.exceptions.empty());
-  EXPECT_EQ(differences(changed([](Solution& s) { s.lines.exceptions.back().weight.g *= 1.001f; }), hashes), "lines ");
-  EXPECT_EQ(differences(changed([](Solution& s) { s.lines.exceptions.back().end ^= 1; }), hashes), "lines ");
+  ASSERT_FALSE(furnished().lines.exceptions.all.empty());
+  EXPECT_EQ(differences(changed([](Solution& s) { s.lines.exceptions.all.back().weight.g *= 1.001f; }), hashes),
+            "lines ");
+  EXPECT_EQ(differences(changed([](Solution& s) { s.lines.exceptions.all.back().end ^= 1; }), hashes), "lines ");
   ASSERT_GT(furnished().particles.impacts(), 0u);
   EXPECT_EQ(differences(changed([](Solution& s) { s.particles.throughput[0].r *= 1.001f; }), hashes), "particles ");
   EXPECT_EQ(differences(changed([](Solution& s) { s.particles.uv[0].x += 0.001f; }), hashes), "particles ");
@@ -88,24 +88,15 @@ TEST(Hashes, DoNotDependOnTheOrderOfLeaves) {
   const auto [a, b] = siblings(furnished());
   ASSERT_NE(a, b);
   const SolutionHashes swapped = changed([a = a, b = b](Solution& s) {
-    const hierarchy::LeafTable leaves(s.elements);
-    std::swap(s.elements.key[leaves[a].index()], s.elements.key[leaves[b].index()]);
-    std::swap(s.elements.geometry[leaves[a].index()], s.elements.geometry[leaves[b].index()]);
+    std::swap(s.elements.key[a], s.elements.key[b]);
+    std::swap(s.elements.geometry[a], s.elements.geometry[b]);
     const auto other = [&](std::uint32_t leaf) { return leaf == a ? b : leaf == b ? a : leaf; };
-    const lines::Lines before = s.lines;
     lines::Lines& now = s.lines;
-    for (std::uint32_t i = 0; i < now.leaves(); ++i) now.first[i + 1] = now.first[i] + before.countOf(other(i));
-    for (std::uint32_t i = 0; i < now.leaves(); ++i)
-      for (std::uint32_t k = 0; k < now.countOf(i); ++k) {
-        const std::uint32_t end = before.end[before.first[other(i)] + k];
-        now.end[now.first[i] + k] = end < lines::kFirstMark ? other(end) : end;
-      }
-    for (lines::ExceptionalLine& e : now.exceptions) {
-      e.line -= before.first[e.leaf];
-      e.leaf = other(e.leaf), e.end = other(e.end);
-      e.line += now.first[e.leaf];
-    }
-    std::ranges::sort(now.exceptions, {}, &lines::ExceptionalLine::line);
+    std::swap(now.of[a], now.of[b]);
+    std::swap(now.exceptions.of[a], now.exceptions.of[b]);
+    for (std::uint32_t& end : now.end)
+      if (end < lines::kFirstMark) end = other(end);
+    for (lines::ExceptionalLine& e : now.exceptions.all) e.end = other(e.end);
     EXPECT_NO_THROW(lines::validate(now));
   });
   EXPECT_EQ(differences(swapped, hashesOf(furnished())), "");

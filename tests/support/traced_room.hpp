@@ -79,8 +79,12 @@ class TracedRoom {
         cover(scene, *embree),
         enclosed(elements.size(), 0) {}
 
-  lines::TracedLines trace(std::span<const std::uint32_t> counts, const lines::KnownLines* known = nullptr) const {
-    return lines::traceLines({elements, leaves, locator, tracer, cover, enclosed, {}, known}, counts);
+  /// From lines that are there, if any.
+  lines::TracedLines trace(std::span<const std::uint32_t> counts, const lines::KnownLines* known = nullptr,
+                           lines::TracedLines from = {}) const {
+    lines::traceLines({elements, leaves, locator, tracer, cover, enclosed, {}, known}, counts, from);
+    lines::trim(leaves, counts, from);
+    return from;
   }
   /// By leaf: `least` lines or some octaves more, by chance.
   std::vector<std::uint32_t> counts(std::uint32_t least, std::uint64_t seed) const {
@@ -116,22 +120,30 @@ class TracedRoom {
   }
 };
 
-/// By leaf of `after`: which leaf of `before` stood there, as large, of surfaces that have not moved; LeafTable::kNone.
-inline std::vector<std::uint32_t> leavesBefore(const TracedRoom& before, const TracedRoom& after,
-                                               const change::MovedSpace& space) {
-  std::unordered_map<std::uint64_t, std::uint32_t> byKey;
-  for (std::uint32_t i = 0; i < before.leaves.size(); ++i) byKey[before.elements.key[before.leaves[i].index()]] = i;
-  std::vector<std::uint32_t> of;
+/// By element of `before`: which leaf of `after` stands there, as large, of surfaces that have not moved;
+/// LeafTable::kNone.
+inline std::vector<std::uint32_t> leavesAfter(const TracedRoom& before, const TracedRoom& after,
+                                              const change::MovedSpace& space) {
+  std::unordered_map<std::uint64_t, hierarchy::ElementId> byKey;
+  for (const hierarchy::ElementId leaf : before.leaves.leaves) byKey[before.elements.key[leaf.index()]] = leaf;
+  std::vector<std::uint32_t> now(before.elements.size(), hierarchy::LeafTable::kNone);
   for (const hierarchy::ElementId leaf : after.leaves.leaves) {
     const auto at = byKey.find(after.elements.key[leaf.index()]);
-    const auto stays = [&] {
-      const hierarchy::ElementGeometry &a = before.elements.shape(before.leaves[at->second]),
-                                       &b = after.elements.shape(leaf);
-      return !space.moved(after.elements.domain[leaf.index()].primitive) && a.lower == b.lower && a.upper == b.upper;
-    };
-    of.push_back(at != byKey.end() && stays() ? at->second : hierarchy::LeafTable::kNone);
+    if (at == byKey.end() || space.moved(after.elements.domain[leaf.index()].primitive)) continue;
+    const hierarchy::ElementGeometry &a = before.elements.shape(at->second), &b = after.elements.shape(leaf);
+    if (a.lower == b.lower && a.upper == b.upper) now[at->second.index()] = leaf.value;
   }
-  return of;
+  return now;
+}
+
+/// What lines of leaves, by where those are `now`, are worth over a mesh: marks them.
+inline lines::KnownLines knownAfter(const change::MovedSpace& space, std::span<const std::uint32_t> now,
+                                    const hierarchy::Elements& elements, lines::TracedLines& all) {
+  std::vector<char> stands(elements.size(), false);
+  for (const std::uint32_t e : now)
+    if (e != hierarchy::LeafTable::kNone) stands[e] = true;
+  all = lines::renumbered(all, now, elements.size());
+  return change::knownLines(space, all, stands, elements);
 }
 
 /// Lines over a room before a change, and what they are worth after it.
@@ -144,7 +156,11 @@ struct RoomChange {
   change::MovedSpace space;
   std::vector<std::uint32_t> countsAfter;
   lines::TracedLines tracedBefore;
+  std::vector<std::uint32_t> elementNow;  // leavesAfter()
+  lines::TracedLines marked;       // the same lines over the mesh after it
   lines::KnownLines known;
+
+  lines::TracedLines taken() const { return after.trace(countsAfter, &known, marked); }
 
  private:
   RoomChange(RoomOfThings then, RoomOfThings now, int moved, const MeshOfRoom& meshBefore, const MeshOfRoom& meshAfter,
@@ -152,7 +168,9 @@ struct RoomChange {
       : before(then.scene, meshBefore), after(now.scene, meshAfter), countsAfter(after.counts(24, recount ? 2 : 1)) {
     if (moved < RoomOfThings::kThings) space = change::MovedSpace(now.scene, movedThing(then, now, moved));
     tracedBefore = before.trace(before.counts(24, 1));
-    known = change::knownLines(space, tracedBefore, leavesBefore(before, after, space), after.elements, after.leaves);
+    elementNow = leavesAfter(before, after, space);
+    marked = tracedBefore;
+    known = knownAfter(space, elementNow, after.elements, marked);
   }
 };
 

@@ -15,7 +15,7 @@
 
 namespace deltalux::io {
 
-inline constexpr std::uint32_t kFormatVersion = 23;  // [layout]
+inline constexpr std::uint32_t kFormatVersion = 24;  // [layout]
 
 /// Takes the bytes of a file in order, in blocks.
 using ByteSink = std::function<void(std::string_view)>;

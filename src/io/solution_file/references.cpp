@@ -125,24 +125,29 @@ void checkLinkTree(const hierarchy::Links& links) {
   }
 }
 
-/// Lines are of the leaves in order, and lie on shapes that are there.
+/// Lines are of leaves, end on leaves, and lie on shapes that are there.
 void checkLines(const lines::Lines& l, const std::vector<float>& deviation, const hierarchy::Elements& elements,
                 const Scene& scene) {
-  require(!l.first.empty() && l.first[0] == 0, "lines: where the first begin");
-  for (const lines::ExceptionalLine& e : l.exceptions)
+  for (const lines::ExceptionalLine& e : l.exceptions.all)
     require(byteAt(e, offsetof(lines::ExceptionalLine, turned)) <= 1 &&
                 byteAt(e, offsetof(lines::ExceptionalLine, rough)) <= 1 &&
                 byteAt(e, offsetof(lines::ExceptionalLine, beyond)) <= 1,
             "line: flag");
   validate(l);
-  if (l.leaves() == 0) return require(deviation.empty(), "deviations: of leaves");
+  if (l.empty()) return require(deviation.empty(), "deviations: of leaves");
   const hierarchy::LeafTable leaves(elements);
-  require(l.leaves() == leaves.size() && deviation.size() == leaves.size(), "lines: of every leaf");
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const hierarchy::PatchDomain& d = elements.domain[leaves[i].index()];
+  require(l.of.size() == elements.size(), "lines: of every element");
+  require(deviation.size() == leaves.size(), "deviations: of leaves");
+  const auto isLeaf = [&](std::uint32_t e) { return leaves.indexOf[e] != hierarchy::LeafTable::kNone; };
+  for (std::uint32_t i = 0; i < l.of.size(); ++i) {
+    if (l.of[i].count == 0) continue;
+    const hierarchy::PatchDomain& d = elements.domain[i];
+    require(isLeaf(i), "lines: of leaves");
     const auto* mesh = std::get_if<Mesh>(&scene[d.primitive].shape);
-    require(l.first[i] == l.first[i + 1] || !mesh || d.triangle < mesh->triangles.size(), "lines: of a shape");
+    require(!mesh || d.triangle < mesh->triangles.size(), "lines: of a shape");
   }
+  for (const std::uint32_t end : l.end) require(end >= lines::kFirstMark || isLeaf(end), "lines: end on leaves");
+  for (const lines::ExceptionalLine& e : l.exceptions.all) require(isLeaf(e.end), "lines: end on leaves");
 }
 
 void checkCaustics(const caustics::Caustics& c, const Scene& scene) {

@@ -46,14 +46,28 @@ void members(auto& archive, Is<hierarchy::Links> auto& l) {
   transferAll(archive, all, roots);
 }
 
+/// Of leaves one after the other.
 void members(auto& archive, Is<lines::Lines> auto& l) {
-  auto& [first, end, code, exceptions] = l;
+  auto& [of, end, code, exceptions] = l;
+  std::vector<std::uint32_t> counts(of.size()), listed(of.size());
   LargeArray<std::uint16_t> reach(code.size());  // the rest of a code follows from the line's leaf
   constexpr bool reads = std::remove_reference_t<decltype(archive)>::kReads;
-  if constexpr (!reads)
+  if constexpr (!reads) {
+    for (std::size_t i = 0; i < of.size(); ++i) counts[i] = of[i].count, listed[i] = exceptions.of[i].count;
     for (std::size_t i = 0; i < code.size(); ++i) reach[i] = code[i].reach;
-  transferAll(archive, first, end, reach, exceptions);
+  }
+  transferAll(archive, counts, end, reach, listed, exceptions.all);
   if constexpr (reads) {
+    archive.require(listed.size() == counts.size());
+    of.resize(counts.size()), exceptions.of.resize(counts.size());
+    std::uint64_t first = 0, firstException = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      of[i] = {first, counts[i], 0}, exceptions.of[i] = {static_cast<std::uint32_t>(firstException), listed[i]};
+      first += counts[i], firstException += listed[i];
+    }
+    archive.require(first == end.size() && firstException == exceptions.all.size());
+    for (auto& r : of)
+      for (const std::uint32_t e : l.endsOf(r)) r.covered += e == lines::kCovered;
     code.resize(reach.size());
     for (std::size_t i = 0; i < code.size(); ++i) code[i].reach = reach[i];
   }
