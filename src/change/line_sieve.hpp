@@ -1,6 +1,8 @@
 #pragma once
 // Which of a leaf's lines come anywhere near where something has moved: for millions of them, a nanosecond each, so
 // that few are looked at one by one.
+#include <array>
+
 #include "change/moved_space.hpp"
 #include "lines/line_code.hpp"
 
@@ -15,8 +17,14 @@ class LineSieve {
   void mark(std::span<const lines::LineCode>, std::span<char> near) const;
 
  private:
-  Vec3f center_, half_;  // of the box that a line from the origin would have to pass
-  float far_;            // how far that is
+  /// A group of boxes as lines from the origin see it.
+  struct Target {
+    Vec3f center, half;
+    float far;  // how far lines have to run
+  };
+
+  std::array<Target, MovedSpace::kMostAround> targets_;
+  std::size_t count_ = 0;
 };
 
 }  // namespace deltalux::change

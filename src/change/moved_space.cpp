@@ -2,25 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/tuning.hpp"
+#include "change/separating_axes.hpp"
 
 namespace deltalux::change {
 
 namespace {
 
 constexpr double kMargin = 1e-5;  // that boxes are wider by, in the scene's extent: roundings of origins [rounding]
-
-/// Of the parameters in [begin, end] at which a line is within the slab; none where begin > end then.
-void clip(float lower, float upper, float origin, float direction, float& begin, float& end) {
-  if (direction == 0) {
-    if (origin < lower || origin > upper) end = -1;
-    return;
-  }
-  float near = (lower - origin) / direction, far = (upper - origin) / direction;
-  if (near > far) std::swap(near, far);
-  begin = std::max(begin, near), end = std::min(end, far);
-}
 
 /// Of the parameters in [begin, end] those at which what goes from `atZero` to `atOne` is not above zero.
 void keepBelow(float atZero, float atOne, float& begin, float& end) {
@@ -36,6 +27,12 @@ void keepBelow(float atZero, float atOne, float& begin, float& end) {
 float surface(const BoxF& box) {
   const Vec3f d = box.upper - box.lower;
   return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+BoxF hull(std::span<const BoxF> boxes) {
+  BoxF all;
+  for (const BoxF& box : boxes) all.extend(box);
+  return all;
 }
 
 /// Boxes that hold all of these, some kBoxes: the largest is split, at the middle of its boxes.
@@ -87,15 +84,58 @@ MovedSpace::MovedSpace(const Scene& scene, std::span<const SceneChange::Moved> a
     add(after, bounds(scene[m.primitive].shape));
   }
   margin_ = static_cast<float>(kMargin * extent.diagonal());
+  before = fewBoxes(std::move(before)), after = fewBoxes(std::move(after));
   for (std::vector<BoxF>* boxes : {&before, &after})
-    for (const BoxF& box : fewBoxes(*boxes)) hold({box.lower - margin_, box.upper + margin_});
+    for (BoxF& box : *boxes) box.lower -= margin_, box.upper += margin_;
+  // What meets one box around both is looked for in both: worth while where that is no larger than two.
+  BoxF both = hull(before);
+  both.extend(hull(after));
+  if (before.empty() || after.empty() || surface(both) <= surface(hull(before)) + surface(hull(after)))
+    before.insert(before.end(), after.begin(), after.end()), after.clear();
+  hold(before), hold(after);
 }
 
-void MovedSpace::hold(const BoxF& box) { boxes_.push_back(box), all_.extend(box); }
+void MovedSpace::hold(std::span<const BoxF> group) {
+  if (group.empty()) return;
+  around_.emplace_back(), rows_.emplace_back();
+  for (const BoxF& box : group) put(box);
+}
+
+void MovedSpace::put(const BoxF& box) {
+  boxes_.push_back(box), around_.back().extend(box), all_.extend(box);
+  Rows& rows = rows_.back();
+  if (rows.empty() || rows.back().count == Row::kBoxes) rows.emplace_back();
+  rows.back().put(box);
+}
 
 void MovedSpace::add(PrimitiveId primitive, const BoxF& box) {
   moved_[primitive.index()] = 1;
-  hold({box.lower - margin_, box.upper + margin_});
+  if (!std::exchange(added_, true)) around_.emplace_back(), rows_.emplace_back();
+  put({box.lower - margin_, box.upper + margin_});
+}
+
+void MovedSpace::Row::put(const BoxF& box) {
+  const Vec3f middle = 0.5f * (box.lower + box.upper), half = glm::max(box.upper - middle, middle - box.lower);
+  for (std::size_t i = count; i < kBoxes; ++i) {
+    x[i] = middle.x, y[i] = middle.y, z[i] = middle.z;
+    halfX[i] = half.x, halfY[i] = half.y, halfZ[i] = half.z;
+  }
+  ++count;
+}
+
+bool MovedSpace::Row::crosses(const Line& line) const {
+  const Vec3f from = line.from, wide = line.half, w = line.halfUnit;
+  int any = 0;
+  for (std::size_t i = 0; i < kBoxes; ++i) {
+    const float cx = x[i] - from.x, cy = y[i] - from.y, cz = z[i] - from.z;
+    const float hx = halfX[i] + wide.x, hy = halfY[i] + wide.y, hz = halfZ[i] + wide.z;
+    const float fx = std::abs(cx) + hx, fy = std::abs(cy) + hy, fz = std::abs(cz) + hz;
+    // As wide as the line may have strayed where it is farthest in the box, and no longer.
+    const float far = std::sqrt(fx * fx + fy * fy + fz * fz), t = line.length < far ? line.length : far;
+    const float stray = line.stray * t;
+    any |= apart(cx, cy, cz, hx + stray, hy + stray, hz + stray, t * w.x, t * w.y, t * w.z) > 0 ? 0 : 1;
+  }
+  return any != 0;
 }
 
 bool MovedSpace::behind(const Vec3f& point, const Vec3f& normal) const {
@@ -104,22 +144,15 @@ bool MovedSpace::behind(const Vec3f& point, const Vec3f& normal) const {
 }
 
 bool MovedSpace::touches(const BoxF& box) const {
-  return std::ranges::any_of(boxes_, [&](const BoxF& moved) { return moved.overlaps(box); });
+  return all_.overlaps(box) && std::ranges::any_of(boxes_, [&](const BoxF& moved) { return moved.overlaps(box); });
 }
 
 bool MovedSpace::crosses(const BoxF& from, const Vec3f& direction, float length, float stray) const {
-  const float unit = glm::length(direction);
-  const Vec3f point = 0.5f * (from.lower + from.upper), half = 0.5f * (from.upper - from.lower);
-  const auto crosses = [&](const BoxF& box) {
-    // As wide as the line may have strayed where it is farthest in the box.
-    const float far = std::min(length, glm::length(glm::max(glm::abs(box.lower - point), glm::abs(box.upper - point))));
-    const Vec3f wide = half + stray * far;
-    float begin = 0, end = (length + glm::length(wide)) / unit;
-    for (int axis = 0; axis < 3; ++axis)
-      clip(box.lower[axis] - wide[axis], box.upper[axis] + wide[axis], point[axis], direction[axis], begin, end);
-    return begin <= end;
-  };
-  return !boxes_.empty() && crosses(all_) && std::ranges::any_of(boxes_, crosses);
+  const Line line{0.5f * (from.lower + from.upper), 0.5f * (from.upper - from.lower),
+                  0.5f / glm::length(direction) * direction, length, stray};
+  return std::ranges::any_of(rows_, [&](const Rows& group) {
+    return std::ranges::any_of(group, [&](const Row& row) { return row.crosses(line); });
+  });
 }
 
 bool MovedSpace::between(const BoxF& a, const BoxF& b) const {
