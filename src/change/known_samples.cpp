@@ -36,12 +36,17 @@ bool holdFirstLines(const MovedSpace& space, const hierarchy::Elements& elements
   const BoxF box = boxOf(elements.shape(patch));
   if (space.moved(elements.domain[patch.index()].primitive) || space.touches(box)) return false;
   if (!faces(space, elements, patch)) return true;
-  for (const lines::LineCode code : first.beyond)
-    if (mayCross(space, box, code)) return false;
+  const LineSieve sieve(space, box, lines::kDirectionError);
   std::array<lines::LineCode, hierarchy::LeafSequence::kBatch> codes;
   std::array<char, hierarchy::LeafSequence::kBatch> near;
+  for (std::size_t begin = 0; begin < first.beyond.size(); begin += near.size()) {
+    const auto some = std::span(first.beyond).subspan(begin, std::min(near.size(), first.beyond.size() - begin));
+    sieve.mark(some, std::span(near).first(some.size()));
+    for (std::size_t i = 0; i < some.size(); ++i)
+      if (near[i] && mayCross(space, box, some[i])) return false;
+  }
   for (std::uint32_t i = 0; i < codes.size(); ++i) codes[i] = first.line[i].code;
-  LineSieve(space, box, lines::kDirectionError).mark(codes, near);
+  sieve.mark(codes, near);
   if (std::ranges::find(near, 1) == near.end()) return true;
   const hierarchy::LeafSequence points(elements, scene, patch);
   for (std::uint32_t i = 0; i < codes.size(); ++i) {
