@@ -78,6 +78,13 @@ double potential(const Lamp& lamp, const hierarchy::ElementGeometry& g) {
   return lamp.most * cosine / std::max(nearest * nearest, 1e-30);
 }
 
+bool isBelow(const Lamp& lamp, const Vec3f& at, const Vec3f& normal) {
+  if (lamp.sun) return false;
+  const Vec3f center = 0.5f * (lamp.lower + lamp.upper), half = 0.5f * (lamp.upper - lamp.lower);
+  const Vec3f up = glm::abs(normal), coordinates = glm::abs(center) + half + glm::abs(at);
+  return glm::dot(center - at, normal) + glm::dot(half, up) < -kRounding * glm::dot(coordinates, up);
+}
+
 bool isNarrow(const Lamp& lamp) { return !lamp.sun && 2 * lamp.beam <= tuning::kNarrow; }
 
 double beamWidth(const Lamp& lamp, const hierarchy::ElementGeometry& g) {

@@ -34,6 +34,8 @@ inline std::uint64_t lampBits(LightId id) {
 /// Irradiance that a lamp may bring to a patch, about, unshadowed [W/m2, gray]; 0 where it provably cannot: it lies
 /// behind the patch, the patch behind it, or outside its cone.
 double potential(const Lamp&, const hierarchy::ElementGeometry&);
+/// Whether a lamp lies below the horizon of a point with that unit normal: no sample of it brings anything there.
+bool isBelow(const Lamp&, const Vec3f& at, const Vec3f& normal);
 bool isNarrow(const Lamp&);
 /// Width of a narrow beam at a patch that may lie in it [scene units]; infinite for all others.
 double beamWidth(const Lamp&, const hierarchy::ElementGeometry&);

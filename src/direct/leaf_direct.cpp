@@ -190,6 +190,7 @@ void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, LampShadow
     const auto k = static_cast<std::size_t>(t.first + t.samples);
     const hierarchy::PatchPoint& x = points.at[k];
     t.counts[points.quadrant[k]] += 1;
+    if (isBelow(lamp, x.position, x.normal)) continue;
     const OpenLight light = openLight(lamps_.sampler(), lamp.id, x, numbers(points.number[k]));
     const Rgb open = light.E;
     if (isBlack(open)) continue;
@@ -273,7 +274,8 @@ Rgb DirectSampler::unshadowed(const Lamp& lamp, Points& points, int wanted) cons
       sum += RgbSum(*E);
       continue;
     }
-    sum += RgbSum(openLight(lamps_.sampler(), lamp.id, points.at[k], numbers(points.number[k])).E);
+    if (!isBelow(lamp, points.at[k].position, points.at[k].normal))
+      sum += RgbSum(openLight(lamps_.sampler(), lamp.id, points.at[k], numbers(points.number[k])).E);
   }
   return n > 0 ? Rgb(sum / double(n)) : Rgb(0.0f);
 }
