@@ -205,8 +205,12 @@ std::optional<LightSample> LightSampler::finishArea(LightId id, const AreaData& 
   if (cosine == 0.0) return std::nullopt;
   const Rgb L = emittedRadiance(id, -direction, distance, front);
   if (isBlack(L)) return std::nullopt;
-  const double density = omega > 0.0 ? 1.0 / omega : squared / (data.area * std::abs(cosine));
-  return LightSample{direction, distance, front ? normal : -normal, L, density};
+  // Made where it is returned: it is asked for many times, and takes longer to copy than to fill in.
+  std::optional<LightSample> sample(std::in_place);
+  sample->direction = direction, sample->distance = distance, sample->normal = front ? normal : -normal;
+  sample->radiance = L;
+  sample->pdf = omega > 0.0 ? 1.0 / omega : squared / (data.area * std::abs(cosine));
+  return sample;
 }
 
 std::optional<LightSample> LightSampler::sampleArea(LightId id, const AreaData& data, const Vec3& from,
