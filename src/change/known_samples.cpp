@@ -87,12 +87,9 @@ template <class Visit>
 void forEachMayShadow(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::ElementGeometry& g,
                       std::uint64_t through, const Visit& visit) {
   if (through == 0) return;
-  const auto ask = [&](std::uint32_t i, double potential) {
-    const direct::Lamp& lamp = lamps.all()[i];
-    if (potential > 0 && (through & direct::lampBit(lamp.id)) != 0 && mayShadow(space, lamp, boxOf(g))) visit(lamp);
-  };
-  for (const std::uint32_t i : lamps.suns()) ask(i, direct::potential(lamps.all()[i], g));
-  lamps.tree().reaching(g, ask);
+  for (const direct::Lamp& lamp : lamps.all())
+    if ((through & direct::lampBit(lamp.id)) != 0 && direct::potential(lamp, g) > 0 && mayShadow(space, lamp, boxOf(g)))
+      visit(lamp);
 }
 
 bool holdDimRays(const MovedSpace& space, const direct::Lamps& lamps, const hierarchy::Elements& elements,

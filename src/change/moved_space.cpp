@@ -156,8 +156,11 @@ bool MovedSpace::crosses(const BoxF& from, const Vec3f& direction, float length,
 }
 
 bool MovedSpace::between(const BoxF& a, const BoxF& b) const {
+  BoxF both = a;
+  both.extend(b);
   // On the way the box that holds all segments' points grows from one to the other.
   const auto passes = [&](const BoxF& box) {
+    if (!both.overlaps(box)) return false;
     float begin = 0, end = 1;
     for (int axis = 0; axis < 3 && begin <= end; ++axis) {
       keepBelow(a.lower[axis] - box.upper[axis], b.lower[axis] - box.upper[axis], begin, end);
