@@ -32,13 +32,14 @@ void LineSieve::mark(std::span<const lines::LineCode> codes, std::span<char> nea
   static_assert(std::endian::native == std::endian::little && sizeof(lines::LineCode) == sizeof(std::uint32_t));
   std::array<std::uint32_t, kAtOnce> words{}, marks;
   std::array<float, kAtOnce> directionX, directionY, directionZ, perLength, lengths;
+  constexpr float perStep = 1 / 127.0f;  // its rounding is far less than lines may go astray
   for (std::size_t begin = 0; begin < codes.size(); begin += kAtOnce) {
     const std::size_t count = std::min(kAtOnce, codes.size() - begin);
     const std::size_t end = (count + kVector - 1) / kVector * kVector;
     std::memcpy(words.data(), codes.data() + begin, count * sizeof(std::uint32_t));
     for (std::size_t i = 0; i < end; ++i) {
-      const auto x = static_cast<float>(static_cast<std::int32_t>(words[i] << 24) >> 24) / 127.0f;
-      const auto y = static_cast<float>(static_cast<std::int32_t>(words[i] << 16) >> 24) / 127.0f;
+      const auto x = perStep * static_cast<float>(static_cast<std::int32_t>(words[i] << 24) >> 24);
+      const auto y = perStep * static_cast<float>(static_cast<std::int32_t>(words[i] << 16) >> 24);
       const float z = 1.0f - std::abs(x) - std::abs(y), below = z < 0 ? -z : 0.0f;
       const float dx = x < 0 ? x + below : x - below, dy = y < 0 ? y + below : y - below;
       directionX[i] = dx, directionY[i] = dy, directionZ[i] = z;
