@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "base/parallel.hpp"
+#include "base/prefetch.hpp"
 #include "engine/line_solve.hpp"
 #include "hierarchy/patch.hpp"
 #include "lines/tuning.hpp"
@@ -138,6 +139,12 @@ struct Samplers {
   }
 };
 
+/// Asks memory for what is known of the patch that comes next, while one is looked at.
+void fetch(const PatchSamples& samples, hierarchy::ElementId patch) {
+  if (const lines::FirstLines* first = samples.first[patch.index()].get()) prefetch(std::span(first, 1));
+  if (const EvaluatedLight* light = samples.evaluated[patch.index()].get()) prefetch(std::span(light, 1));
+}
+
 /// Whether a patch is to be split; adds the rays that tell.
 bool splits(const Samplers& samplers, hierarchy::ElementId patch, std::uint64_t& rays) {
   LineSolve& x = samplers.x;
@@ -196,6 +203,7 @@ bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const s
       const Samplers samplers(x);
       x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(patches.size(), kPatches, [&](std::size_t i) {
         std::uint64_t rays = 0;
+        if (i + 1 < patches.size()) fetch(x.samples, patches[i + 1]);
         if (x.takesPart(patches[i])) split[i] = splits(samplers, patches[i], rays);
         return rays;
       });
