@@ -163,6 +163,15 @@ lines::KnownLines knownLines(const MovedSpace& space, lines::TracedLines& all, s
     if (starts && faces(space, elements, leaf)) LineSieve(space, box, lines::kDirectionError).mark(codes, near);
     const std::span<const lines::ExceptionalLine> exceptions = all.lines.exceptions.at(leaf);
     const std::span<const lines::Bend> bends = all.bends.at(leaf);
+    // Most leaves have neither lines near it nor others than straight ones.
+    const auto stays = [&](std::uint32_t end) {
+      return end >= lines::kFirstMark || (end < known.stands.size() && known.stands[end]);
+    };
+    if (starts && exceptions.empty() && bends.empty() && std::ranges::find(near, 1) == near.end() &&
+        std::ranges::all_of(ends, stays)) {
+      known.whole[i] = true;
+      return;
+    }
     std::size_t exception = 0, bend = 0;
     bool whole = true;
     for (std::size_t k = 0; k < ends.size(); ++k) {

@@ -438,10 +438,10 @@ void Exchange::scale(std::vector<char>& changed) {
     parallelBlocks(slot_.size(), kLeaves, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         const std::uint32_t i = slot_[k];
-        if (!all && !marked[i] && !(owed[i] * q[i] > tuning::kFollowed * share_[i] * area_[i])) continue;
+        if (!all && !marked[i] && !(owed[i] * q[i] > kFollowed * share_[i] * area_[i])) continue;
         owed[i] = 0;
         const float now = next(i), before = factors[i];
-        if (std::abs(now - before) <= tuning::kFollowed * before) continue;
+        if (std::abs(now - before) <= kFollowed * before) continue;
         factors[i] = now, found[begin / kLeaves].push_back({i, std::abs(now - before)});
       }
     });
@@ -531,7 +531,7 @@ void Exchange::gatherOthers(std::span<const Rgb> B, std::span<Rgb> E) {
       float by = 0;
       for (std::size_t c = 0; c < 3; ++c) {
         const float change = std::abs(sent.B[c] - known.B[c]);
-        if (change > tuning::kFollowed * known.B[c]) by = std::max(by, change);
+        if (change > kFollowed * known.B[c]) by = std::max(by, change);
       }
       if (by > 0) known = sent, found[begin / kLeaves].push_back({slot_[i], by});
     }
@@ -551,7 +551,7 @@ void Exchange::gatherBy(std::span<const Other> others, std::span<const Rgb> B, s
   parallelFor(leaves(), kLeaves, [&](std::size_t n) {
     const std::uint32_t i = slot_[n];
     const float owed = owedLight_[i] * target_[i] * passes_.back()[i];
-    if (!all && !marked[i] && !(owed > tuning::kFollowed * gray(E[n]) * area_[i])) return;
+    if (!all && !marked[i] && !(owed > kFollowed * gray(E[n]) * area_[i])) return;
     owedLight_[i] = 0;
     E[n] = irradianceOf(i, B);
   });

@@ -25,6 +25,10 @@
 
 namespace deltalux::lines {
 
+/// How much the factor of a leaf's exchange, or its radiosity, may differ from what an update goes on with, relative:
+/// as much as its iteration leaves.
+inline constexpr auto kFollowed = static_cast<float>(tuning::kConvergedAgain);
+
 /// s / e times radiosity, as wide as registers.
 struct alignas(16) LeafRecord {
   std::array<float, 4> B{};

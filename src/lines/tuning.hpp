@@ -64,9 +64,6 @@ constexpr float kMostMissed = 1.25f;
 
 /// Passes of the symmetric scaling of rows. Fewer: more is left to the scaling that breaks reciprocity.
 constexpr int kScalingPasses = 8;
-/// How much the factor of a leaf's exchange, or its radiosity, may differ from what an update goes on with, relative.
-/// Larger: light is off by some times that after an edit. Smaller: all leaves take part in every pass.
-constexpr float kFollowed = 5e-5f;
 /// Most and least that one leaf's exchange is scaled by. Wider: leaves with a handful of lines run away.
 constexpr float kMostScale = 4;
 /// Power that changes in the last pass, relative to emitted. Larger: halls of white plaster are too dark.

@@ -152,7 +152,8 @@ TEST(KnownLines, TellWhereLinesEndedThatAreTracedAgain) {
   for (const hierarchy::ElementId leaf : x.before.leaves.leaves) {
     const std::uint32_t stands = x.elementNow[leaf.index()];
     if (stands == kNone) continue;
-    const std::span<const std::uint32_t> before = all.endsOf(leaf), marked = x.marked.lines.endsOf(x.known.before[stands]);
+    const std::span<const std::uint32_t> before = all.endsOf(leaf),
+                                         marked = x.marked.lines.endsOf(x.known.before[stands]);
     ASSERT_EQ(before.size(), marked.size());
     for (std::size_t k = 0; k < before.size(); ++k) {
       EXPECT_EQ(KnownLines::leafOf(marked[k]), before[k] < lines::kFirstMark ? x.elementNow[before[k]] : kNone) << k;

@@ -41,7 +41,7 @@ TEST(LineUpdate, HasTheRowsOfTheFreshSolve) {
     for (std::size_t k = 0; k < B.size(); ++k) B[k] = Rgb(toUnitFloat(mix64(k)));
     a.gather(B, Ea), b.gather(B, Eb);
     for (std::size_t k = 0; k < B.size(); ++k)
-      ASSERT_NEAR(Ea[k].g, Eb[k].g, 5 * lines::tuning::kFollowed * Eb[k].g) << edits.last() << ' ' << k;
+      ASSERT_NEAR(Ea[k].g, Eb[k].g, 5 * lines::kFollowed * Eb[k].g) << edits.last() << ' ' << k;
   }
 }
 

@@ -115,7 +115,7 @@ std::vector<Rgb> randomLight(std::size_t leaves, std::uint64_t seed) {
 
 /// Within what an update leaves to be the same, some times that.
 void expectSame(lines::Exchange& a, lines::Exchange& b) {
-  constexpr float kSame = 5 * lines::tuning::kFollowed;
+  constexpr float kSame = 5 * lines::kFollowed;
   ASSERT_EQ(a.leaves(), b.leaves());
   const std::size_t n = a.leaves();
   const std::vector<Rgb> B = randomLight(n, 3);
@@ -307,7 +307,7 @@ TEST(Exchange, GathersOthersAsAllAreGathered) {
     all.gather(B, exact);
     for (std::size_t i = 0; i < n; ++i)
       for (int c = 0; c < 3; ++c)
-        ASSERT_NEAR(E[i][c], exact[i][c], 3 * lines::tuning::kFollowed * exact[i][c]) << round << ' ' << i;
+        ASSERT_NEAR(E[i][c], exact[i][c], 3 * lines::kFollowed * exact[i][c]) << round << ' ' << i;
   }
 }
 

@@ -157,7 +157,7 @@ struct RoomChange {
   std::vector<std::uint32_t> countsAfter;
   lines::TracedLines tracedBefore;
   std::vector<std::uint32_t> elementNow;  // leavesAfter()
-  lines::TracedLines marked;       // the same lines over the mesh after it
+  lines::TracedLines marked;              // the same lines over the mesh after it
   lines::KnownLines known;
 
   lines::TracedLines taken() const { return after.trace(countsAfter, &known, marked); }
