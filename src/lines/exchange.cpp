@@ -416,6 +416,8 @@ bool Exchange::owe(std::span<const Other> others, std::vector<float>& owed, std:
     for (std::uint64_t k = row_[i].first; k < row_[i].end(); ++k) owed[id_[k]] += weight_[k] * by;
     markSpecials(i, marked);
   }
+  if (!others.empty())
+    for (const std::uint32_t i : oneWay_) marked[slot_[i]] = true;
   return false;
 }
 
@@ -546,8 +548,6 @@ void Exchange::gatherBy(std::span<const Other> others, std::span<const Rgb> B, s
   owedLight_.resize(row_.size(), 0);
   std::vector<char> marked = touched_;
   const bool all = owe(others, owedLight_, marked);
-  if (!others.empty())
-    for (const std::uint32_t i : oneWay_) marked[slot_[i]] = true;
   parallelFor(leaves(), kLeaves, [&](std::size_t n) {
     const std::uint32_t i = slot_[n];
     const float owed = owedLight_[i] * target_[i] * passes_.back()[i];
