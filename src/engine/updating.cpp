@@ -108,7 +108,6 @@ void Engine::State::relightOverLines(const engine::Dimming& dimming) {
   s.report.counts.iterations = 0;
   const hierarchy::LeafTable leaves(s.elements);
   const SolveMemory& memory = *s.memory;
-  memory.exchange->forget();  // all of the light is another
   engine::relight(s, leaves, *memory.exchange, engine::lampsOf(memory.samples, memory.dim, leaves), memory.sky, dimming,
                   lines::tuning::kConvergedAgain);
   hierarchy::pull(s.elements);

@@ -15,7 +15,7 @@ constexpr std::size_t kLeaves = 512, kFewLeaves = 32;  // of a task [task]
 constexpr float kLeastEnd = 1e-6f;                     // in place of a chance of 0 [rounding]
 constexpr std::uint32_t kMostCount = 0xffff;           // [layout]
 constexpr std::size_t kLanes = 8;                      // [task]
-constexpr double kFewEntries = 0.25;                   // of all, above which all are as soon done [task]
+constexpr double kFewEntries = 0.1;                    // of all, above which all are as soon done [task]
 constexpr std::uint32_t kRoom = 8;                     // part of a row that there is room for behind it [task]
 
 template <class T>
@@ -502,8 +502,12 @@ Rgb Exchange::irradianceOf(std::uint32_t i, std::span<const Rgb> B) const {
   return (target_[i] * scale_[i] * sum + oneWay) / area_[i];
 }
 
-void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E) {
+void Exchange::send(std::span<const Rgb> B) {
   parallelFor(leaves(), kLeaves, [&](std::size_t i) { records_[slot_[i]] = sentBy(slot_[i], B[i]); });
+}
+
+void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E) {
+  send(B);
   parallelFor(leaves(), kLeaves, [&](std::size_t i) { E[i] = irradianceOf(slot_[i], B); });
   remembers_ = true;
   touched_.assign(row_.size(), false), owedLight_.assign(row_.size(), 0);

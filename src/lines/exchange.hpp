@@ -51,6 +51,8 @@ class Exchange {
 
   /// Irradiance of every leaf from the radiosities of all [W/m2]. Sizes must agree.
   void gather(std::span<const Rgb> B, std::span<Rgb> E);
+  /// Takes in radiosities, and gathers nothing by them: what is remembered is not what was gathered by.
+  void send(std::span<const Rgb> B);
   /// The same of some leaves alone, of which the radiosities are others than when all was gathered last, and no others.
   void gatherAmong(std::span<const std::uint32_t> leaves, std::span<const Rgb> B, std::span<Rgb> E);
   /// The same of all that the radiosities of those have to do with.

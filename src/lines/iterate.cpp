@@ -92,7 +92,7 @@ double relativeChange(const Rgb& before, const Rgb& now) {
 }
 
 /// Where light is still on its way when the rest has converged, as in dark rooms and on what an edit has moved: passes
-/// over those leaves alone; all was gathered by light.B.
+/// over those leaves alone; the exchange knows light.B.
 void iterateLate(Exchange& exchange, LeafLight& light, std::span<const std::uint32_t> late) {
   std::vector<Rgb> own(late.size());
   double most = kInfinity;
@@ -140,6 +140,7 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     follows ? exchange.gatherOthers(light.B, light.indirect) : exchange.gather(light.B, light.indirect);
   };
   gather();
+  bool kept = true;
   while (true) {
     reflectAll(next);
     ++report.passes;
@@ -155,9 +156,13 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     for (std::uint32_t i = 0; power && i < n; ++i)
       if (relativeChange(light.B[i], next[i]) > tuning::kLate * tuning::kLeafConverged) late.push_back(i);
     light.B.swap(next);
-    gather();
+    if (!power || follows)
+      gather();
+    else
+      exchange.send(light.B), kept = false;  // by what is as good as there
     if (power) iterateLate(exchange, light, late);
   }
+  if (!kept) exchange.forget();
   light.B.swap(next);
   return report;
 }
