@@ -151,7 +151,9 @@ lines::KnownLines knownLines(const MovedSpace& space, lines::TracedLines& all, s
   lines::tidy(all);
   all.resize(elements.size());
   KnownLines known{all.lines.of, std::move(stands), std::vector<char>(elements.size(), false)};
-  const auto standsAt = [&](std::uint32_t end) { return known.stands[end] != 0; };
+  const auto endHolds = [&](std::uint32_t end) {
+    return end >= lines::kFirstMark || (end < known.stands.size() && known.stands[end]);
+  };
   parallelFor(elements.size(), kKnownLeaves, [&](std::size_t i) {
     const hierarchy::ElementId leaf(i);
     if (!known.stands[i]) return all.drop(i);
@@ -164,11 +166,8 @@ lines::KnownLines knownLines(const MovedSpace& space, lines::TracedLines& all, s
     const std::span<const lines::ExceptionalLine> exceptions = all.lines.exceptions.at(leaf);
     const std::span<const lines::Bend> bends = all.bends.at(leaf);
     // Most leaves have neither lines near it nor others than straight ones.
-    const auto stays = [&](std::uint32_t end) {
-      return end >= lines::kFirstMark || (end < known.stands.size() && known.stands[end]);
-    };
     if (starts && exceptions.empty() && bends.empty() && std::ranges::find(near, 1) == near.end() &&
-        std::ranges::all_of(ends, stays)) {
+        std::ranges::all_of(ends, endHolds)) {
       known.whole[i] = true;
       return;
     }
@@ -177,13 +176,8 @@ lines::KnownLines knownLines(const MovedSpace& space, lines::TracedLines& all, s
     for (std::size_t k = 0; k < ends.size(); ++k) {
       std::uint32_t& end = ends[k];
       const std::uint32_t mark = end;
-      bool holds = starts && !KnownLines::isAgain(mark);
-      if (mark < lines::kFirstMark) {
-        holds = holds && standsAt(mark);
-      } else if (mark == lines::kException) {
-        const std::uint32_t on = exceptions[exception++].end;
-        holds = holds && !KnownLines::isAgain(on) && standsAt(on);
-      }
+      bool holds = starts && endHolds(mark);
+      if (mark == lines::kException) holds = endHolds(exceptions[exception++].end) && holds;
       holds = holds && !(near[k] && codes[k].reach > 0 && mayCross(space, box, codes[k]));
       if (mark >= lines::kFirstMark && mark != lines::kEscaped && mark != lines::kCovered)
         for (; bend < bends.size() && bends[bend].number <= k; ++bend) {

@@ -42,9 +42,7 @@ std::vector<BoxF> fewBoxes(std::vector<BoxF> boxes) {
     BoxF box;
   };
   const auto groupOf = [&](std::size_t begin, std::size_t end) {
-    Group g{begin, end, {}};
-    for (std::size_t i = begin; i < end; ++i) g.box.extend(boxes[i]);
-    return g;
+    return Group{begin, end, hull(std::span(boxes).subspan(begin, end - begin))};
   };
   if (boxes.empty()) return {};
   std::vector<Group> groups{groupOf(0, boxes.size())};

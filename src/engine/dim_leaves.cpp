@@ -57,15 +57,15 @@ std::vector<char> inRooms(const LineSolve& x, const hierarchy::LeafTable& leaves
   return in;
 }
 
-/// Direct light of leaves that got more lines: from as many points.
+/// Direct light of leaves that got more lines: from as many points as `counts` of them.
 void lightByManyPoints(LineSolve& x, const hierarchy::LeafTable& leaves, std::span<const std::uint32_t> all,
-                       const lines::Lines& lines) {
+                       std::span<const std::uint32_t> counts, const lines::Lines& lines) {
   x.dim.assign(all.size(), {});
   x.s.report.counts.raysVisibility += parallelSum<std::uint64_t>(all.size(), kDimLeaves, [&](std::size_t n) {
     DimLeaf& dim = x.dim[n];
     dim.leaf = leaves[all[n]];
     std::vector<std::uint32_t> points;
-    const std::span<const std::uint32_t> ends = lines.endsOf(dim.leaf);
+    const std::span<const std::uint32_t> ends = lines.endsOf(dim.leaf).first(counts[all[n]]);
     for (std::uint32_t k = 0; k < ends.size(); ++k) {
       if (ends[k] == lines::kCovered) continue;
       points.push_back(k), dim.points = combineKeys(dim.points, k);
@@ -103,11 +103,10 @@ void lookIntoTheDark(LineSolve& x, const lines::LineScene& over, std::vector<std
     lines::traceLines(over, counts, traced);
     if (wanted.told) break;
   }
-  lines::trim(leaves, counts, traced);
   std::vector<std::uint32_t> dim;
   for (std::uint32_t i = 0; i < more.size(); ++i)
     if (more[i]) dim.push_back(i);
-  lightByManyPoints(x, leaves, dim, traced.lines);
+  lightByManyPoints(x, leaves, dim, counts, traced.lines);
 }
 
 }  // namespace deltalux::engine

@@ -81,7 +81,7 @@ void Exchange::setLeaves(const Lines& lines, const hierarchy::Elements& elements
     if (slot == kNone) slot = static_cast<std::uint32_t>(slots++);
     slot_[i] = slot;
   }
-  for (std::vector<float>* values : {&area_, &m_, &e_, &closed_, &target_, &share_, &scale_}) values->resize(slots);
+  for (std::vector<float>* values : {&area_, &m_, &e_, &closed_, &target_, &share_}) values->resize(slots);
   own_.resize(slots), row_.resize(slots), records_.resize(slots), numberOf_.assign(slots, kNone);
   parallelFor(leaves_.size(), kLeaves, [&](std::size_t i) {
     const std::uint32_t at = slot_[i];
@@ -137,23 +137,17 @@ void Exchange::renumber(std::span<const std::uint32_t> now, std::size_t elements
     if (now[old] != kNone)
       slotOf[now[old]] = slotOf_[old];
     else
-      gone[slotOf_[old]] = true, free_.push_back(slotOf_[old]);
+      gone[slotOf_[old]] = true, freeSlot(slotOf_[old], touched_);
   }
   slotOf_ = std::move(slotOf);
   parallelFor(row_.size(), kLeaves, [&](std::size_t i) {
     Row& row = row_[i];
-    if (gone[i]) row = {};
     std::uint64_t to = row.first;
     for (std::uint64_t k = row.first; k < row.end(); ++k)
       if (!gone[id_[k]]) id_[to] = id_[k], count_[to] = count_[k], weight_[to] = weight_[k], ++to;
     touched_[i] = touched_[i] || to != row.end();
     row.count = static_cast<std::uint32_t>(to - row.first);
   });
-  for (std::uint32_t i = 0; i < gone.size(); ++i) {
-    if (!gone[i]) continue;
-    markSpecials(i, touched_);
-    m_[i] = -1;  // that of another leaf
-  }
 }
 
 void Exchange::build(const Lines& lines) {
@@ -284,10 +278,15 @@ void Exchange::change(const KnownLines& known, const Lines& lines, std::vector<c
 void Exchange::freeSlots(std::vector<char>& changed) {
   for (std::uint32_t& slot : slotOf_) {
     if (slot == kNone || numberOf_[slot] != kNone) continue;
-    markSpecials(slot, changed);
-    row_[slot] = {}, m_[slot] = -1;
-    free_.push_back(slot), slot = kNone;
+    freeSlot(slot, changed);
+    slot = kNone;
   }
+}
+
+void Exchange::freeSlot(std::uint32_t slot, std::vector<char>& changed) {
+  markSpecials(slot, changed);
+  row_[slot] = {}, m_[slot] = -1;  // no leaf's
+  free_.push_back(slot);
 }
 
 void Exchange::markSpecials(std::uint32_t slot, std::vector<char>& marked) const {
@@ -424,7 +423,6 @@ bool Exchange::owe(std::span<const Other> others, std::vector<float>& owed, std:
 /// [SK67], symmetric: each factor takes half of what its row is off by.
 void Exchange::scale(std::vector<char>& changed) {
   const std::size_t blocks = (slot_.size() + kLeaves - 1) / kLeaves;
-  scale_.resize(row_.size());
   for (std::vector<float>& factors : passes_) factors.resize(row_.size());
   for (std::vector<float>& owed : owedFactor_) owed.resize(row_.size(), 0);
   std::vector<Other> others;  // whose factor of the last pass is another
@@ -461,10 +459,10 @@ void Exchange::scale(std::vector<char>& changed) {
     });
   }
   const std::vector<float>& q = passes_.back();
-  for (const auto& [i, by] : others) scale_[i] = q[i] * e_[i], changed[i] = true;
+  for (const auto& [i, by] : others) changed[i] = true;
   // What scaling has not reached must not make rows exceed one.
   setFactors(target_, [&](std::uint32_t i) {
-    const float sum = scale_[i] * exchangeWith(i, q);
+    const float sum = scaleOf(i) * exchangeWith(i, q);
     return sum > share_[i] * area_[i] ? share_[i] * area_[i] / sum : 1.0f;
   });
   for (const auto& [i, by] : others) changed[i] = true;
@@ -497,9 +495,9 @@ Rgb Exchange::irradianceOf(std::uint32_t i, std::span<const Rgb> B) const {
     if (s.rough)
       oneWay += s.x * B[numberOf_[s.other]];
     else
-      sum += s.x * scale_[s.other] * B[numberOf_[s.other]];
+      sum += s.x * scaleOf(s.other) * B[numberOf_[s.other]];
   }
-  return (target_[i] * scale_[i] * sum + oneWay) / area_[i];
+  return (target_[i] * scaleOf(i) * sum + oneWay) / area_[i];
 }
 
 void Exchange::send(std::span<const Rgb> B) {
@@ -563,7 +561,7 @@ void Exchange::gatherBy(std::span<const Other> others, std::span<const Rgb> B, s
 }
 
 void Exchange::deviation(std::span<const Rgb> B, std::span<float> sigma) {
-  std::vector<float> sent(scale_.size());
+  std::vector<float> sent(row_.size());
   parallelFor(leaves(), kLeaves, [&](std::size_t i) {
     const std::uint32_t e = slot_[i];
     sent[e] = passes_.back()[e] * gray(B[i]);
@@ -571,7 +569,7 @@ void Exchange::deviation(std::span<const Rgb> B, std::span<float> sigma) {
   parallelFor(leaves(), kLeaves, [&](std::size_t i) {
     const std::uint32_t e = slot_[i];
     std::array<double, kLanes> sums{}, squared{}, counts{};
-    const float own = target_[e] * scale_[e] / e_[e];
+    const float scale = scaleOf(e), own = target_[e] * scale / e_[e];
     inLanes(row_[e].first, row_[e].end(), [&](std::uint64_t k, std::size_t lane) {
       const auto count = static_cast<float>(count_[k]);
       const double each = own * sent[id_[k]] * weight_[k] / count;
@@ -583,7 +581,7 @@ void Exchange::deviation(std::span<const Rgb> B, std::span<float> sigma) {
     };
     for (std::uint32_t k = specialBegin_[e]; k < specialBegin_[e + 1]; ++k) {
       const Special& s = specials_[k];
-      add(1, gray(s.x * B[numberOf_[s.other]]) * (s.rough ? 1.0f : target_[e] * scale_[e] * scale_[s.other]));
+      add(1, gray(s.x * B[numberOf_[s.other]]) * (s.rough ? 1.0f : target_[e] * scale * scaleOf(s.other)));
     }
     const double variance = lines > 1 ? std::max(0.0, squares - sum * sum / lines) * lines / (lines - 1) : sum * sum;
     sigma[i] = area_[e] > 0 ? static_cast<float>(std::sqrt(variance)) / area_[e] : 0.0f;
@@ -595,8 +593,8 @@ void Exchange::arriving(std::span<double> share) const {
   parallelFor(leaves(), kLeaves, [&](std::size_t n) {
     const std::uint32_t j = slot_[n];
     double sum = 0;
-    forEachExchange(j, [&](std::uint32_t i, float x) { sum += double(target_[i]) * scale_[i] * x; });
-    share[n] = area_[j] > 0 ? sum * scale_[j] / area_[j] : 0;
+    forEachExchange(j, [&](std::uint32_t i, float x) { sum += double(target_[i]) * scaleOf(i) * x; });
+    share[n] = area_[j] > 0 ? sum * scaleOf(j) / area_[j] : 0;
   });
   for (const std::uint32_t i : slot_)
     for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k)

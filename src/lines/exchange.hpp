@@ -89,12 +89,15 @@ class Exchange {
   };
   /// Whether no line ends there, since it sends nothing diffusely: its lines count at their start alone.
   bool onlyReceives(std::uint32_t slot) const { return e_[slot] < 1e-3f; }
+  /// The factor s of a leaf.
+  float scaleOf(std::uint32_t slot) const { return passes_.back()[slot] * e_[slot]; }
   void setLeaves(const Lines&, const hierarchy::Elements&, const hierarchy::LeafTable&, const LineTracer&);
   void build(const Lines&);
   /// Rows of the changed lines; marks those whose entries are others.
   void change(const KnownLines&, const Lines&, std::vector<char>& changed);
   /// Slots of what is no leaf any more become free; marks what exchanged with them.
   void freeSlots(std::vector<char>& changed);
+  void freeSlot(std::uint32_t slot, std::vector<char>& changed);
   /// Marks what exchanges something with a slot otherwise than over straight lines.
   void markSpecials(std::uint32_t slot, std::vector<char>& marked) const;
   void tidy();
@@ -132,7 +135,7 @@ class Exchange {
   std::vector<std::uint32_t> slotOf_;         // by element, kNone of what is no leaf
   std::vector<std::uint32_t> numberOf_;       // by slot: of its leaf in the order, kNone of free ones
   std::vector<std::uint32_t> free_;
-  std::vector<float> area_, m_, e_, closed_, target_, share_, scale_;  // by slot; m: n / e
+  std::vector<float> area_, m_, e_, closed_, target_, share_;  // by slot; m: n / e
   std::vector<OwnLines> own_;
   std::vector<Row> row_;
   std::array<std::vector<float>, tuning::kScalingPasses + 1> passes_;      // s / e after each pass
