@@ -113,7 +113,7 @@ std::unique_ptr<lines::Exchange> exchangeOf(LineSolve& x, const hierarchy::LeafT
 
 }  // namespace
 
-lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base, TakeLines takeLines) {
+lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base, TakeLines takeLines, Progress* progress) {
   const hierarchy::Elements& elements = x.s.elements;
   const hierarchy::LeafTable leaves(elements);
   x.dim.clear();
@@ -124,6 +124,7 @@ lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base, TakeLines takeL
   const lines::LineScene over{elements, leaves,     locator,         x.tracer,
                               x.cover,  x.enclosed, x.samples.first, x.knownLines ? &*x.knownLines : nullptr};
   lines::traceLines(over, counts, traced);
+  checkInterrupted(progress);
   lookIntoTheDark(x, over, counts, traced);
   lines::trim(leaves, counts, traced);
   DELTALUX_VALIDATED(validate(traced.lines));
@@ -131,12 +132,16 @@ lines::TracedLines traceLeaves(LineSolve& x, std::uint32_t base, TakeLines takeL
   return traced;
 }
 
-void lightLeaves(LineSolve& x, lines::TracedLines traced, const Dimming& dimming, double converged) {
+void lightLeaves(LineSolve& x, lines::TracedLines traced, const Dimming& dimming, double converged,
+                 Progress* progress) {
   Solution& s = x.s;
   const hierarchy::LeafTable leaves(s.elements);
+  checkInterrupted(progress);
   x.exchange = exchangeOf(x, leaves, traced.lines);
   if (!(x.floor > 0)) x.exchange->forget();
+  checkInterrupted(progress);
   x.sky = skyOf(x, leaves, traced, std::move(x.sky));
+  checkInterrupted(progress);
   parallelFor(leaves.size(), kLeaves, [&](std::size_t i) {
     s.elements.radiometry[leaves[i].index()].indirect = x.floor > 0 ? startOf(x, leaves[i]) : Rgb(0.0f);
   });

@@ -23,10 +23,6 @@ namespace deltalux::engine {
 
 namespace {
 
-void checkInterrupted(Progress* progress) {
-  if (progress && progress->stopRequested()) throw Interrupted();
-}
-
 /// Exchanges the direct light of the input level for that of its coarse solution, or back.
 void swapCoarse(PatchSamples& samples, std::span<const hierarchy::ElementId> inputs) {
   for (const hierarchy::ElementId e : inputs)
@@ -122,6 +118,10 @@ void refineForParticles(LineSolve& x) {
 
 }  // namespace
 
+void checkInterrupted(Progress* progress) {
+  if (progress && progress->stopRequested()) throw Interrupted();
+}
+
 double floorOf(const hierarchy::Elements& elements) {
   double light = 0, area = 0;
   for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -200,8 +200,8 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const T
   solve->coarseTransfer->apply(s.elements, solve->nominal);
   swapCoarse(solve->samples, inputs);
   if (known) solve->sky = known->takeCoarseSky();
-  lightLeaves(*solve, traceLeaves(*solve, lines::tuning::kFirstLines, &KnownSolve::takeCoarseLines),
-              Dimming::none(s.scene), lines::tuning::kCoarseConverged);
+  lightLeaves(*solve, traceLeaves(*solve, lines::tuning::kFirstLines, &KnownSolve::takeCoarseLines, progress),
+              Dimming::none(s.scene), lines::tuning::kCoarseConverged, progress);
   for (const hierarchy::ElementId e : inputs) {
     hierarchy::ElementLight& l = s.elements.radiometry[e.index()];
     l.typical = gray(l.direct + l.indirect);
@@ -249,10 +249,10 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
         std::clamp(affordable, double(lines::tuning::kFirstLines), static_cast<double>(wanted)));
   }
   if (x.known) x.sky = x.known->takeSky(), x.exchange = x.known->takeExchange();
-  lines::TracedLines traced = traceLeaves(x, base, &KnownSolve::takeLines);
+  lines::TracedLines traced = traceLeaves(x, base, &KnownSolve::takeLines, progress);
   if (scales != x.nominal) x.transfer->apply(s.elements, scales);
   lightLeaves(x, std::move(traced), Dimming::of(s.scene, x.skies),
-              x.known ? lines::tuning::kConvergedAgain : lines::tuning::kConverged);
+              x.known ? lines::tuning::kConvergedAgain : lines::tuning::kConverged, progress);
   hierarchy::pull(s.elements);
   if (s.settings.byLight) keepColumns(x, progress);
   DELTALUX_VALIDATED(validate(s.elements));

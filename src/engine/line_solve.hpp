@@ -75,12 +75,12 @@ bool refineMesh(LineSolve&, std::vector<hierarchy::ElementId> patches, const std
 /// More lines, and shadow rays, of leaves in rooms where hardly any light arrives: leaves have `counts` lines at least,
 /// which become those that they should have. dim_leaves.cpp.
 void lookIntoTheDark(LineSolve&, const lines::LineScene&, std::vector<std::uint32_t>& counts, lines::TracedLines&);
-/// About `base` lines of each of the leaves there are; those that are known are taken.
+/// About `base` lines of each of the leaves there are; those that are known are taken. Throws Interrupted.
 using TakeLines = std::optional<lines::KnownLines> (KnownSolve::*)(const hierarchy::Elements&, lines::TracedLines&);
-lines::TracedLines traceLeaves(LineSolve&, std::uint32_t base, TakeLines);
+lines::TracedLines traceLeaves(LineSolve&, std::uint32_t base, TakeLines, Progress*);
 /// Light of the leaves over those, from their direct light and particles: writes the elements' irradiance and
-/// radiosity, the solution's lines and their deviation.
-void lightLeaves(LineSolve&, lines::TracedLines, const Dimming&, double converged);
+/// radiosity, the solution's lines and their deviation. Throws Interrupted.
+void lightLeaves(LineSolve&, lines::TracedLines, const Dimming&, double converged, Progress*);
 /// Light that still matters, where there is as much as on these [W/m2, gray].
 double floorOf(const hierarchy::Elements&);
 /// What the solution's own samples say of its error, by area.
@@ -88,6 +88,8 @@ ErrorEstimate estimateError(const Solution&);
 
 // The rounds.
 
+/// Throws Interrupted when asked to stop.
+void checkInterrupted(Progress*);
 /// Leaves whose lines are others than before, or new.
 std::size_t changedLeaves(const LineSolve&);
 /// What the next solve may ask of one that is done.

@@ -33,8 +33,8 @@ void Engine::State::lineRound(Progress* progress) {
       return;
     }
   }
-  finished = true;
   s.report.converged = engine::solveFinely(*lineSolve, budget, progress);
+  finished = true;
   counts.leavesChanged = engine::changedLeaves(*lineSolve);
   transfer = std::move(lineSolve->transfer);
   if (!budget.limited()) s.memory = engine::memoryOf(std::move(*lineSolve));

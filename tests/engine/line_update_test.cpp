@@ -3,6 +3,8 @@
 
 #include <deltalux/error.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <memory>
 
 #include "support/furnished_room.hpp"
 #include "support/rooms.hpp"
@@ -96,18 +98,42 @@ struct StopsAfter : Progress {
   mutable int left;
 };
 
+/// How often `work` asks whether to stop.
+template <class Work>
+int asksOf(const Work& work) {
+  StopsAfter never(std::numeric_limits<int>::max());
+  work(never);
+  return std::numeric_limits<int>::max() - never.left;
+}
+
 TEST(LineUpdate, GoesOnFromNothingWhenItWasInterrupted) {
   const std::string object = editableOfFurnishedRoom().objects.front();
-  for (const int asked : {0, 1, 2, 5}) {
-    Engine engine(furnishedRoom(), coarse());
-    engine.solve();
-    engine.apply(TransformObject{object, glm::translate(Mat4(1), Vec3(0.05, 0, 0))});
+  const auto moved = [&] {
+    auto engine = std::make_unique<Engine>(furnishedRoom(), coarse());
+    engine->solve();
+    engine->apply(TransformObject{object, glm::translate(Mat4(1), Vec3(0.05, 0, 0))});
+    return engine;
+  };
+  const int all = asksOf([&](Progress& progress) { moved()->update(&progress); });
+  for (const int asked : {0, 1, 2, 5, all - 3, all - 1}) {
+    const std::unique_ptr<Engine> engine = moved();
     StopsAfter stops(asked);
-    EXPECT_THROW(engine.update(&stops), Interrupted) << asked;
-    engine.update();
-    EXPECT_TRUE(isTheFreshOne(engine)) << asked;
-    engine.apply(TransformObject{object, glm::translate(Mat4(1), Vec3(0, 0.05, 0))});
-    engine.update();
+    EXPECT_THROW(engine->update(&stops), Interrupted) << asked;
+    engine->update();
+    EXPECT_TRUE(isTheFreshOne(*engine)) << asked;
+    engine->apply(TransformObject{object, glm::translate(Mat4(1), Vec3(0, 0.05, 0))});
+    engine->update();
+    EXPECT_TRUE(isTheFreshOne(*engine)) << asked;
+  }
+}
+
+TEST(LineSolve, GoesOnWhereItWasInterrupted) {
+  const int all = asksOf([](Progress& progress) { Engine(furnishedRoom(), coarse()).solve(&progress); });
+  for (const int asked : {0, 3, all / 2, all - 3, all - 1}) {
+    Engine engine(furnishedRoom(), coarse());
+    StopsAfter stops(asked);
+    EXPECT_THROW(engine.solve(&stops), Interrupted) << asked;
+    engine.solve();
     EXPECT_TRUE(isTheFreshOne(engine)) << asked;
   }
 }
