@@ -78,6 +78,17 @@ struct Change {
   }
 };
 
+/// By leaves together, gray.
+struct Sent {
+  double power = 0, area = 0;
+
+  Sent& operator+=(const Sent& other) {
+    power += other.power, area += other.area;
+    return *this;
+  }
+  double mean() const { return area > 0 ? power / area : 0; }
+};
+
 /// Radiosity of a leaf by the irradiance of either side.
 Rgb reflected(const LeafLight& light, std::uint32_t i) {
   Rgb B = light.rho[i] * (light.source[i] + light.indirect[i]);
@@ -87,20 +98,23 @@ Rgb reflected(const LeafLight& light, std::uint32_t i) {
   return B;
 }
 
-double relativeChange(const Rgb& before, const Rgb& now) {
-  return isBlack(now) ? 0.0 : double(gray(glm::abs(now - before))) / gray(now);
+/// Change of a leaf's radiosity, relative to it, or to what would be `negligible` there: light that goes out for good
+/// becomes less by the same share in every pass.
+double relativeChange(const Rgb& before, const Rgb& now, float negligible) {
+  return isBlack(now) ? 0.0 : double(gray(glm::abs(now - before))) / std::max(gray(now), negligible);
 }
 
 /// Where light is still on its way when the rest has converged, as in dark rooms and on what an edit has moved: passes
 /// over those leaves alone; the exchange knows light.B.
-void iterateLate(Exchange& exchange, LeafLight& light, std::span<const std::uint32_t> late) {
+void iterateLate(Exchange& exchange, LeafLight& light, std::span<const std::uint32_t> late,
+                 std::span<const float> negligible) {
   std::vector<Rgb> own(late.size());
   double most = kInfinity;
   for (int pass = 0; pass < kMostPasses && most > tuning::kLate * tuning::kLeafConverged; ++pass) {
     most = 0;
     for (std::size_t k = 0; k < late.size(); ++k) {
       own[k] = reflected(light, late[k]);
-      most = std::max(most, relativeChange(light.B[late[k]], own[k]));
+      most = std::max(most, relativeChange(light.B[late[k]], own[k], negligible[late[k]]));
     }
     for (std::size_t k = 0; k < late.size(); ++k) light.B[late[k]] = own[k];
     exchange.gatherAmong(late, light.B, light.indirect);
@@ -131,9 +145,20 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     parallelFor(n, kLeafBlock, [&](std::size_t i) { B[i] = reflected(light, static_cast<std::uint32_t>(i)); });
   };
   reflectAll(light.B);
+  const Sent sent = parallelSum<Sent>(n, kLeafBlock, [&](std::size_t i) {
+    return Sent{double(exchange.area(i)) * gray(light.B[i]), double(exchange.area(i))};
+  });
+  std::vector<float> negligible(n);  // by leaf: of what it has to begin with, or of next to nothing
+  for (std::size_t i = 0; i < n; ++i)
+    negligible[i] = static_cast<float>(converged * std::max<double>(gray(light.B[i]), converged * sent.mean()));
   report.emitted = parallelSum<RgbSum>(n, kLeafBlock, [&](std::size_t i) {
     return double(exchange.area(i)) * RgbSum((light.rho[i] + light.tau[i]) * light.source[i]);
   });
+  if (!(gray(report.emitted) > 0)) {  // what is still on its way would take long to be nothing
+    std::ranges::fill(light.indirect, Rgb(0.0f)), std::ranges::fill(light.B, Rgb(0.0f));
+    exchange.forget();
+    return report;
+  }
   // What it remembers is what the light to start with was gathered by.
   const bool follows = exchange.remembers();
   const auto gather = [&] {
@@ -146,7 +171,7 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     ++report.passes;
     const Change change = parallelSum<Change>(n, kLeafBlock, [&](std::size_t i) {
       return Change{double(exchange.area(i)) * RgbSum(glm::abs(next[i] - light.B[i])),
-                    relativeChange(light.B[i], next[i])};
+                    relativeChange(light.B[i], next[i], negligible[i])};
     });
     report.residual = change.power, report.change = change.most;
     const bool power = gray(report.residual) <= converged * gray(report.emitted),
@@ -154,13 +179,14 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     if ((power && leaves) || report.passes == most) break;
     std::vector<std::uint32_t> late;
     for (std::uint32_t i = 0; power && i < n; ++i)
-      if (relativeChange(light.B[i], next[i]) > tuning::kLate * tuning::kLeafConverged) late.push_back(i);
+      if (relativeChange(light.B[i], next[i], negligible[i]) > tuning::kLate * tuning::kLeafConverged)
+        late.push_back(i);
     light.B.swap(next);
     if (!power || follows)
       gather();
     else
       exchange.send(light.B), kept = false;  // by what is as good as there
-    if (power) iterateLate(exchange, light, late);
+    if (power) iterateLate(exchange, light, late, negligible);
   }
   if (!kept) exchange.forget();
   light.B.swap(next);

@@ -140,6 +140,40 @@ TEST(LightDimming, BrighterThanEverIsSampledAnew) {
   expectFresh(engine, "brighter");
 }
 
+TEST(LightDimming, LightGoesOutForGood) {
+  // Two rooms that share no light, of walls that keep four fifths of it.
+  Scene scene;
+  const MaterialId white = addMaterial(scene, "white", lambert(0.8f));
+  addBox(scene, white, Vec3(0), {4, 3, 2.5}, true);
+  addBox(scene, white, {10, 0, 0}, {14, 3, 2.5}, true);
+  addLight(scene, PointLight{{2, 1.5, 2.3}, Rgb(5.0f)});
+  addLight(scene, PointLight{{12, 1.5, 2.3}, Rgb(5.0f)});
+  scene.lights[0].name = "here", scene.lights[1].name = "there";
+  Engine engine(std::move(scene), coarse());
+  engine.solve();
+  const auto lightOf = [&](double from, double to) {
+    const SolutionView view = engine.solution();
+    const Solution& s = view.get();
+    double sum = 0;
+    for (const hierarchy::ElementId e : hierarchy::LeafTable(s.elements).leaves)
+      if (s.elements.shape(e).lower.x >= from && s.elements.shape(e).upper.x <= to)
+        sum += s.elements.shape(e).area * gray(s.elements.radiometry[e.index()].B);
+    return sum;
+  };
+  const double here = lightOf(-1, 5), there = lightOf(9, 15);
+  ASSERT_GT(here, 0);
+  engine.apply(SwitchLight{"here", false});
+  EXPECT_EQ(engine.update().rays, 0u);
+  // After so many passes light is 1e-5 of what it was, but each takes a fifth of it until floats hold no less.
+  EXPECT_LT(engine.solution().report().counts.iterations, 80u);
+  EXPECT_LT(lightOf(-1, 5), 1e-4 * here);
+  EXPECT_NEAR(lightOf(9, 15), there, 1e-4 * there);
+  engine.apply(SwitchLight{"there", false});
+  engine.update();
+  EXPECT_LT(engine.solution().report().counts.iterations, 10u);
+  EXPECT_EQ(lightOf(-1, 15), 0);
+}
+
 TEST(LightDimming, FollowsInFramesWithoutARay) {
   Engine engine(roomOfManyLights(), coarse());
   engine.solve();
