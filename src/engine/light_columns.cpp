@@ -46,7 +46,6 @@ LightColumn columnOf(Solution& s, const LightParts& parts, const LightGroup& gro
   const std::size_t n = parts.leaves.size();
   parallelFor(n, kColumnLeaves,
               [&](std::size_t i) { s.elements.radiometry[parts.leaves[i].index()].indirect = Rgb(0.0f); });
-  parts.exchange.forget();
   relight(s, parts.leaves, parts.exchange, parts.lamps, parts.sky, dimmingOf(parts, s.scene, scales),
           lines::tuning::kConverged);
   hierarchy::pull(s.elements);
@@ -71,7 +70,6 @@ void keepLightsApart(Solution& s, const LightParts& parts, Progress* progress) {
     const std::size_t done = s.columns.of.size(), all = s.columns.groups.size();
     if (progress) progress->report("light by light", static_cast<double>(done) / static_cast<double>(all));
   }
-  parts.exchange.forget();
   addUp(s, weightsOf(s.columns, s.scene).value());
   DELTALUX_VALIDATED(validate(s.columns, s.scene, parts.leaves.size()));
 }

@@ -138,7 +138,6 @@ void lightLeaves(LineSolve& x, lines::TracedLines traced, const Dimming& dimming
   const hierarchy::LeafTable leaves(s.elements);
   checkInterrupted(progress);
   x.exchange = exchangeOf(x, leaves, traced.lines);
-  if (!(x.floor > 0)) x.exchange->forget();
   checkInterrupted(progress);
   x.sky = skyOf(x, leaves, traced, std::move(x.sky));
   checkInterrupted(progress);

@@ -178,7 +178,6 @@ void LineMotion::follow(Solution& s, const std::function<double()>& secondsLeft)
   }
   do {
     const Clock passing;
-    s.memory->exchange->forget();  // what is shown is not what it was gathered by
     const lines::IterationReport report = lines::iterate(*s.memory->exchange, light_, lines::tuning::kConverged, 1);
     pass_.learn(passing.seconds());
     if (gray(report.residual) <= lines::tuning::kConverged * gray(report.emitted)) break;

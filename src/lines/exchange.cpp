@@ -15,7 +15,8 @@ constexpr std::size_t kLeaves = 512, kFewLeaves = 32;  // of a task [task]
 constexpr float kLeastEnd = 1e-6f;                     // in place of a chance of 0 [rounding]
 constexpr std::uint32_t kMostCount = 0xffff;           // [layout]
 constexpr std::size_t kLanes = 8;                      // [task]
-constexpr double kFewEntries = 0.1;                    // of all, above which all are as soon done [task]
+constexpr double kFewEntries = 0.3;                    // of all, above which all are as soon done [task]
+constexpr std::uint32_t kOwedParts = 4;                // of all slots, which are added to at once [task]
 constexpr std::uint32_t kRoom = 8;                     // part of a row that there is room for behind it [task]
 
 template <class T>
@@ -63,11 +64,11 @@ Exchange::Exchange(const Lines& lines, const hierarchy::Elements& elements, cons
   build(lines);
   parallelFor(leaves_.size(), kLeaves, [&](std::size_t i) { weigh(slot_[i]); });
   addSpecials(lines);
-  listOneWay();
+  listSeers();
   parallelFor(leaves_.size(), kLeaves,
               [&](std::size_t i) { countOwn(lines, leaves_[i]), setShare(lines, leaves_[i]); });
-  touched_.assign(row_.size(), true);
-  scale(touched_);
+  std::vector<char> changed(row_.size(), true);
+  scale(changed);
 }
 
 void Exchange::setLeaves(const Lines& lines, const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
@@ -99,9 +100,9 @@ void Exchange::follow(const KnownLines& known, const Lines& lines, const hierarc
   const std::vector<float> before = m_;
   setLeaves(lines, elements, leaves, tracer);
   std::vector<char> changed(row_.size(), false);
-  touched_.resize(row_.size(), true);
-  for (std::size_t i = 0; i < leaves_.size(); ++i)
-    changed[slot_[i]] = touched_[slot_[i]] || !known.stands[leaves_[i].index()];
+  for (std::size_t i = 0; i < leaves_.size(); ++i) changed[slot_[i]] = !known.stands[leaves_[i].index()];
+  for (std::size_t i = 0; i < shortened_.size(); ++i) changed[i] |= shortened_[i];
+  shortened_.clear();
   change(known, lines, changed);
   freeSlots(changed);
   tidy();
@@ -118,7 +119,7 @@ void Exchange::follow(const KnownLines& known, const Lines& lines, const hierarc
   for (const std::uint32_t i : others) markSpecials(i, changed);
   addSpecials(lines);
   for (const std::uint32_t i : others) markSpecials(i, changed);
-  listOneWay();
+  listSeers();
   parallelFor(leaves_.size(), kLeaves, [&](std::size_t i) {
     if (!known.same(leaves_[i], lines)) countOwn(lines, leaves_[i]);
     if (!changed[slot_[i]]) return;
@@ -126,18 +127,18 @@ void Exchange::follow(const KnownLines& known, const Lines& lines, const hierarc
     setShare(lines, leaves_[i]);
   });
   scale(changed);
-  touched_ = std::move(changed);  // with those that were
 }
 
 void Exchange::renumber(std::span<const std::uint32_t> now, std::size_t elements) {
   std::vector<std::uint32_t> slotOf(elements, kNone);
   std::vector<char> gone(row_.size(), false);
+  shortened_.resize(row_.size(), false);
   for (std::size_t old = 0; old < slotOf_.size(); ++old) {
     if (slotOf_[old] == kNone) continue;
     if (now[old] != kNone)
       slotOf[now[old]] = slotOf_[old];
     else
-      gone[slotOf_[old]] = true, freeSlot(slotOf_[old], touched_);
+      gone[slotOf_[old]] = true, freeSlot(slotOf_[old], shortened_);
   }
   slotOf_ = std::move(slotOf);
   parallelFor(row_.size(), kLeaves, [&](std::size_t i) {
@@ -145,7 +146,7 @@ void Exchange::renumber(std::span<const std::uint32_t> now, std::size_t elements
     std::uint64_t to = row.first;
     for (std::uint64_t k = row.first; k < row.end(); ++k)
       if (!gone[id_[k]]) id_[to] = id_[k], count_[to] = count_[k], weight_[to] = weight_[k], ++to;
-    touched_[i] = touched_[i] || to != row.end();
+    shortened_[i] = shortened_[i] || to != row.end();
     row.count = static_cast<std::uint32_t>(to - row.first);
   });
 }
@@ -294,6 +295,11 @@ void Exchange::markSpecials(std::uint32_t slot, std::vector<char>& marked) const
   for (std::uint32_t k = specialBegin_[slot]; k < specialBegin_[slot + 1]; ++k) marked[specials_[k].other] = true;
 }
 
+void Exchange::markOthers(std::uint32_t slot, std::vector<char>& marked) const {
+  markSpecials(slot, marked);
+  for (const std::uint32_t seer : receiving_.of(slot)) marked[seer] = true;
+}
+
 /// Moves rows together where half of what there is is no row's any more.
 void Exchange::tidy() {
   std::uint64_t used = 0;
@@ -343,13 +349,41 @@ void Exchange::addSpecials(const Lines& lines) {
   });
 }
 
-void Exchange::listOneWay() {
-  const auto rough = [](const Special& s) { return s.rough; };
-  oneWay_.clear();
-  for (std::uint32_t i = 0; i < leaves_.size(); ++i)
-    if (onlyReceives(slot_[i]) || std::any_of(specials_.begin() + specialBegin_[slot_[i]],
-                                              specials_.begin() + specialBegin_[slot_[i] + 1], rough))
-      oneWay_.push_back(i);
+template <class ForEach>
+void Exchange::Seers::list(std::size_t slots, const ForEach& forEach) {
+  std::vector<std::atomic<std::uint32_t>> count(slots);
+  forEach([&](std::uint32_t seen, std::uint32_t) { count[seen].fetch_add(1, std::memory_order_relaxed); });
+  begin.assign(slots + 1, 0);
+  for (std::size_t i = 0; i < slots; ++i) begin[i + 1] = begin[i] + count[i].load(std::memory_order_relaxed);
+  seers.resize(begin.back());
+  forEach([&](std::uint32_t seen, std::uint32_t seer) {
+    seers[begin[seen] + count[seen].fetch_sub(1, std::memory_order_relaxed) - 1] = seer;
+  });
+}
+
+void Exchange::listSeers() {
+  /// visit(slot, special) of all leaves.
+  const auto forEachSpecial = [&](const auto& visit) {
+    parallelFor(leaves_.size(), kLeaves, [&](std::size_t n) {
+      const std::uint32_t i = slot_[n];
+      for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k) visit(i, specials_[k]);
+    });
+  };
+  roughly_.list(row_.size(), [&](const auto& visit) {
+    forEachSpecial([&](std::uint32_t i, const Special& s) {
+      if (s.rough) visit(s.other, i);
+    });
+  });
+  receiving_.list(row_.size(), [&](const auto& visit) {
+    forEachSpecial([&](std::uint32_t i, const Special& s) {
+      if (!s.rough && onlyReceives(i)) visit(s.other, i);
+    });
+    parallelFor(leaves_.size(), kLeaves, [&](std::size_t n) {
+      const std::uint32_t i = slot_[n];
+      if (!onlyReceives(i)) return;
+      for (std::uint64_t k = row_[i].first; k < row_[i].end(); ++k) visit(id_[k], i);
+    });
+  });
 }
 
 template <class Visit>
@@ -410,13 +444,19 @@ bool Exchange::owe(std::span<const Other> others, std::vector<float>& owed, std:
   std::uint64_t entries = 0;
   for (const Other& o : others) entries += row_[o.slot].count;
   if (static_cast<double>(entries) > kFewEntries * static_cast<double>(id_.size())) return true;
-  for (const auto& [i, by] : others) {  // who sees them is seen by them
+  // Who sees them is seen by them. Entries are in the order of slots.
+  parallelFor(kOwedParts, 1, [&](std::size_t part) {
+    const std::size_t n = row_.size(), begin = part * n / kOwedParts, end = (part + 1) * n / kOwedParts;
+    for (const auto& [i, by] : others) {
+      const auto first = id_.begin() + static_cast<std::ptrdiff_t>(row_[i].first), last = first + row_[i].count;
+      for (auto id = std::lower_bound(first, last, begin); id != last && *id < end; ++id)
+        owed[*id] += weight_[static_cast<std::size_t>(id - id_.begin())] * by;
+    }
+  });
+  for (const auto& [i, by] : others) {
     marked[i] = true;
-    for (std::uint64_t k = row_[i].first; k < row_[i].end(); ++k) owed[id_[k]] += weight_[k] * by;
-    markSpecials(i, marked);
+    markOthers(i, marked);
   }
-  if (!others.empty())
-    for (const std::uint32_t i : oneWay_) marked[slot_[i]] = true;
   return false;
 }
 
@@ -507,8 +547,6 @@ void Exchange::send(std::span<const Rgb> B) {
 void Exchange::gather(std::span<const Rgb> B, std::span<Rgb> E) {
   send(B);
   parallelFor(leaves(), kLeaves, [&](std::size_t i) { E[i] = irradianceOf(slot_[i], B); });
-  remembers_ = true;
-  touched_.assign(row_.size(), false), owedLight_.assign(row_.size(), 0);
 }
 
 void Exchange::gatherAmong(std::span<const std::uint32_t> some, std::span<const Rgb> B, std::span<Rgb> E) {
@@ -517,47 +555,17 @@ void Exchange::gatherAmong(std::span<const std::uint32_t> some, std::span<const 
 }
 
 void Exchange::gatherAbout(std::span<const std::uint32_t> some, std::span<const Rgb> B, std::span<Rgb> E) {
-  std::vector<Other> others;
-  for (const std::uint32_t i : some) {
-    records_[slot_[i]] = sentBy(slot_[i], B[i]);
-    others.push_back({slot_[i], std::numeric_limits<float>::infinity()});
-  }
-  gatherBy(others, B, E);
-}
-
-void Exchange::gatherOthers(std::span<const Rgb> B, std::span<Rgb> E) {
-  if (!remembers_) return gather(B, E);
-  std::vector<std::vector<Other>> found((leaves() + kLeaves - 1) / kLeaves);
-  parallelBlocks(leaves(), kLeaves, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      LeafRecord& known = records_[slot_[i]];
-      const LeafRecord sent = sentBy(slot_[i], B[i]);
-      float by = 0;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const float change = std::abs(sent.B[c] - known.B[c]);
-        if (change > kFollowed * known.B[c]) by = std::max(by, change);
-      }
-      if (by > 0) known = sent, found[begin / kLeaves].push_back({slot_[i], by});
-    }
-  });
-  std::vector<Other> others;
-  for (const auto& block : found) others.insert(others.end(), block.begin(), block.end());
-  gatherBy(others, B, E);
-}
-
-/// Irradiance of what is touched, and of all that some slots have to do with, by the records.
-void Exchange::gatherBy(std::span<const Other> others, std::span<const Rgb> B, std::span<Rgb> E) {
-  owedLight_.resize(row_.size(), 0);
-  std::vector<char> marked = touched_;
-  const bool all = owe(others, owedLight_, marked);
-  parallelFor(leaves(), kLeaves, [&](std::size_t n) {
+  std::vector<char> marked(row_.size(), false);
+  for (const std::uint32_t n : some) {
     const std::uint32_t i = slot_[n];
-    const float owed = owedLight_[i] * target_[i] * passes_.back()[i];
-    if (!all && !marked[i] && !(owed > kFollowed * gray(E[n]) * area_[i])) return;
-    owedLight_[i] = 0;
-    E[n] = irradianceOf(i, B);
+    records_[i] = sentBy(i, B[n]);
+    for (std::uint64_t k = row_[i].first; k < row_[i].end(); ++k) marked[id_[k]] = true;
+    markOthers(i, marked);
+    for (const std::uint32_t seer : roughly_.of(i)) marked[seer] = true;
+  }
+  parallelFor(leaves(), kLeaves, [&](std::size_t n) {
+    if (marked[slot_[n]]) E[n] = irradianceOf(slot_[n], B);
   });
-  touched_.assign(row_.size(), false);
 }
 
 void Exchange::deviation(std::span<const Rgb> B, std::span<float> sigma) {

@@ -25,8 +25,8 @@
 
 namespace deltalux::lines {
 
-/// How much the factor of a leaf's exchange, or its radiosity, may differ from what an update goes on with, relative:
-/// as much as its iteration leaves.
+/// How much the factor of a leaf's exchange may differ from what an update goes on with, relative: as much as its
+/// iteration leaves of light.
 inline constexpr auto kFollowed = static_cast<float>(tuning::kConvergedAgain);
 
 /// s / e times radiosity, as wide as registers.
@@ -51,18 +51,12 @@ class Exchange {
 
   /// Irradiance of every leaf from the radiosities of all [W/m2]. Sizes must agree.
   void gather(std::span<const Rgb> B, std::span<Rgb> E);
-  /// Takes in radiosities, and gathers nothing by them: what is remembered is not what was gathered by.
+  /// Takes in radiosities, and gathers nothing by them.
   void send(std::span<const Rgb> B);
-  /// The same of some leaves alone, of which the radiosities are others than when all was gathered last, and no others.
+  /// The same of some leaves alone, of which the radiosities are others than were taken in last, and no others.
   void gatherAmong(std::span<const std::uint32_t> leaves, std::span<const Rgb> B, std::span<Rgb> E);
   /// The same of all that the radiosities of those have to do with.
   void gatherAbout(std::span<const std::uint32_t> leaves, std::span<const Rgb> B, std::span<Rgb> E);
-  /// Whether it remembers the radiosities by which irradiance was gathered last.
-  bool remembers() const { return remembers_; }
-  void forget() { remembers_ = false; }
-  /// Irradiance by radiosities of which all, within kFollowed, are those that it remembers, or are taken in now. `E`:
-  /// what was gathered by those; of leaves that were no such leaves before it may be anything.
-  void gatherOthers(std::span<const Rgb> B, std::span<Rgb> E);
   /// Standard deviation of gather()'s gray irradiance, from the scatter of the leaf's lines [W/m2].
   void deviation(std::span<const Rgb> B, std::span<float> sigma);
   /// Share of what leaf j sends that arrives at leaves: column sums.
@@ -83,6 +77,17 @@ class Exchange {
     Rgb x{0.0f};  // as in the header, the scaling left out; rough ones per area of the leaf
     bool rough;
   };
+  /// Slots that see others which have no entry of them, by what they see.
+  struct Seers {
+    std::vector<std::uint32_t> begin, seers;  // of all slots, and one more for the end
+
+    std::span<const std::uint32_t> of(std::uint32_t seen) const {
+      return std::span(seers).subspan(begin[seen], begin[seen + 1] - begin[seen]);
+    }
+    /// forEach(visit): visit(seen, seer), from any thread.
+    template <class ForEach>
+    void list(std::size_t slots, const ForEach& forEach);
+  };
   /// What a leaf's own straight lines meet and end on, by which its row is scaled.
   struct OwnLines {
     float met = 0, ended = 0;
@@ -100,25 +105,26 @@ class Exchange {
   void freeSlot(std::uint32_t slot, std::vector<char>& changed);
   /// Marks what exchanges something with a slot otherwise than over straight lines.
   void markSpecials(std::uint32_t slot, std::vector<char>& marked) const;
+  /// The same with leaves that only receive.
+  void markOthers(std::uint32_t slot, std::vector<char>& marked) const;
   void tidy();
   void weigh(std::uint32_t slot);
   void addSpecials(const Lines&);
-  void listOneWay();
+  void listSeers();
   void countOwn(const Lines&, hierarchy::ElementId leaf);
   void setShare(const Lines&, hierarchy::ElementId leaf);
   /// Factors of rows that are `changed`, and of those that they have to do with; becomes those of which what they bring
   /// is another.
   void scale(std::vector<char>& changed);
-  /// What a slot hands on, by how much it is another.
+  /// A slot whose factor is another, and by how much.
   struct Other {
     std::uint32_t slot;
     float by;
   };
-  /// Adds that to what others are owed over their lines; marks those that exchange with them otherwise, and themselves.
-  /// Returns whether they are so many that it is as well to take all rows.
+  /// Adds that to what others are owed over their lines; marks those that exchange with them otherwise, as leaves that
+  /// only receive do, and themselves. Returns whether they are so many that it is as well to take all rows.
   bool owe(std::span<const Other> others, std::vector<float>& owed, std::vector<char>& marked) const;
   LeafRecord sentBy(std::uint32_t slot, const Rgb& B) const;
-  void gatherBy(std::span<const Other> others, std::span<const Rgb> B, std::span<Rgb> E);
   Rgb sentOver(std::uint32_t slot) const;
   Rgb irradianceOf(std::uint32_t slot, std::span<const Rgb> B) const;
   /// visit(other, x) of all symmetric exchange of a leaf, unscaled, gray.
@@ -140,16 +146,15 @@ class Exchange {
   std::vector<Row> row_;
   std::array<std::vector<float>, tuning::kScalingPasses + 1> passes_;      // s / e after each pass
   std::array<std::vector<float>, tuning::kScalingPasses + 2> owedFactor_;  // to each, and in the end: see owe()
-  std::vector<float> owedLight_;
   std::vector<LeafRecord> records_;
-  std::vector<char> touched_;  // rows that were others since all was gathered last
-  bool remembers_ = false;
+  std::vector<char> shortened_;              // rows that have lost entries since they were scaled
   std::vector<std::uint32_t> specialBegin_;  // one more for the end
   std::vector<Special> specials_;
   LargeArray<std::uint32_t> id_;  // slots
   LargeArray<std::uint16_t> count_;
   LargeArray<float> weight_;
-  std::vector<std::uint32_t> oneWay_;  // leaves that may see such as have no entry of them
+  Seers roughly_;    // over rough lobes
+  Seers receiving_;  // leaves that only receive, all that they see else
 };
 
 }  // namespace deltalux::lines

@@ -141,54 +141,46 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
   const std::size_t n = exchange.leaves();
   IterationReport report;
   std::vector<Rgb> next(n);
-  const auto reflectAll = [&](std::vector<Rgb>& B) {
-    parallelFor(n, kLeafBlock, [&](std::size_t i) { B[i] = reflected(light, static_cast<std::uint32_t>(i)); });
-  };
-  reflectAll(light.B);
+  parallelFor(n, kLeafBlock, [&](std::size_t i) { light.B[i] = reflected(light, static_cast<std::uint32_t>(i)); });
   const Sent sent = parallelSum<Sent>(n, kLeafBlock, [&](std::size_t i) {
     return Sent{double(exchange.area(i)) * gray(light.B[i]), double(exchange.area(i))};
   });
   std::vector<float> negligible(n);  // by leaf: of what it has to begin with, or of next to nothing
-  for (std::size_t i = 0; i < n; ++i)
+  parallelFor(n, kLeafBlock, [&](std::size_t i) {
     negligible[i] = static_cast<float>(converged * std::max<double>(gray(light.B[i]), converged * sent.mean()));
+  });
   report.emitted = parallelSum<RgbSum>(n, kLeafBlock, [&](std::size_t i) {
     return double(exchange.area(i)) * RgbSum((light.rho[i] + light.tau[i]) * light.source[i]);
   });
   if (!(gray(report.emitted) > 0)) {  // what is still on its way would take long to be nothing
     std::ranges::fill(light.indirect, Rgb(0.0f)), std::ranges::fill(light.B, Rgb(0.0f));
-    exchange.forget();
     return report;
   }
-  // What it remembers is what the light to start with was gathered by.
-  const bool follows = exchange.remembers();
-  const auto gather = [&] {
-    follows ? exchange.gatherOthers(light.B, light.indirect) : exchange.gather(light.B, light.indirect);
-  };
-  gather();
-  bool kept = true;
+  exchange.gather(light.B, light.indirect);
   while (true) {
-    reflectAll(next);
-    ++report.passes;
+    std::vector<std::vector<std::uint32_t>> lateOf((n + kLeafBlock - 1) / kLeafBlock);
     const Change change = parallelSum<Change>(n, kLeafBlock, [&](std::size_t i) {
-      return Change{double(exchange.area(i)) * RgbSum(glm::abs(next[i] - light.B[i])),
-                    relativeChange(light.B[i], next[i], negligible[i])};
+      next[i] = reflected(light, static_cast<std::uint32_t>(i));
+      const double relative = relativeChange(light.B[i], next[i], negligible[i]);
+      if (relative > tuning::kLate * tuning::kLeafConverged)
+        lateOf[i / kLeafBlock].push_back(static_cast<std::uint32_t>(i));
+      return Change{double(exchange.area(i)) * RgbSum(glm::abs(next[i] - light.B[i])), relative};
     });
+    ++report.passes;
     report.residual = change.power, report.change = change.most;
     const bool power = gray(report.residual) <= converged * gray(report.emitted),
                leaves = report.change <= tuning::kLeafConverged;
     if ((power && leaves) || report.passes == most) break;
-    std::vector<std::uint32_t> late;
-    for (std::uint32_t i = 0; power && i < n; ++i)
-      if (relativeChange(light.B[i], next[i], negligible[i]) > tuning::kLate * tuning::kLeafConverged)
-        late.push_back(i);
     light.B.swap(next);
-    if (!power || follows)
-      gather();
-    else
-      exchange.send(light.B), kept = false;  // by what is as good as there
-    if (power) iterateLate(exchange, light, late, negligible);
+    if (power) {
+      std::vector<std::uint32_t> late;
+      for (const auto& block : lateOf) late.insert(late.end(), block.begin(), block.end());
+      exchange.send(light.B);  // by what is as good as there
+      iterateLate(exchange, light, late, negligible);
+    } else {
+      exchange.gather(light.B, light.indirect);
+    }
   }
-  if (!kept) exchange.forget();
   light.B.swap(next);
   return report;
 }

@@ -290,24 +290,22 @@ TEST(Exchange, FollowsWhateverLinesThereAre) {
   }
 }
 
-TEST(Exchange, GathersOthersAsAllAreGathered) {
+TEST(Exchange, GathersAboutLeavesAsAllAreGathered) {
   const TracedRoom room(RoomOfThings().scene, {3, 0, false});
-  lines::Exchange all = exchangeOf(room, room.trace(room.counts(48, 1))), others = all;
+  lines::Exchange all = exchangeOf(room, room.trace(room.counts(48, 1))), about = all;
   const std::size_t n = all.leaves();
   std::vector<Rgb> B = randomLight(n, 4), E(n), exact(n);
-  EXPECT_FALSE(others.remembers());
-  others.gather(B, E);
-  EXPECT_TRUE(others.remembers());
+  about.gather(B, E);
   Rng random(5);
   for (int round = 0; round < 40; ++round) {
-    // A few leaves become others, all of them a little.
-    for (Rgb& b : B) b *= 1 + 2e-4f * static_cast<float>(random.uniform() - 0.4);
-    for (int i = 0; i < 5; ++i) B[static_cast<std::size_t>(random.uniform() * static_cast<double>(n))] = Rgb(0.5f);
-    others.gatherOthers(B, E);
+    std::vector<std::uint32_t> others;
+    for (int i = 0; i < 5; ++i) {
+      others.push_back(static_cast<std::uint32_t>(random.uniform() * static_cast<double>(n)));
+      B[others.back()] = Rgb(static_cast<float>(random.uniform()));
+    }
+    about.gatherAbout(others, B, E);
     all.gather(B, exact);
-    for (std::size_t i = 0; i < n; ++i)
-      for (int c = 0; c < 3; ++c)
-        ASSERT_NEAR(E[i][c], exact[i][c], 3 * lines::kFollowed * exact[i][c]) << round << ' ' << i;
+    for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(E[i], exact[i]) << round << ' ' << i;
   }
 }
 
