@@ -104,6 +104,21 @@ double relativeChange(const Rgb& before, const Rgb& now, float negligible) {
   return isBlack(now) ? 0.0 : double(gray(glm::abs(now - before))) / std::max(gray(now), negligible);
 }
 
+/// Leaves of which the radiosity still changes, however little it is.
+std::vector<std::uint32_t> fading(std::span<const Rgb> before, std::span<const Rgb> now) {
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t i = 0; i < now.size(); ++i)
+    if (relativeChange(before[i], now[i], 0) > tuning::kLeafConverged) all.push_back(i);
+  return all;
+}
+
+/// Light by way of others, of which next to nothing is left on these leaves, and that becomes less in every pass: it
+/// starts from nothing, so that there is none where none comes.
+void putOut(LeafLight& light, std::span<const std::uint32_t> leaves, std::span<Rgb> B) {
+  for (const std::uint32_t i : leaves) light.indirect[i] = Rgb(0.0f);
+  for (const std::uint32_t i : leaves) B[i] = reflected(light, i);
+}
+
 /// Where light is still on its way when the rest has converged, as in dark rooms and on what an edit has moved: passes
 /// over those leaves alone; the exchange knows light.B.
 void iterateLate(Exchange& exchange, LeafLight& light, std::span<const std::uint32_t> late,
@@ -170,11 +185,18 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     report.residual = change.power, report.change = change.most;
     const bool power = gray(report.residual) <= converged * gray(report.emitted),
                leaves = report.change <= tuning::kLeafConverged;
-    if ((power && leaves) || report.passes == most) break;
+    if (report.passes == most) break;
+    std::vector<std::uint32_t> late;
+    if (power && leaves) {
+      late = fading(light.B, next);
+      if (late.empty()) break;
+      putOut(light, late, next);
+      std::ranges::fill(negligible, 0.0f);
+    } else if (power) {
+      for (const auto& block : lateOf) late.insert(late.end(), block.begin(), block.end());
+    }
     light.B.swap(next);
     if (power) {
-      std::vector<std::uint32_t> late;
-      for (const auto& block : lateOf) late.insert(late.end(), block.begin(), block.end());
       exchange.send(light.B);  // by what is as good as there
       iterateLate(exchange, light, late, negligible);
     } else {
