@@ -121,18 +121,27 @@ void MovedSpace::Row::put(const BoxF& box) {
   ++count;
 }
 
+bool MovedSpace::Line::misses(float x, float y, float z, float halfX, float halfY, float halfZ) const {
+  const float cx = x - from.x, cy = y - from.y, cz = z - from.z;
+  const float hx = halfX + half.x, hy = halfY + half.y, hz = halfZ + half.z;
+  const float fx = std::abs(cx) + hx, fy = std::abs(cy) + hy, fz = std::abs(cz) + hz;
+  // As wide as the line may have strayed where it is farthest in the box, and no longer.
+  const float far = std::sqrt(fx * fx + fy * fy + fz * fz), t = length < far ? length : far;
+  const float strayed = stray * t;
+  return apart(cx, cy, cz, hx + strayed, hy + strayed, hz + strayed, t * halfUnit.x, t * halfUnit.y, t * halfUnit.z) >
+         0;
+}
+
+bool MovedSpace::Line::misses(const BoxF& box) const {
+  const Vec3f middle = 0.5f * (box.lower + box.upper), size = glm::max(box.upper - middle, middle - box.lower);
+  return misses(middle.x, middle.y, middle.z, size.x, size.y, size.z);
+}
+
 bool MovedSpace::Row::crosses(const Line& line) const {
-  const Vec3f from = line.from, wide = line.half, w = line.halfUnit;
+  const Line own = line;  // which nothing else can write to
   int any = 0;
-  for (std::size_t i = 0; i < kBoxes; ++i) {
-    const float cx = x[i] - from.x, cy = y[i] - from.y, cz = z[i] - from.z;
-    const float hx = halfX[i] + wide.x, hy = halfY[i] + wide.y, hz = halfZ[i] + wide.z;
-    const float fx = std::abs(cx) + hx, fy = std::abs(cy) + hy, fz = std::abs(cz) + hz;
-    // As wide as the line may have strayed where it is farthest in the box, and no longer.
-    const float far = std::sqrt(fx * fx + fy * fy + fz * fz), t = line.length < far ? line.length : far;
-    const float stray = line.stray * t;
-    any |= apart(cx, cy, cz, hx + stray, hy + stray, hz + stray, t * w.x, t * w.y, t * w.z) > 0 ? 0 : 1;
-  }
+  for (std::size_t i = 0; i < kBoxes; ++i)
+    any |= own.misses(x[i], y[i], z[i], halfX[i], halfY[i], halfZ[i]) ? 0 : 1;
   return any != 0;
 }
 
@@ -148,9 +157,11 @@ bool MovedSpace::touches(const BoxF& box) const {
 bool MovedSpace::crosses(const BoxF& from, const Vec3f& direction, float length, float stray) const {
   const Line line{0.5f * (from.lower + from.upper), 0.5f * (from.upper - from.lower),
                   0.5f / glm::length(direction) * direction, length, stray};
-  return std::ranges::any_of(rows_, [&](const Rows& group) {
-    return std::ranges::any_of(group, [&](const Row& row) { return row.crosses(line); });
-  });
+  for (std::size_t group = 0; group < rows_.size(); ++group)
+    if (!line.misses(around_[group]) &&
+        std::ranges::any_of(rows_[group], [&](const Row& row) { return row.crosses(line); }))
+      return true;
+  return false;
 }
 
 bool MovedSpace::between(const BoxF& a, const BoxF& b) const {

@@ -42,6 +42,10 @@ class MovedSpace {
     Vec3f from, half;  // the middle of the box, and half its size
     Vec3f halfUnit;    // the line's direction
     float length, stray;
+
+    /// A box, by its middle and half its size.
+    bool misses(float x, float y, float z, float halfX, float halfY, float halfZ) const;
+    bool misses(const BoxF&) const;
   };
   /// Boxes side by side, by their middle and half their size: as many as vectors hold, the last one repeated.
   struct Row {
