@@ -10,6 +10,7 @@
 #include "engine/line_solve.hpp"
 #include "lines/dim_rooms.hpp"
 #include "lines/own_light.hpp"
+#include "lines/scene_widths.hpp"
 #include "lines/tuning.hpp"
 #include "solution/sky_visibility.hpp"
 
@@ -47,8 +48,7 @@ std::vector<float> roughIndirect(const LineSolve& x, const hierarchy::LeafTable&
 
 /// Whether a leaf faces what is as wide as a room.
 std::vector<char> inRooms(const LineSolve& x, const hierarchy::LeafTable& leaves) {
-  const double room = std::min(lines::tuning::kDimRoom / x.s.scene.metresPerUnit,
-                               lines::tuning::kSlotOfScene * x.s.elements.sceneBox.diagonal());
+  const double room = lines::widthsOf(x.s.scene, x.s.elements.sceneBox).room;
   std::vector<char> in(leaves.size(), 0);
   parallelFor(leaves.size(), kRoomLeaves, [&](std::size_t i) {
     const lines::LeafScale& scale = x.samples.scale[leaves[i].index()];

@@ -7,6 +7,7 @@
 #include "engine/scene_update.hpp"
 #include "hierarchy/fold.hpp"
 #include "hierarchy/input_level.hpp"
+#include "lines/scene_widths.hpp"
 
 namespace deltalux::engine {
 
@@ -52,8 +53,7 @@ KnownSolve::KnownSolve(SolveMemory memory, Solution& s, EditedScene edits,
 }
 
 hierarchy::Elements KnownSolve::takeMesh(const Scene& scene, const std::function<hierarchy::Elements()>& build) {
-  const Box now = bounds(scene), before = elements_.sceneBox;
-  holds_ = now.lower == before.lower && now.upper == before.upper;
+  holds_ = lines::widthsOf(scene, bounds(scene)) == lines::widthsOf(scene, elements_.sceneBox);
   if (!holds_) {
     memory_ = {}, lines_ = {}, elements_ = {}, transfer_.reset();
     return build();
@@ -154,9 +154,10 @@ bool KnownSolve::holdsLight(const hierarchy::Elements& elements, const direct::D
 
 std::function<bool(const direct::Lamp&, const tracing::Ray&)> KnownSolve::shadowsThatHold(
     const hierarchy::Elements& elements, const direct::Lamps& lamps, hierarchy::ElementId e) {
-  if (!edits_.lightsStay || !known(elements, e)) return {};
+  if (!known(elements, e)) return {};
   return [lampsThrough = through(elements, lamps, e), this](const direct::Lamp& lamp, const tracing::Ray& ray) {
-    return (lampsThrough & direct::lampBit(lamp.id)) == 0 || !change::crosses(edits_.space, ray);
+    return !edits_.movedLights[lamp.id.index()] &&
+           ((lampsThrough & direct::lampBit(lamp.id)) == 0 || !change::crosses(edits_.space, ray));
   };
 }
 

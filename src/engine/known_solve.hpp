@@ -14,8 +14,9 @@ struct EditedScene {
   change::MovedSpace space;
   std::vector<PrimitiveId> moved;
   std::vector<MaterialId> painted;
-  bool stands = true;      // surfaces have moved, at most: none has come or gone, and lights are what they were
-  bool lightsStay = true;  // all of them are where they were, and none has come or gone
+  bool stands = true;             // surfaces have moved, at most: none has come or gone, and lights are what they were
+  bool lightsStay = true;         // all of them are where they were, and none has come or gone
+  std::vector<char> movedLights;  // by light: those that are not where they were
   bool lightsSame = true;  // they count for what they did as well: where lamps are drawn, one decides about rays to all
   const particles::ParticleUpdate* retraced = nullptr;  // particles that have followed; null: all may be others
 };

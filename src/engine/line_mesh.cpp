@@ -6,6 +6,7 @@
 #include "base/prefetch.hpp"
 #include "engine/line_solve.hpp"
 #include "hierarchy/patch.hpp"
+#include "lines/scene_widths.hpp"
 #include "lines/tuning.hpp"
 
 namespace deltalux::engine {
@@ -33,7 +34,7 @@ struct Samplers {
       : x(solve),
         meter(x.s.elements, x.tracer, x.cover, x.enclosed),
         direct(x.s.elements, x.s.scene, *x.s.tracer, x.lamps, x.s.settings.error),
-        slot(lines::slotWidth(x.s.scene, x.s.elements.sceneBox.diagonal())) {}
+        slot(lines::widthsOf(x.s.scene, x.s.elements.sceneBox).slot) {}
 
   /// Rays that were traced.
   std::uint64_t measure(hierarchy::ElementId patch) const {

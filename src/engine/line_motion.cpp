@@ -29,15 +29,10 @@ double potentialOf(const direct::Lamps& lamps, const hierarchy::ElementGeometry&
 
 /// Lights that shine from elsewhere by these edits, or count for something else: by light.
 std::vector<char> otherLights(const Solution& s, const SceneUpdate& edits) {
-  const Scene& scene = s.scene;
-  const std::vector<Rgb> nominal = scene::nominalScales(scene);
-  std::vector<char> others(scene.lights.size(), 0);
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    others[i] = i >= s.memory->nominal.size() || nominal[i] != s.memory->nominal[i];
-    if (const auto* area = std::get_if<AreaLight>(&scene.lights[i].emitter))
-      for (const SceneChange::Moved& m : edits.moved) others[i] |= m.primitive == area->primitive;
-  }
-  for (const LightId light : edits.movedLights) others[light.index()] = 1;
+  const std::vector<Rgb> nominal = scene::nominalScales(s.scene);
+  std::vector<char> others = lightsThatMoved(s.scene, edits);
+  for (std::size_t i = 0; i < others.size(); ++i)
+    others[i] |= i >= s.memory->nominal.size() || nominal[i] != s.memory->nominal[i];
   return others;
 }
 

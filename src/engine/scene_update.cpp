@@ -45,6 +45,15 @@ std::vector<PrimitiveId> SceneUpdate::primitives() const {
   return all;
 }
 
+std::vector<char> lightsThatMoved(const Scene& scene, const SceneUpdate& edits) {
+  std::vector<char> moved(scene.lights.size(), 0);
+  for (const LightId light : edits.movedLights) moved[light.index()] = 1;
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    if (const auto* area = std::get_if<AreaLight>(&scene.lights[i].emitter))
+      for (const SceneChange::Moved& m : edits.moved) moved[i] |= m.primitive == area->primitive;
+  return moved;
+}
+
 std::vector<hierarchy::ElementId> paintedSurfaces(const hierarchy::Elements& elements, const Scene& scene,
                                                   std::span<const MaterialId> materials) {
   std::vector<PrimitiveId> all;

@@ -31,6 +31,9 @@ SceneUpdate endToEnd(SceneUpdate);
 /// (growth.hpp).
 bool haveElements(const hierarchy::Elements&, const Scene&, const SceneUpdate&);
 
+/// By light: whether it stands or aims elsewhere by these edits, or came with them.
+std::vector<char> lightsThatMoved(const Scene&, const SceneUpdate&);
+
 /// Input-level patches of surfaces of these materials, lamps left out.
 std::vector<hierarchy::ElementId> paintedSurfaces(const hierarchy::Elements&, const Scene&,
                                                   std::span<const MaterialId>);

@@ -135,10 +135,10 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
   edited.space = change::MovedSpace(s.scene, edits.moved);
   edited.moved = edits.primitives(), edited.painted = edits.materials;
   const std::vector<Rgb> nominal = scene::nominalScales(s.scene);
-  edited.lightsStay = edits.movedLights.empty() && !lampMoves &&
-                      std::ranges::equal(
-                          nominal, before->nominal, {}, [](const Rgb& scale) { return isBlack(scale); },
-                          [](const Rgb& scale) { return isBlack(scale); });
+  edited.movedLights = engine::lightsThatMoved(s.scene, edits);
+  const auto black = [](const Rgb& scale) { return isBlack(scale); };
+  edited.lightsStay = !lampMoves && std::ranges::equal(nominal, before->nominal, {}, black, black) &&
+                      std::ranges::none_of(edited.movedLights, [](char moved) { return moved != 0; });
   edited.lightsSame = edited.lightsStay && nominal == before->nominal;
   edited.stands = edited.lightsStay && edits.dimmed.empty() &&
                   std::ranges::none_of(edits.moved,

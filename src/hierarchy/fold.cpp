@@ -129,7 +129,11 @@ bool bringTo(Elements& elements, const Scene& scene, std::span<const PrimitiveId
   }
   parallelFor(inputs.size(), kFewElements, [&](std::size_t i) { shapePatch(elements, scene, inputs[i]); });
   shapeAbove(elements, inputs);
-  elements.sceneBox = bounds(scene);
+  const Box box = bounds(scene);
+  if (box.lower == elements.sceneBox.lower && box.upper == elements.sceneBox.upper) return true;
+  elements.sceneBox = box;
+  for (std::uint32_t e = 0; e < elements.size(); ++e)
+    if (elements.isDistant(ElementId(e))) shapeDistant(elements, scene, ElementId(e));
   return true;
 }
 

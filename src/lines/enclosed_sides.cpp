@@ -5,6 +5,7 @@
 #include "base/cosine_direction.hpp"
 #include "base/parallel.hpp"
 #include "hierarchy/leaf_sequence.hpp"
+#include "lines/scene_widths.hpp"
 #include "lines/tuning.hpp"
 #include "scene/light_sampling.hpp"
 #include "scene/nominal_scale.hpp"
@@ -151,8 +152,7 @@ std::uint64_t walkForLight(const hierarchy::Elements& elements, const LineTracer
                            std::vector<LightWalks>& walks) {
   constexpr std::size_t kBlock = 16;  // [task]
   const Scene& scene = tracer.scene();
-  const double hollow =
-      std::min(tuning::kHollow / scene.metresPerUnit, tuning::kHollowOfScene * elements.sceneBox.diagonal());
+  const double hollow = widthsOf(scene, elements.sceneBox).hollow;
   const LightSearch search(elements, tracer);
   walks.resize(elements.size());
   return parallelSum<std::uint64_t>(elements.inputs.size(), kBlock, [&](std::size_t i) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/tuning.hpp"
+#include "lines/scene_widths.hpp"
 #include "lines/tuning.hpp"
 
 namespace deltalux::lines {
@@ -15,7 +16,7 @@ ScaleMeter::ScaleMeter(const hierarchy::Elements& elements, const LineTracer& tr
       tracer_(tracer),
       cover_(cover),
       enclosed_(enclosed),
-      farthest_(static_cast<float>(elements.sceneBox.diagonal())) {}
+      farthest_(static_cast<float>(widthsOf(tracer.scene(), elements.sceneBox).farthest)) {}
 
 LeafScale ScaleMeter::measure(hierarchy::ElementId patch, FirstLines& first) const {
   const hierarchy::LeafSequence points(elements_, tracer_.scene(), patch);
@@ -91,10 +92,6 @@ void setMeanFreePaths(hierarchy::Elements& elements, const std::vector<LeafScale
     elements.geometry[input.index()].meanFreePath =
         std::max(scales[input.index()].mean, static_cast<float>(tuning::kSurroundings * usual));
   }
-}
-
-double slotWidth(const Scene& scene, double diagonal) {
-  return std::min(tuning::kSlotWidth / scene.metresPerUnit, tuning::kSlotOfScene * diagonal);
 }
 
 bool tooWide(const hierarchy::ElementGeometry& g, const LeafScale& scale, double error, double dim, double slot) {

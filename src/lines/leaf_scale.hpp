@@ -7,7 +7,7 @@ namespace deltalux::lines {
 
 struct LeafScale {
   float harmonic = std::numeric_limits<float>::infinity();  // mean distance [scene units]
-  float mean = 0;                                           // arithmetic; lines out of the scene count as its diagonal
+  float mean = 0;                                           // arithmetic; lines out of the scene: SceneWidths::farthest
   std::uint64_t covered = 0;  // bit i: point i of the leaf's sequence lies under something
   std::uint32_t known = 0;    // how many points that is known of, at most 64
   std::uint32_t rays = 0;
@@ -33,11 +33,8 @@ class ScaleMeter {
 /// than a share of what is usual about them.
 void setMeanFreePaths(hierarchy::Elements&, const std::vector<LeafScale>&);
 
-/// Mean distance above which a lit place is no slot, in a scene of such a diagonal [scene units].
-double slotWidth(const Scene&, double diagonal);
-
 /// Whether a patch is too wide for indirect light at such an error. `dim`: its light relative to what still matters;
-/// where that is less than 1 it may be wider. `slot`: slotWidth().
+/// where that is less than 1 it may be wider. `slot`: SceneWidths::slot.
 bool tooWide(const hierarchy::ElementGeometry&, const LeafScale&, double error, double dim, double slot);
 
 }  // namespace deltalux::lines

@@ -80,6 +80,48 @@ TEST(LineUpdate, AsksOnlyWhatAMotionMayHaveChanged) {
   }
 }
 
+TEST(LineUpdate, KnowsTheRestWhenTheRimOfTheSceneMoves) {
+  // A room with a window on a meadow, and a crate farther out than all else.
+  Scene scene;
+  const MaterialId white = addMaterial(scene, "white", lambert(0.6f));
+  addBox(scene, white, Vec3(0), {4, 3, 2.5}, true);
+  scene.primitives.erase(scene.primitives.begin());  // a wall
+  addBox(scene, white, {1, 1, 0.5}, {2, 2, 0.7}, false);
+  addLight(scene, PointLight{{2, 1.5, 2.3}, Rgb(5.0f)});
+  addLight(scene, DomeLight{{0, 0, 1}, kPi / 2, Rgb(3.0f), UniformSky{1.0}, {0, 0, 1}});
+  const ObjectId crate(scene.objects.size());
+  scene.objects.push_back({"crate", ObjectId(0)});
+  const std::size_t first = scene.primitives.size();
+  addBox(scene, white, {14, 1, 0}, {15, 2, 1}, false);
+  for (std::size_t i = first; i < scene.primitives.size(); ++i) scene.primitives[i].object = crate;
+  Engine engine(std::move(scene), coarse());
+  const std::uint64_t leaves = engine.solve().counts.leafElements;
+  for (const double step : {0.6, -1.3, 0.1}) {
+    engine.apply(TransformObject{"crate", glm::translate(Mat4(1), Vec3(step, 0, 0))});
+    EXPECT_LT(engine.update().leavesChanged, leaves / 4) << step;
+    EXPECT_TRUE(isTheFreshOne(engine)) << step;
+    expectValid(engine, "crate");
+  }
+}
+
+TEST(LineUpdate, AsksOtherLampsNotAgainWhereOneMoves) {
+  Scene scene;
+  const MaterialId white = addMaterial(scene, "white", lambert(0.5f));
+  addBox(scene, white, Vec3(0), {4, 3, 2.5}, true);
+  addBox(scene, white, {1, 1, 0.5}, {2, 2, 0.7}, false);
+  for (int i = 0; i < 6; ++i) {
+    addLight(scene, PointLight{{0.4 + 0.6 * i, 0.4 + 0.4 * i, 2.2}, Rgb(1.0f)});
+    scene.lights.back().name = "lamp" + std::to_string(i);
+  }
+  Engine engine(std::move(scene), coarse());
+  engine.solve();
+  engine.apply(MoveLight{"lamp2", Vec3(0.3, 0, -0.1)});
+  const std::uint64_t rays = engine.update().rays;
+  EXPECT_TRUE(isTheFreshOne(engine));
+  Engine fresh(engine.solution().scene(), coarse());
+  EXPECT_LT(static_cast<double>(rays), 0.4 * static_cast<double>(fresh.solve().counts.raysVisibility));
+}
+
 TEST(LineUpdate, FollowsAnEditThatComesAfterOneBeforeTheSolve) {
   Engine engine(furnishedRoom(), coarse());
   const std::string object = editableOfFurnishedRoom().objects.front();
