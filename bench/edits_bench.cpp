@@ -16,7 +16,8 @@
 //
 // leaves_changed may exceed leaves_of_solve where moved shadows split leaves: old and new ones are counted.
 // Options: metres=M (of a scene unit), error=E, first=N (of each kind, not all), spread=N (moves alone, N of them from
-// all over the list), copies=K (of the scene, side by side: the first is edited), once, unchecked.
+// all over the list), copies=K (of the scene, side by side: the first is edited), once, unchecked, by-light (solved
+// with the light of each lamp apart, of which lamps alone are dimmed and switched off: kinds "dim by light" and so on).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,7 +48,7 @@ struct Options {
   std::size_t first = std::numeric_limits<std::size_t>::max();
   std::size_t spread = 0;
   int copies = 1;
-  bool checked = true, once = false;
+  bool checked = true, once = false, byLight = false;
 
   static Options parse(const std::vector<std::string>& words) {
     Options o;
@@ -66,6 +67,8 @@ struct Options {
         o.once = true;
       else if (word == "unchecked")
         o.checked = false;
+      else if (word == "by-light")
+        o.byLight = o.solve.byLight = true;
       else
         throw std::runtime_error("no option '" + word + "'");
     }
@@ -158,6 +161,15 @@ Cost measure(Engine& engine, const NamedEdit& edit) {
   return {edit.subject, watch.wall(), std::move(step)};
 }
 
+/// Of the edits those that but dim lamps.
+std::vector<EditPhase> dimmingAlone(std::vector<EditPhase> phases) {
+  for (EditPhase& phase : phases) {
+    std::erase_if(phase.edits, [](const NamedEdit& e) { return e.kind != "dim" && e.kind != "off" && e.kind != "on"; });
+    for (NamedEdit& e : phase.edits) e.kind += " by light";
+  }
+  return phases;
+}
+
 CheckReport check(const Engine& engine) {
   const Solved fresh = solve(engine.solution().scene(), engine.solution().settings());
   CheckReport report = compareSolutions(engine.solution(), fresh.engine.solution());
@@ -170,6 +182,7 @@ void run(const std::string& name, const std::string& file, const std::string& li
   addAreaLights(scene);
   std::vector<EditPhase> phases = loadEditList(list, scene);
   if (o.spread > 0) phases = {movesSpread(phases, o.spread)};
+  if (o.byLight) phases = dimmingAlone(std::move(phases));
   if (o.copies > 1) scene = sideBySide(scene, o.copies);
   Solved solved = solve(std::move(scene), o.solve);
   Table table(name, o.solve.error, solved.seconds, solved.engine.solution().report().counts.leafElements);
@@ -206,7 +219,7 @@ int main(int argc, char** argv) {
   std::fputs(
       "usage: edits_bench columns\n"
       "       edits_bench NAME SCENE LIST.txt OPTIONS...\n"
-      "options: metres=M, error=E, first=N, spread=N, copies=K, once, unchecked\n",
+      "options: metres=M, error=E, first=N, spread=N, copies=K, once, unchecked, by-light\n",
       stderr);
   return 2;
 }

@@ -20,7 +20,8 @@ SolveReport Engine::State::step(Progress* progress) {
 void Engine::State::lineRound(Progress* progress) {
   Solution& s = *solution;
   if (!lineSolve) {
-    budget = engine::TimeBudget(s.settings.seconds, clock.seconds());
+    // What is known takes no time, and is all as the error asks for.
+    budget = known ? engine::TimeBudget(0) : engine::TimeBudget(s.settings.seconds, clock.seconds());
     lineSolve = engine::solveCoarsely(s, known ? &*known : nullptr, budget, progress);
     countParticles();
     if (!s.elements.sceneRoot.valid()) {
@@ -37,7 +38,8 @@ void Engine::State::lineRound(Progress* progress) {
   finished = true;
   counts.leavesChanged = engine::changedLeaves(*lineSolve);
   transfer = std::move(lineSolve->transfer);
-  if (!budget.limited()) s.memory = engine::memoryOf(std::move(*lineSolve));
+  // Of a solve that was cut short updates could not be what one without haste would be.
+  if (s.report.converged) s.memory = engine::memoryOf(std::move(*lineSolve));
   lineSolve.reset(), known.reset();
   followTextures(counts);
   if (updated)

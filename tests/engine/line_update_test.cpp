@@ -104,6 +104,20 @@ TEST(LineUpdate, KnowsTheRestWhenTheRimOfTheSceneMoves) {
   }
 }
 
+TEST(LineUpdate, KnowsASolveThatHadTimeEnough) {
+  const Edit edit =
+      TransformObject{editableOfFurnishedRoom().objects.front(), glm::translate(Mat4(1), Vec3(0.05, 0, 0))};
+  SolveSettings limited = coarse();
+  limited.seconds = 600;
+  Engine engine(furnishedRoom(), limited), withoutHaste(furnishedRoom(), coarse());
+  ASSERT_TRUE(engine.solve().converged);
+  withoutHaste.solve();
+  engine.apply(edit), withoutHaste.apply(edit);
+  EXPECT_EQ(engine.update().rays, withoutHaste.update().rays);
+  EXPECT_TRUE(engine.solution().report().converged);
+  EXPECT_EQ(hashOf(engine), hashOf(withoutHaste));
+}
+
 TEST(LineUpdate, AsksOtherLampsNotAgainWhereOneMoves) {
   Scene scene;
   const MaterialId white = addMaterial(scene, "white", lambert(0.5f));
