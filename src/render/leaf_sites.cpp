@@ -1,7 +1,10 @@
 #include "render/leaf_sites.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "base/tuning.hpp"
@@ -15,6 +18,37 @@ constexpr std::size_t kSitesBlock = 512;  // [task]
 BoxF floatBox(const Box& box) { return box.empty() ? BoxF{} : BoxF{Vec3f(box.lower), Vec3f(box.upper)}; }
 
 bool sameBox(const BoxF& a, const BoxF& b) { return a.lower == b.lower && a.upper == b.upper; }
+
+/// Of sites, which reach where: a tree for those of each size, since small ones beside large ones make wide nodes.
+class Reaches {
+ public:
+  explicit Reaches(std::span<const LeafSite> sites) {
+    std::map<int, Group> groups;  // by octave
+    for (std::uint32_t i = 0; i < sites.size(); ++i) {
+      const BoxF& box = sites[i].reach;
+      Group& group = groups[std::ilogb(glm::length(box.upper - box.lower) + std::numeric_limits<float>::min())];
+      group.sites.push_back(i), group.boxes.push_back(box);
+    }
+    for (auto& [octave, group] : groups) trees_.push_back({BoxTree(std::move(group.boxes)), std::move(group.sites)});
+  }
+
+  /// visit(site), by size.
+  template <class Visit>
+  void overlapping(const BoxF& box, const Visit& visit) const {
+    for (const auto& [tree, sites] : trees_) tree.overlapping(box, [&](std::uint32_t k) { visit(sites[k]); });
+  }
+
+ private:
+  struct Group {
+    std::vector<std::uint32_t> sites;
+    std::vector<BoxF> boxes;
+  };
+  struct Tree {
+    BoxTree tree;
+    std::vector<std::uint32_t> sites;
+  };
+  std::vector<Tree> trees_;
+};
 
 }  // namespace
 
@@ -113,14 +147,12 @@ void LeafSites::findNear(const LeafSites* before) {
       if (numberNow[was] == kNone) changed.push_back(before->all_[was].reach);
     if (!changed.empty()) {
       const BoxTree around(changed);
-      parallelFor(all_.size(), kSitesBlock,
-                  [&](std::size_t i) { around.overlapping(all_[i].box, [&](std::uint32_t) { before_[i] = kNone; }); });
+      parallelFor(all_.size(), kSitesBlock, [&](std::size_t i) {
+        if (before_[i] != kNone) around.overlapping(all_[i].box, [&](std::uint32_t) { before_[i] = kNone; });
+      });
     }
   }
-  const bool search = !before || !changed.empty();
-  std::vector<BoxF> reaches(search ? all_.size() : 0);
-  for (std::size_t i = 0; i < reaches.size(); ++i) reaches[i] = all_[i].reach;
-  const BoxTree tree(std::move(reaches));
+  const Reaches reaches(!before || !changed.empty() ? std::span(std::as_const(all_)) : std::span<const LeafSite>());
 
   std::vector<std::vector<std::uint32_t>> lists((all_.size() + kSitesBlock - 1) / kSitesBlock);
   nearBegin_.assign(all_.size() + 1, 0);
@@ -131,7 +163,7 @@ void LeafSites::findNear(const LeafSites* before) {
       if (this->before(i) != kNone) {
         for (const std::uint32_t was : before->near(before_[i])) list.push_back(numberNow[was]);
       } else {
-        tree.overlapping(all_[i].box, [&](std::uint32_t j) {
+        reaches.overlapping(all_[i].box, [&](std::uint32_t j) {
           if (j != i && sameSurface(all_[i].leaf, all_[j].leaf) &&
               all_[j].support.reaches(elements_, scene_, all_[i].leaf))
             list.push_back(j);
