@@ -140,8 +140,7 @@ bool MovedSpace::Line::misses(const BoxF& box) const {
 bool MovedSpace::Row::crosses(const Line& line) const {
   const Line own = line;  // which nothing else can write to
   int any = 0;
-  for (std::size_t i = 0; i < kBoxes; ++i)
-    any |= own.misses(x[i], y[i], z[i], halfX[i], halfY[i], halfZ[i]) ? 0 : 1;
+  for (std::size_t i = 0; i < kBoxes; ++i) any |= own.misses(x[i], y[i], z[i], halfX[i], halfY[i], halfZ[i]) ? 0 : 1;
   return any != 0;
 }
 
