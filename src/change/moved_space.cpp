@@ -24,6 +24,16 @@ void keepBelow(float atZero, float atOne, float& begin, float& end) {
     end = std::min(end, zero);
 }
 
+struct Extent {
+  Vec3f middle, half;
+};
+
+/// Which holds the box, whatever is rounded.
+Extent extentOf(const BoxF& box) {
+  const Vec3f middle = 0.5f * (box.lower + box.upper);
+  return {middle, glm::max(box.upper - middle, middle - box.lower)};
+}
+
 float surface(const BoxF& box) {
   const Vec3f d = box.upper - box.lower;
   return d.x * d.y + d.y * d.z + d.z * d.x;
@@ -113,7 +123,7 @@ void MovedSpace::add(PrimitiveId primitive, const BoxF& box) {
 }
 
 void MovedSpace::Row::put(const BoxF& box) {
-  const Vec3f middle = 0.5f * (box.lower + box.upper), half = glm::max(box.upper - middle, middle - box.lower);
+  const auto [middle, half] = extentOf(box);
   for (std::size_t i = count; i < kBoxes; ++i) {
     x[i] = middle.x, y[i] = middle.y, z[i] = middle.z;
     halfX[i] = half.x, halfY[i] = half.y, halfZ[i] = half.z;
@@ -133,8 +143,8 @@ bool MovedSpace::Line::misses(float x, float y, float z, float halfX, float half
 }
 
 bool MovedSpace::Line::misses(const BoxF& box) const {
-  const Vec3f middle = 0.5f * (box.lower + box.upper), size = glm::max(box.upper - middle, middle - box.lower);
-  return misses(middle.x, middle.y, middle.z, size.x, size.y, size.z);
+  const auto [at, size] = extentOf(box);
+  return misses(at.x, at.y, at.z, size.x, size.y, size.z);
 }
 
 bool MovedSpace::Row::crosses(const Line& line) const {

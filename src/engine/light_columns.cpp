@@ -1,9 +1,9 @@
 #include "engine/light_columns.hpp"
 
 #include <algorithm>
-#include <deltalux/error.hpp>
 
 #include "base/check.hpp"
+#include "base/check_interrupted.hpp"
 #include "base/parallel.hpp"
 #include "hierarchy/pull.hpp"
 #include "lines/tuning.hpp"
@@ -65,7 +65,7 @@ LightColumn columnOf(Solution& s, const LightParts& parts, const LightGroup& gro
 void keepLightsApart(Solution& s, const LightParts& parts, Progress* progress) {
   s.columns = {groupsOf(s.scene, s.settings.groups), {}};
   for (const LightGroup& group : s.columns.groups) {
-    if (progress && progress->stopRequested()) throw Interrupted();
+    checkInterrupted(progress);
     s.columns.of.push_back(columnOf(s, parts, group));
     const std::size_t done = s.columns.of.size(), all = s.columns.groups.size();
     if (progress) progress->report("light by light", static_cast<double>(done) / static_cast<double>(all));

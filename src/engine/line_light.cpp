@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/check.hpp"
+#include "base/check_interrupted.hpp"
 #include "base/parallel.hpp"
 #include "base/per_thread.hpp"
 #include "engine/line_solve.hpp"

@@ -2,9 +2,9 @@
 #include "engine/tuning.hpp"
 
 #include <algorithm>
-#include <deltalux/error.hpp>
 
 #include "base/check.hpp"
+#include "base/check_interrupted.hpp"
 #include "caustics/choice.hpp"
 #include "engine/clock.hpp"
 #include "engine/light_columns.hpp"
@@ -117,10 +117,6 @@ void refineForParticles(LineSolve& x) {
 }
 
 }  // namespace
-
-void checkInterrupted(Progress* progress) {
-  if (progress && progress->stopRequested()) throw Interrupted();
-}
 
 double floorOf(const hierarchy::Elements& elements) {
   double light = 0, area = 0;

@@ -88,8 +88,6 @@ ErrorEstimate estimateError(const Solution&);
 
 // The rounds.
 
-/// Throws Interrupted when asked to stop.
-void checkInterrupted(Progress*);
 /// Leaves whose lines are others than before, or new.
 std::size_t changedLeaves(const LineSolve&);
 /// What the next solve may ask of one that is done.

@@ -1,9 +1,9 @@
 // Solves over links (paper/solve.hpp): its stages in order. Links are refined, light is iterated over them, until
 // they are as fine as the target error asks.
 #include <algorithm>
-#include <deltalux/error.hpp>
 
 #include "base/check.hpp"
+#include "base/check_interrupted.hpp"
 #include "engine/particle_settings.hpp"
 #include "engine/state.hpp"
 #include "engine/tuning.hpp"
@@ -94,7 +94,7 @@ paper::RefineReport Engine::State::refineLinks(const paper::OracleSettings& orac
   const double predicted = budget.limited() ? paper::LinkErrors(s.links, s.elements, oracle).madeBy(oracle.error) : 0;
   const engine::Clock time;
   const paper::RefineReport refined = paper::refine(s.links, s.elements, s.scene, *s.tracer, oracle, [&] {
-    if (progress && progress->stopRequested()) throw Interrupted();
+    checkInterrupted(progress);
     return budget.limited() && budget.left() < 0;
   });
   DELTALUX_VALIDATED(validate(s.links, s.elements));

@@ -1,6 +1,5 @@
 #pragma once
-#include <deltalux/error.hpp>
-#include <deltalux/progress.hpp>
+#include "base/check_interrupted.hpp"
 
 namespace deltalux::exporting {
 
@@ -8,7 +7,7 @@ namespace deltalux::exporting {
 inline void advance(Progress* progress, const char* phase, double fraction) {
   if (!progress) return;
   progress->report(phase, fraction);
-  if (progress->stopRequested()) throw Interrupted();
+  checkInterrupted(progress);
 }
 
 }  // namespace deltalux::exporting

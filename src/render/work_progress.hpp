@@ -1,9 +1,9 @@
 #pragma once
 // Progress of a parallel loop: parts done are counted by all threads, reported by one at a time.
-#include <deltalux/error.hpp>
-#include <deltalux/progress.hpp>
 #include <mutex>
 #include <string_view>
+
+#include "base/check_interrupted.hpp"
 
 namespace deltalux::rendering {
 
@@ -13,9 +13,7 @@ class WorkProgress {
       : progress_(progress), phase_(phase), parts_(parts) {}
 
   /// To be called before each part. Throws Interrupted when the work should end.
-  void begin() const {
-    if (progress_ && progress_->stopRequested()) throw Interrupted();
-  }
+  void begin() const { checkInterrupted(progress_); }
   /// One part is done.
   void done() {
     if (!progress_) return;

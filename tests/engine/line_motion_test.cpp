@@ -20,11 +20,7 @@ Engine roomWithBoard() {
   Scene scene;
   const MaterialId white = addMaterial(scene, "white", lambert(0.5f));
   addBox(scene, white, Vec3(0), {4, 4, 3}, true);
-  const ObjectId board(scene.objects.size());
-  scene.objects.push_back({"board", ObjectId(0)});
-  const std::size_t first = scene.primitives.size();
-  addBox(scene, white, {0.1, 0.1, 1.5}, {1.1, 1.1, 1.55}, false);
-  for (std::size_t i = first; i < scene.primitives.size(); ++i) scene.primitives[i].object = board;
+  addBlock(scene, "board", white, {0.1, 0.1, 1.5}, {1.1, 1.1, 1.55});
   addLight(scene, PointLight{{2.5, 2.5, 2.9}, Rgb(1.0f)});
   scene.lights.back().name = "lamp";
   Engine engine(std::move(scene), coarse());

@@ -89,11 +89,7 @@ TEST(LineUpdate, KnowsTheRestWhenTheRimOfTheSceneMoves) {
   addBox(scene, white, {1, 1, 0.5}, {2, 2, 0.7}, false);
   addLight(scene, PointLight{{2, 1.5, 2.3}, Rgb(5.0f)});
   addLight(scene, DomeLight{{0, 0, 1}, kPi / 2, Rgb(3.0f), UniformSky{1.0}, {0, 0, 1}});
-  const ObjectId crate(scene.objects.size());
-  scene.objects.push_back({"crate", ObjectId(0)});
-  const std::size_t first = scene.primitives.size();
-  addBox(scene, white, {14, 1, 0}, {15, 2, 1}, false);
-  for (std::size_t i = first; i < scene.primitives.size(); ++i) scene.primitives[i].object = crate;
+  addBlock(scene, "crate", white, {14, 1, 0}, {15, 2, 1});
   Engine engine(std::move(scene), coarse());
   const std::uint64_t leaves = engine.solve().counts.leafElements;
   for (const double step : {0.6, -1.3, 0.1}) {
@@ -203,11 +199,7 @@ TEST(LineUpdate, FollowsLinesBetweenFacingMirrors) {
   addPolygon(scene, mirror, {{0.01, 0.2, 0.2}, {0.01, 2.8, 0.2}, {0.01, 2.8, 2.3}, {0.01, 0.2, 2.3}});
   addPolygon(scene, mirror, {{3.99, 0.2, 0.2}, {3.99, 0.2, 2.3}, {3.99, 2.8, 2.3}, {3.99, 2.8, 0.2}});
   addLight(scene, PointLight{{2, 1.5, 2.4}, Rgb(1.0f)});
-  const ObjectId board(scene.objects.size());
-  scene.objects.push_back({"board", ObjectId(0)});
-  const std::size_t first = scene.primitives.size();
-  addBox(scene, white, {1, 1, 0.6}, {1.1, 1.4, 1}, false);
-  for (std::size_t i = first; i < scene.primitives.size(); ++i) scene.primitives[i].object = board;
+  addBlock(scene, "board", white, {1, 1, 0.6}, {1.1, 1.4, 1});
   Engine engine(std::move(scene), coarse());
   engine.solve();
   for (int i = 0; i < 3; ++i) {

@@ -38,6 +38,14 @@ void addBox(Scene& scene, MaterialId material, const Vec3& lower, const Vec3& up
   }
 }
 
+void addBlock(Scene& scene, std::string name, MaterialId material, const Vec3& lower, const Vec3& upper) {
+  const ObjectId block(scene.objects.size());
+  scene.objects.push_back({std::move(name), ObjectId(0)});
+  const std::size_t first = scene.primitives.size();
+  addBox(scene, material, lower, upper, false);
+  for (std::size_t i = first; i < scene.primitives.size(); ++i) scene.primitives[i].object = block;
+}
+
 void addLight(Scene& scene, decltype(Light::emitter) emitter) {
   scene.lights.push_back({"light" + std::to_string(scene.lights.size()), std::move(emitter), Rgb(1.0f)});
 }

@@ -11,6 +11,8 @@ Opaque lambert(float reflectance);
 
 /// Adds the six faces of a box whose fronts look inwards (a room) or outwards (a block).
 void addBox(Scene&, MaterialId, const Vec3& lower, const Vec3& upper, bool inward);
+/// Adds a block as an object of its own, which can be moved.
+void addBlock(Scene&, std::string name, MaterialId, const Vec3& lower, const Vec3& upper);
 /// Adds the polygon of `vertices`, counter-clockwise seen from its front.
 PrimitiveId addPolygon(Scene&, MaterialId, std::vector<Vec3> vertices);
 PrimitiveId addShape(Scene&, MaterialId, Shape);

@@ -7,6 +7,8 @@
 #include <deltalux/sheet.hpp>
 #include <deltalux/solution_reader.hpp>
 
+#include "base/check_interrupted.hpp"
+
 namespace deltalux {
 
 namespace {
@@ -95,7 +97,7 @@ class Measurer {
   std::vector<double> lux(const std::vector<ProbePoint>& points, std::size_t together = 1) const {
     ProbeSettings probing = settings_.probe;
     probing.error = std::min(0.5, probing.error * std::sqrt(static_cast<double>(together)));
-    if (progress_ && progress_->stopRequested()) throw Interrupted();
+    checkInterrupted(progress_);
     if (progress_) progress_->report("measure", 0);
     std::vector<double> all;
     for (const ProbeResult& r : reader_.probe(points, probing))
