@@ -104,13 +104,13 @@ void SolverWork::openAndSolve(const Solver::Open& open) {
     if (!solved) {
       receive(false);
       if (!edits_.empty()) status_.message = fmt::format("{} edits wait until the scene is solved", edits_.size());
-      publish();
+      publish(Reading::Exact);
     }
   }
   if (!edits_.empty()) status_.message.clear();
   status_.phase = Phase::Settled;
   status_.fraction = 1;
-  publish();
+  publish(Reading::Exact);
   emitted_ = engine_->solution().report().energy.emittedW.value_or(0);
 }
 
@@ -120,7 +120,8 @@ void SolverWork::serve() {
   while (!in_.stopped()) {
     const bool busy =
         !edits_.empty() || select_ || (unsettled_ && !moving_) || movesOn() || !rays_.empty() || question_ ||
-        (!lightIsOld() && (!metersAreExact_ || pictureWaits() || !saves_.empty() || !measurements_.empty()));
+        (!lightIsOld() &&
+         (!readExactly_ || !metersAreExact_ || pictureWaits() || !saves_.empty() || !measurements_.empty()));
     receive(!busy);
     prepareSelected();
     takeEdits();
@@ -129,7 +130,9 @@ void SolverWork::serve() {
     if (question_) {
       answer();
     } else if (!lightIsOld()) {
-      if (!measurements_.empty())
+      if (!readExactly_)
+        publish(Reading::Exact);
+      else if (!measurements_.empty())
         measure();
       else if (!metersAreExact_)
         readMeters(true);
@@ -199,7 +202,7 @@ void SolverWork::frame() {
   status_.step = engine_->frame(settings_.frameMs * settings_.motionShare);
   deferred_ = status_.step.deferred > 0;
   status_.staleShare = emitted_ > 0 ? std::clamp(status_.step.staleW.value_or(0) / emitted_, 0.0, 1.0) : 0;
-  publish();
+  publish(Reading::Shown);
 }
 
 void SolverWork::settle() {
@@ -213,14 +216,15 @@ void SolverWork::settle() {
   status_.phase = Phase::Settled;
   status_.staleShare = 0;
   unsettled_ = deferred_ = false;
-  publish();
+  publish(Reading::Shown);
   emitted_ = engine_->solution().report().energy.emittedW.value_or(0);
 }
 
-void SolverWork::publish() {
+void SolverWork::publish(Reading reading) {
   picture_.reset(), pictureDone_ = false;
+  readExactly_ = reading == Reading::Exact;
   if (reader_)
-    reader_->refresh();
+    reader_->refresh(readExactly_ ? 0.0f : SolutionReader::kVisibleStep);
   else
     reader_.emplace(engine_->solution());
   auto mesh = std::make_shared<const SolutionMesh>(reader_->mesh());

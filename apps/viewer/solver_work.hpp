@@ -39,8 +39,9 @@ class SolverWork {
   void save();
   bool pictureWaits() const;
   void improvePicture();
-  /// Reads what the engine has come to, and publishes it with `status`.
-  void publish();
+  /// Reads what the engine has come to, as well as a display shows or to the bit, and publishes it with `status`.
+  enum class Reading { Shown, Exact };
+  void publish(Reading);
   void fail(const std::string& message);
 
   SolverInbox& in_;
@@ -56,6 +57,7 @@ class SolverWork {
   bool moving_ = false;          // more edits will follow
   bool unsettled_ = false;       // edits were applied and the light has not settled since
   bool deferred_ = false;        // the last frame left something to the next
+  bool readExactly_ = false;     // what was published last
   double emitted_ = 0;           // by all lamps, when it was settled last [W]
   std::vector<PixelRay> rays_;
   std::vector<ProbePoint> meters_;

@@ -32,8 +32,13 @@ class SolutionReader {
   SolutionReader(SolutionReader&&) noexcept;
   SolutionReader& operator=(SolutionReader&&) noexcept;
 
+  /// Of irradiance: half a step of eight bits. Less does not show.
+  static constexpr float kVisibleStep = 1.0f / 512;
+
   /// After every step, update or frame of the engine, before anything else is called: the solution has changed.
-  void refresh();
+  /// `tolerance`, a fraction of irradiance (of a tenth of its mean, where there is less): what differs by less from
+  /// what was read before is left as that, which is several times as fast while something moves. 0: all is read.
+  void refresh(float tolerance = 0.0f);
   /// The number of refreshes so far, from 1.
   std::uint64_t version() const;
 

@@ -23,7 +23,12 @@ class BoxTree {
   /// visit(index) for every box that overlaps `box`, in an order that depends on the boxes alone.
   template <class Visit>
   void overlapping(const BoxF& box, const Visit& visit) const {
-    if (nodes_.empty()) return;
+    anyOverlapping(box, [&](std::uint32_t i) { return visit(i), false; });
+  }
+  /// Whether test(index) holds for any box that overlaps `box`; asks no further then.
+  template <class Test>
+  bool anyOverlapping(const BoxF& box, const Test& test) const {
+    if (nodes_.empty()) return false;
     std::uint32_t stack[64];
     int top = 0;
     stack[top++] = 0;
@@ -36,8 +41,9 @@ class BoxTree {
         continue;
       }
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-        if (boxes_[order_[i]].overlaps(box)) visit(order_[i]);
+        if (boxes_[order_[i]].overlaps(box) && test(order_[i])) return true;
     }
+    return false;
   }
 
  private:

@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -36,6 +37,12 @@ void parallelFor(std::size_t count, std::size_t block, const Body& body) {
   parallelBlocks(count, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) body(i);
   });
+}
+
+/// body(), whose parallel loops take up no work of others meanwhile: for what is made once, while others wait for it.
+template <class Body>
+void withoutOtherWork(const Body& body) {
+  tbb::this_task_arena::isolate(body);
 }
 
 /// Sum of term(i) over [0, count), added in index order within blocks and block order across: deterministic.

@@ -8,6 +8,7 @@
 #include "base/sobol.hpp"
 #include "base/tuning.hpp"
 #include "hierarchy/patch.hpp"
+#include "hierarchy/tuning.hpp"
 #include "render/linear_fit.hpp"
 #include "render/tuning.hpp"
 
@@ -19,6 +20,13 @@ constexpr std::size_t kBlock = 512;  // [task]
 
 bool isDark(const LeafIrradiance& E) { return isBlack(E.direct) && isBlack(E.indirect); }
 
+float lightOf(const LeafIrradiance& E) { return maxChannel(E.direct + E.indirect); }
+
+float difference(const LeafIrradiance& a, const LeafIrradiance& b) {
+  return maxChannel(glm::abs(a.direct - b.direct) + glm::abs(a.indirect - b.indirect) +
+                    glm::abs(a.particle - b.particle));
+}
+
 bool disagree(const Rgb& a, const Rgb& b) {
   const float x = gray(a), y = gray(b);
   return std::abs(x - y) > tuning::kDisagree * std::max(x, y);
@@ -28,7 +36,7 @@ bool disagree(const Rgb& a, const Rgb& b) {
 
 IrradianceField::IrradianceField(const hierarchy::Elements& elements, const Scene& scene,
                                  const tracing::RayTracer& tracer, const std::vector<LeafIrradiance>& values,
-                                 float noise, const IrradianceField* before)
+                                 float noise, const IrradianceField* before, float tolerance)
     : elements_(elements),
       scene_(scene),
       tracer_(tracer),
@@ -36,18 +44,7 @@ IrradianceField::IrradianceField(const hierarchy::Elements& elements, const Scen
       sites_(elements, scene, before ? &before->sites_ : nullptr) {
   if (before) generation_ = before->generation_ + 1;
   if (before && before->noise_ != noise) before = nullptr;
-  stages_[Gathered].resize(sites_.size());
-  differs_[Gathered].assign(sites_.size(), 1);
-  coverage_.resize(sites_.size());
-  for (std::size_t i = 0; i < sites_.size(); ++i) {
-    const hierarchy::ElementId leaf = sites_[i].leaf;
-    stages_[Gathered][i] = values[leaf.index()];
-    coverage_[i] = elements.shape(leaf).exposed;
-    const std::uint32_t was = before ? sites_.before(i) : LeafSites::kNone;
-    if (was != LeafSites::kNone)
-      differs_[Gathered][i] =
-          stages_[Gathered][i] != before->stages_[Gathered][was] || coverage_[i] != before->coverage_[was];
-  }
+  gather(values, before, tolerance);
   relate(before);
   fill(Filled, before, [&](std::size_t i) { return filled(i); });
   fill(Mended, before, [&](std::size_t i) { return mended(i); });
@@ -60,6 +57,33 @@ IrradianceField::IrradianceField(const hierarchy::Elements& elements, const Scen
     stages_.back() = stages_[Mended], differs_.back() = differs_[Mended];
   }
   fitAll(before);
+}
+
+void IrradianceField::gather(const std::vector<LeafIrradiance>& values, const IrradianceField* before,
+                             float tolerance) {
+  std::vector<LeafIrradiance>& stage = stages_[Gathered];
+  stage.resize(sites_.size()), coverage_.resize(sites_.size());
+  differs_[Gathered].assign(sites_.size(), 1);
+  const float floor = tolerance > 0 ? hierarchy::tuning::kDarkest * meanOf(values) : 0.0f;
+  parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
+    const hierarchy::ElementId leaf = sites_[i].leaf;
+    const std::uint32_t was = before ? sites_.before(i) : LeafSites::kNone;
+    stage[i] = values[leaf.index()];
+    coverage_[i] = elements_.shape(leaf).exposed;
+    if (was == LeafSites::kNone) return;
+    const LeafIrradiance& held = before->stages_[Gathered][was];
+    if (tolerance > 0 && difference(stage[i], held) < tolerance * std::max(lightOf(held), floor)) stage[i] = held;
+    differs_[Gathered][i] = stage[i] != held || coverage_[i] != before->coverage_[was];
+  });
+}
+
+float IrradianceField::meanOf(const std::vector<LeafIrradiance>& values) const {
+  double light = 0, area = 0;
+  for (std::size_t i = 0; i < sites_.size(); ++i) {
+    const double lit = elements_.shape(sites_[i].leaf).litArea();
+    light += lit * double(lightOf(values[sites_[i].leaf.index()])), area += lit;
+  }
+  return area > 0 ? static_cast<float>(light / area) : 0.0f;
 }
 
 bool IrradianceField::disagreeing(std::size_t home, std::size_t other) const {

@@ -45,9 +45,10 @@ class IrradianceField {
  public:
   /// `values` by element; those of receiving leaves are used. `noise`: of their indirect light, relative to all light.
   /// The others must outlive this. `before`: of the same elements and scene, as they were; it is not needed afterwards.
+  /// What differs from it by less than `tolerance`, a fraction, is left as it was.
   IrradianceField(const hierarchy::Elements&, const Scene&, const tracing::RayTracer&,
                   const std::vector<LeafIrradiance>& values, float noise = 0.0f,
-                  const IrradianceField* before = nullptr);
+                  const IrradianceField* before = nullptr, float tolerance = 0.0f);
 
   /// At the surface point `p`, which `at` locates [W/m2].
   Rgb direct(const hierarchy::LeafPoint& at, const Vec3f& p) const { return blend(direct_, at, p); }
@@ -96,6 +97,10 @@ class IrradianceField {
   /// Values of the leaves, by site, on their way from what they gathered to what is fitted.
   enum Stage { Gathered, Filled, Mended, WithoutOutliers, Quiet, kStages = Quiet + tuning::kQuietPasses };
 
+  /// Takes in the first stage.
+  void gather(const std::vector<LeafIrradiance>& values, const IrradianceField* before, float tolerance);
+  /// Over all that is lit [W/m2].
+  float meanOf(const std::vector<LeafIrradiance>& values) const;
   void relate(const IrradianceField* before);
   /// Whether no light at all comes to one of two surfaces: the inside of what stands flush on the other.
   bool oneIsHollow(std::size_t home, std::size_t other) const;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <utility>
 
 #include "base/parallel.hpp"
 #include "base/tuning.hpp"
+#include "particles/side_index.hpp"
 
 namespace deltalux::rendering {
 
@@ -15,80 +14,22 @@ namespace {
 
 constexpr std::size_t kSitesBlock = 512;  // [task]
 
-BoxF floatBox(const Box& box) { return box.empty() ? BoxF{} : BoxF{Vec3f(box.lower), Vec3f(box.upper)}; }
+bool areParallel(const Vec3f& a, const Vec3f& b) {
+  return glm::dot(a, b) > 0 && glm::length(glm::cross(a, b)) < deltalux::tuning::kNegligible;
+}
 
-bool sameBox(const BoxF& a, const BoxF& b) { return a.lower == b.lower && a.upper == b.upper; }
-
-/// Of sites, which reach where: a tree for those of each size, since small ones beside large ones make wide nodes.
-class Reaches {
- public:
-  explicit Reaches(std::span<const LeafSite> sites) {
-    std::map<int, Group> groups;  // by octave
-    for (std::uint32_t i = 0; i < sites.size(); ++i) {
-      const BoxF& box = sites[i].reach;
-      Group& group = groups[std::ilogb(glm::length(box.upper - box.lower) + std::numeric_limits<float>::min())];
-      group.sites.push_back(i), group.boxes.push_back(box);
-    }
-    for (auto& [octave, group] : groups) trees_.push_back({BoxTree(std::move(group.boxes)), std::move(group.sites)});
-  }
-
-  /// visit(site), by size.
-  template <class Visit>
-  void overlapping(const BoxF& box, const Visit& visit) const {
-    for (const auto& [tree, sites] : trees_) tree.overlapping(box, [&](std::uint32_t k) { visit(sites[k]); });
-  }
-
- private:
-  struct Group {
-    std::vector<std::uint32_t> sites;
-    std::vector<BoxF> boxes;
-  };
-  struct Tree {
-    BoxTree tree;
-    std::vector<std::uint32_t> sites;
-  };
-  std::vector<Tree> trees_;
-};
+bool sameSurface(const LeafSite& a, const LeafSite& b) {
+  const bool samePrimitive = a.primitive == b.primitive;
+  if (samePrimitive && (a.faces || b.faces))
+    return a.front == b.front && glm::dot(a.normal, b.normal) > deltalux::tuning::kSmooth;
+  if (!a.flat || !b.flat) return samePrimitive && a.front == b.front;
+  if (samePrimitive) return glm::dot(a.normal, b.normal) > deltalux::tuning::kSmooth;
+  const float size = 1 / std::sqrt(std::max(a.fineness, b.fineness));
+  return areParallel(a.normal, b.normal) &&
+         std::abs(glm::dot(b.center - a.center, a.normal)) < deltalux::tuning::kNegligible * size;
+}
 
 }  // namespace
-
-Standing::Standing(const Scene& scene) : boxes_(scene.primitives.size()), materials_(scene.primitives.size()) {
-  parallelFor(boxes_.size(), kSitesBlock, [&](std::size_t i) {
-    boxes_[i] = floatBox(bounds(scene.primitives[i].shape));
-    materials_[i] = scene.primitives[i].material;
-  });
-  for (const Placement& p : scene.placements) {
-    placed_.push_back({p.primitive, p.matrix});
-    if (!p.present) boxes_[p.primitive.index()] = BoxF{};
-  }
-}
-
-std::vector<char> Standing::changedSince(const Standing& before) const {
-  std::vector<char> moved(std::max(boxes_.size(), before.boxes_.size()), 0);
-  for (std::size_t i = 0; i < moved.size(); ++i)
-    moved[i] = i >= boxes_.size() || i >= before.boxes_.size() || !sameBox(boxes_[i], before.boxes_[i]) ||
-               materials_[i] != before.materials_[i];
-  // What was turned may have the same box.
-  std::map<PrimitiveId, Mat4> was(before.placed_.begin(), before.placed_.end());
-  for (const auto& [primitive, matrix] : placed_) {
-    const auto found = was.find(primitive);
-    if (found == was.end() || found->second != matrix) moved[primitive.index()] = 1;
-    if (found != was.end()) was.erase(found);
-  }
-  for (const auto& [primitive, matrix] : was) moved[primitive.index()] = 1;
-  return moved;
-}
-
-std::vector<BoxF> Standing::movedSince(const Standing& before) const {
-  const std::vector<char> moved = changedSince(before);
-  std::vector<BoxF> result;
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    if (!moved[i]) continue;
-    for (const auto* boxes : {&before.boxes_, &boxes_})
-      if (i < boxes->size() && (*boxes)[i].lower.x <= (*boxes)[i].upper.x) result.push_back((*boxes)[i]);
-  }
-  return result;
-}
 
 LeafSites::LeafSites(const hierarchy::Elements& elements, const Scene& scene, const LeafSites* before)
     : elements_(elements), scene_(scene), standing_(scene), siteOf_(elements.size(), kNone) {
@@ -102,57 +43,118 @@ LeafSites::LeafSites(const hierarchy::Elements& elements, const Scene& scene, co
   parallelFor(all_.size(), kSitesBlock, [&](std::size_t i) {
     LeafSite& site = all_[i];
     const hierarchy::ElementGeometry& g = elements.shape(site.leaf);
-    site.center = g.center;
+    site.primitive = elements.domain[site.leaf.index()].primitive;
+    site.front = elements.at(site.leaf).front, site.flat = elements.at(site.leaf).flat;
+    site.faces = elements.hasFaces(site.leaf);
+    site.center = g.center, site.normal = g.normal;
     site.fineness = 1.0f / std::max(g.area, 1e-30f);
     site.support = PatchSupport(elements, scene, site.leaf);
     site.box = {g.lower, g.upper};
     site.reach = site.support.bounds(elements, site.leaf);
   });
-  findNear(before);
+  sides_ = sidesOf(all_);
+  const Matching matching = before ? match(*before) : Matching{};
+  plantTrees(before, matching);
+  if (before) findBefore(*before, matching);
+  findNear(before, matching.now);
   if (before) findDisturbed(before->standing_);
 }
 
-bool LeafSites::sameSurface(hierarchy::ElementId a, hierarchy::ElementId b) const {
-  const hierarchy::PatchDomain &da = elements_.domain[a.index()], &db = elements_.domain[b.index()];
-  const bool samePrimitive = da.primitive == db.primitive;
-  if (samePrimitive && (elements_.hasFaces(a) || elements_.hasFaces(b)))
-    return elements_.at(a).front == elements_.at(b).front &&
-           glm::dot(elements_.shape(a).normal, elements_.shape(b).normal) > deltalux::tuning::kSmooth;
-  if (!elements_.at(a).flat || !elements_.at(b).flat)
-    return samePrimitive && elements_.at(a).front == elements_.at(b).front;
-  const hierarchy::ElementGeometry &ga = elements_.shape(a), &gb = elements_.shape(b);
-  const float cosine = glm::dot(ga.normal, gb.normal);
-  if (samePrimitive) return cosine > deltalux::tuning::kSmooth;
-  const float size = std::sqrt(std::min(ga.area, gb.area));
-  return cosine > 0 && glm::length(glm::cross(ga.normal, gb.normal)) < deltalux::tuning::kNegligible &&
-         std::abs(glm::dot(gb.center - ga.center, ga.normal)) < deltalux::tuning::kNegligible * size;
+void LeafSites::Side::add(std::uint32_t i, const LeafSite& site) {
+  if (sites.empty() && site.flat) normal = site.normal;
+  if (!site.flat || (normal && *normal != site.normal)) normal.reset();
+  flat = flat || site.flat;
+  sites.push_back(i);
+  reach.extend(site.reach);
 }
 
-void LeafSites::findNear(const LeafSites* before) {
-  std::vector<std::uint32_t> numberNow;  // by number before
-  std::vector<BoxF> changed;             // where leaves came and went
-  if (before) {
-    before_.assign(all_.size(), kNone);
-    numberNow.assign(before->size(), kNone);
-    for (std::uint32_t i = 0; i < all_.size(); ++i) {
-      const std::size_t element = all_[i].leaf.index();
-      const std::uint32_t was = element < before->siteOf_.size() ? before->siteOf_[element] : kNone;
-      if (was != kNone && all_[i].sameAs(before->all_[was])) {
-        before_[i] = was, numberNow[was] = i;
-      } else {
-        changed.push_back(all_[i].reach);
+void LeafSites::Side::plantTree(std::span<const LeafSite> of) {
+  std::vector<BoxF> boxes;
+  boxes.reserve(sites.size());
+  for (const std::uint32_t i : sites) boxes.push_back(of[i].reach);
+  reaches = std::make_shared<const BoxTree>(std::move(boxes));
+}
+
+bool LeafSites::Side::mayContinue(const Side& other) const {
+  if (primitive == other.primitive) return true;
+  return flat && other.flat && (!normal || !other.normal || areParallel(*normal, *other.normal));
+}
+
+std::vector<LeafSites::Side> LeafSites::sidesOf(std::span<const LeafSite> sites) {
+  const auto numberOf = [](const LeafSite& site) { return particles::sideIndex(site.primitive, site.front); };
+  std::vector<std::uint32_t> placeOf;  // by number, among those that have sites
+  for (const LeafSite& site : sites) {
+    placeOf.resize(std::max(placeOf.size(), numberOf(site) + 1), kNone);
+    placeOf[numberOf(site)] = 0;
+  }
+  std::vector<Side> sides;
+  for (std::size_t number = 0; number < placeOf.size(); ++number) {
+    if (placeOf[number] == kNone) continue;
+    placeOf[number] = static_cast<std::uint32_t>(sides.size());
+    sides.push_back({number, PrimitiveId(number / 2)});
+  }
+  for (std::uint32_t i = 0; i < sites.size(); ++i) sides[placeOf[numberOf(sites[i])]].add(i, sites[i]);
+  return sides;
+}
+
+LeafSites::Matching LeafSites::match(const LeafSites& before) const {
+  Matching m{std::vector<std::uint32_t>(all_.size(), kNone), std::vector<std::uint32_t>(before.size(), kNone)};
+  parallelFor(all_.size(), kSitesBlock, [&](std::size_t i) {
+    const std::size_t element = all_[i].leaf.index();
+    const std::uint32_t was = element < before.siteOf_.size() ? before.siteOf_[element] : kNone;
+    if (was != kNone && all_[i].sameAs(before.all_[was])) m.before[i] = was, m.now[was] = static_cast<std::uint32_t>(i);
+  });
+  return m;
+}
+
+void LeafSites::plantTrees(const LeafSites* before, const Matching& matching) {
+  parallelFor(sides_.size(), 1, [&](std::size_t s) {
+    Side& side = sides_[s];
+    if (before) {
+      const auto was = std::ranges::lower_bound(before->sides_, side.number, {}, &Side::number);
+      if (was != before->sides_.end() && was->number == side.number && was->sites.size() == side.sites.size() &&
+          std::ranges::none_of(side.sites, [&](std::uint32_t i) { return matching.before[i] == kNone; })) {
+        side.reaches = was->reaches;
+        return;
       }
     }
-    for (std::size_t was = 0; was < before->size(); ++was)
-      if (numberNow[was] == kNone) changed.push_back(before->all_[was].reach);
-    if (!changed.empty()) {
-      const BoxTree around(changed);
-      parallelFor(all_.size(), kSitesBlock, [&](std::size_t i) {
-        if (before_[i] != kNone) around.overlapping(all_[i].box, [&](std::uint32_t) { before_[i] = kNone; });
-      });
-    }
-  }
-  const Reaches reaches(!before || !changed.empty() ? std::span(std::as_const(all_)) : std::span<const LeafSite>());
+    side.plantTree(all_);
+  });
+}
+
+void LeafSites::findBefore(const LeafSites& before, const Matching& matching) {
+  before_ = matching.before;
+  std::vector<LeafSite> changed;
+  for (std::size_t i = 0; i < all_.size(); ++i)
+    if (before_[i] == kNone) changed.push_back(all_[i]);
+  for (std::size_t was = 0; was < before.size(); ++was)
+    if (matching.now[was] == kNone) changed.push_back(before.all_[was]);
+  if (changed.empty()) return;
+  std::vector<Side> sides = sidesOf(changed);
+  std::vector<BoxF> reaches;
+  for (Side& side : sides) side.plantTree(changed), reaches.push_back(side.reach);
+  const BoxTree around(std::move(reaches));
+  parallelFor(sides_.size(), 1, [&](std::size_t s) {
+    const Side& here = sides_[s];
+    around.overlapping(here.reach, [&](std::uint32_t k) {
+      const Side& other = sides[k];
+      if (!here.mayContinue(other)) return;
+      for (const std::uint32_t i : here.sites)
+        if (before_[i] != kNone && other.reaches->anyOverlapping(all_[i].box, [&](std::uint32_t j) {
+              return sameSurface(all_[i], changed[other.sites[j]]);
+            }))
+          before_[i] = kNone;
+    });
+  });
+}
+
+void LeafSites::findNear(const LeafSites* before, std::span<const std::uint32_t> numberNow) {
+  std::vector<BoxF> reaches;
+  for (const Side& side : sides_) reaches.push_back(side.reach);
+  const BoxTree sides(std::move(reaches));
+  std::vector<std::uint32_t> sideOf(all_.size());
+  for (std::uint32_t s = 0; s < sides_.size(); ++s)
+    for (const std::uint32_t i : sides_[s].sites) sideOf[i] = s;
 
   std::vector<std::vector<std::uint32_t>> lists((all_.size() + kSitesBlock - 1) / kSitesBlock);
   nearBegin_.assign(all_.size() + 1, 0);
@@ -160,13 +162,18 @@ void LeafSites::findNear(const LeafSites* before) {
     auto& list = lists[begin / kSitesBlock];
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t first = list.size();
+      const LeafSite& site = all_[i];
       if (this->before(i) != kNone) {
         for (const std::uint32_t was : before->near(before_[i])) list.push_back(numberNow[was]);
       } else {
-        reaches.overlapping(all_[i].box, [&](std::uint32_t j) {
-          if (j != i && sameSurface(all_[i].leaf, all_[j].leaf) &&
-              all_[j].support.reaches(elements_, scene_, all_[i].leaf))
-            list.push_back(j);
+        sides.overlapping(site.box, [&](std::uint32_t s) {
+          const Side& side = sides_[s];
+          if (!side.mayContinue(sides_[sideOf[i]])) return;
+          side.reaches->overlapping(site.box, [&](std::uint32_t k) {
+            const std::uint32_t j = side.sites[k];
+            if (j != i && sameSurface(site, all_[j]) && all_[j].support.reaches(elements_, scene_, site.leaf))
+              list.push_back(j);
+          });
         });
         std::sort(list.begin() + static_cast<std::ptrdiff_t>(first), list.end());
       }

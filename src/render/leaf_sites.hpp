@@ -2,43 +2,33 @@
 // The leaves that irradiance is reconstructed from, where they lie, and which of them may take part at whose points:
 // what follows from geometry alone. Made from the sites of the solution before, only what has changed is looked for
 // anew; the result is the same.
-// Cost: a search in a box tree per leaf that is new or near to one that is new or gone.
+// Cost: per leaf that is new, or of a surface with one that is new or gone nearby, a search in the trees of the sides
+// that its own surface can go on in.
 #include <deltalux/scene.hpp>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "render/patch_support.hpp"
+#include "render/standing.hpp"
 
 namespace deltalux::rendering {
 
 struct LeafSite {
   hierarchy::ElementId leaf;
-  Vec3f center{0.0f};
+  PrimitiveId primitive;
+  bool front = true, flat = false, faces = false;
+  Vec3f center{0.0f}, normal{0.0f};
   float fineness = 0;  // 1 / area
   PatchSupport support;
   BoxF box;    // of the leaf
   BoxF reach;  // of its support
 
   bool sameAs(const LeafSite& other) const {
-    return leaf == other.leaf && center == other.center && fineness == other.fineness && support == other.support &&
-           box.lower == other.box.lower && box.upper == other.box.upper;
+    return leaf == other.leaf && center == other.center && normal == other.normal && fineness == other.fineness &&
+           support == other.support && box.lower == other.box.lower && box.upper == other.box.upper;
   }
-};
-
-/// What of a scene can stand between two leaves, to tell where something has moved.
-class Standing {
- public:
-  Standing() = default;
-  explicit Standing(const Scene&);
-  /// By primitive: whether it came, went, moved or was changed since.
-  std::vector<char> changedSince(const Standing& before) const;
-  /// Where these were and are: boxes.
-  std::vector<BoxF> movedSince(const Standing& before) const;
-
- private:
-  std::vector<BoxF> boxes_;                           // by primitive
-  std::vector<MaterialId> materials_;                 // the same
-  std::vector<std::pair<PrimitiveId, Mat4>> placed_;  // ascending
 };
 
 class LeafSites {
@@ -64,14 +54,41 @@ class LeafSites {
   bool disturbed(std::size_t i) const { return !disturbed_.empty() && disturbed_[i]; }
 
  private:
-  void findNear(const LeafSites* before);
+  /// The sites of one side of a primitive, and where their supports reach.
+  struct Side {
+    std::size_t number = 0;  // particles::sideIndex
+    PrimitiveId primitive;
+    std::vector<std::uint32_t> sites = {};  // ascending
+    BoxF reach = {};                        // of all
+    bool flat = false;                      // any
+    std::optional<Vec3f> normal = {};       // where all are flat and have the same
+    std::shared_ptr<const BoxTree> reaches = {};
+
+    void add(std::uint32_t site, const LeafSite&);
+    void plantTree(std::span<const LeafSite>);
+    /// Whether a site of one may be of the same surface as one of the other.
+    bool mayContinue(const Side&) const;
+  };
+  /// Those that have sites, ascending, without trees.
+  static std::vector<Side> sidesOf(std::span<const LeafSite>);
+
+  /// By site, its number before where it stands as it did; and by number before.
+  struct Matching {
+    std::vector<std::uint32_t> before, now;
+  };
+  Matching match(const LeafSites& before) const;
+  /// Trees over reaches: those of the sides before whose sites all stand.
+  void plantTrees(const LeafSites* before, const Matching&);
+  /// Leaves what stands beside a site that came or went without a number before.
+  void findBefore(const LeafSites& before, const Matching&);
+  void findNear(const LeafSites* before, std::span<const std::uint32_t> numberNow);
   void findDisturbed(const Standing& before);
-  bool sameSurface(hierarchy::ElementId a, hierarchy::ElementId b) const;
 
   const hierarchy::Elements& elements_;
   const Scene& scene_;
   Standing standing_;
   std::vector<LeafSite> all_;
+  std::vector<Side> sides_;
   std::vector<std::uint32_t> siteOf_;  // per element
   std::vector<std::uint32_t> nearBegin_, near_;
   std::vector<std::uint32_t> before_;

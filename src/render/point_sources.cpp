@@ -1,5 +1,6 @@
 #include "render/point_sources.hpp"
 
+#include "base/parallel.hpp"
 #include "base/tuning.hpp"
 #include "direct/tuning.hpp"
 #include "hierarchy/leaf_sequence.hpp"
@@ -14,20 +15,22 @@ constexpr std::uint64_t kLeafKey = 0x61696d5f5f5full;  // [key]
 
 }  // namespace
 
-PointSources::PointSources(const Solution& s)
-    : s_(s),
-      leaves_(s.elements),
-      light_(s.scene, *s.tracer),
-      visibility_(skyVisibility(s.elements, leaves_, s.lines)) {}
+PointSources::PointSources(const Solution& s) : s_(s), leaves_(s.elements), light_(s.scene, *s.tracer) {}
+
+const direct::SkyVisibility& PointSources::visibility() const {
+  std::call_once(
+      counted_, [&] { withoutOtherWork([&] { visibility_.emplace(skyVisibility(s_.elements, leaves_, s_.lines)); }); });
+  return *visibility_;
+}
 
 std::vector<direct::Source> PointSources::at(hierarchy::ElementId leaf) const {
   const std::uint32_t i = leaves_.indexOf[leaf.index()];
-  return light_.sources(s_.elements.shape(leaf), [&](int cell) { return visibility_.at(i, cell); });
+  return light_.sources(s_.elements.shape(leaf), [&](int cell) { return visibility().at(i, cell); });
 }
 
 std::vector<direct::Source> PointSources::at(hierarchy::ElementId leaf, const direct::Receiver& x) const {
   const std::uint32_t i = leaves_.indexOf[leaf.index()];
-  return light_.sources(direct::pointPatch(x), [&](int cell) { return visibility_.at(i, cell); });
+  return light_.sources(direct::pointPatch(x), [&](int cell) { return visibility().at(i, cell); });
 }
 
 float PointSources::lightAt(hierarchy::ElementId leaf) const {

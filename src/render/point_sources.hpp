@@ -1,6 +1,9 @@
 #pragma once
 // Where light comes from at the leaves of a solution: suns and lamps that may shine on a leaf, and cells of the skies
 // with the visibility estimates that its lines have found.
+#include <mutex>
+#include <optional>
+
 #include "direct/aim.hpp"
 
 namespace deltalux {
@@ -26,10 +29,13 @@ class PointSources {
   direct::Aim aimAt(hierarchy::ElementId leaf, int rays) const;
 
  private:
+  const direct::SkyVisibility& visibility() const;
+
   const Solution& s_;
   hierarchy::LeafTable leaves_;
   direct::PointSampler light_;
-  direct::SkyVisibility visibility_;
+  mutable std::once_flag counted_;
+  mutable std::optional<const direct::SkyVisibility> visibility_;  // counted when first asked for
 };
 
 }  // namespace deltalux::rendering

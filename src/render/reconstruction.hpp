@@ -14,8 +14,9 @@ struct Solution;
 namespace deltalux::rendering {
 
 struct Reconstruction {
-  /// The solution must outlive this. `before`: of the same solution, as it was; what has not changed is taken over.
-  explicit Reconstruction(const Solution&, const Reconstruction* before = nullptr);
+  /// The solution must outlive this. `before`: of the same solution, as it was; what has not changed is taken over,
+  /// and what differs by less than `tolerance`, a fraction.
+  explicit Reconstruction(const Solution&, const Reconstruction* before = nullptr, float tolerance = 0.0f);
 
   hierarchy::SideLocator locator;
   IrradianceField field;

@@ -22,8 +22,7 @@ namespace rendering {
 
 namespace {
 
-constexpr float kVisibleStep = 1.0f / 512;  // change of irradiance that shows: half a step of eight bits [defined]
-constexpr std::size_t kSiteBlock = 512;     // [task]
+constexpr std::size_t kSiteBlock = 512;  // [task]
 
 /// What differs from what was noted, apart from the light of leaves.
 struct Difference {
@@ -162,7 +161,8 @@ class LeafComparison {
     dropLeaves(changed);
     const std::size_t n = field_.sites();
     std::vector<char> differs(n);
-    parallelFor(n, kSiteBlock, [&](std::size_t i) { differs[i] = change(i) > kVisibleStep * darkest_[i]; });
+    parallelFor(n, kSiteBlock,
+                [&](std::size_t i) { differs[i] = change(i) > SolutionReader::kVisibleStep * darkest_[i]; });
     std::vector<char> readsOther(n);
     parallelFor(n, kSiteBlock, [&](std::size_t i) {
       const auto blended = field_.blended(i);

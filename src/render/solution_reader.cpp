@@ -12,11 +12,11 @@ SolutionReader::~SolutionReader() = default;
 SolutionReader::SolutionReader(SolutionReader&&) noexcept = default;
 SolutionReader& SolutionReader::operator=(SolutionReader&&) noexcept = default;
 
-void SolutionReader::refresh() {
+void SolutionReader::refresh(float tolerance) {
   rendering::ReaderState& s = *state_;
   ++s.version;
   s.meter.reset();
-  s.reconstruction = std::make_unique<rendering::Reconstruction>(s.solution(), s.reconstruction.get());
+  s.reconstruction = std::make_unique<rendering::Reconstruction>(s.solution(), s.reconstruction.get(), tolerance);
   s.changes = rendering::noteChanges(s, s.changes.get());
 }
 

@@ -199,6 +199,56 @@ TEST(SolutionReader, RefreshedIsAsGoodAsNew) {
   compare("painted");
 }
 
+TEST(SolutionReader, LeavesWhatDoesNotShowAsItWas) {
+  Engine engine = furnished();
+  SolutionReader reader(engine.solution());
+  const SolutionMesh before = reader.mesh();
+  engine.apply(ScaleLight{"globe", 0.999f});
+  engine.update();
+  reader.refresh(SolutionReader::kVisibleStep);
+  const SolutionMesh shown = reader.mesh();
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < shown.surfaces.size(); ++i)
+    if (shown.surfaces[i] != before.surfaces[i]) ++others;
+  EXPECT_LE(others, sidesOf(*shown.scene, "globe").size());  // what shines looks otherwise
+  reader.refresh();
+  const SolutionMesh exact = reader.mesh();
+  EXPECT_TRUE(sameMesh(exact, SolutionReader(engine.solution()).mesh()));
+  EXPECT_GT(changedSince(exact, 2).lights.size(), shown.surfaces.size() / 3);
+}
+
+/// However many refreshes there are in a row, what is shown does not drift from what is.
+TEST(SolutionReader, ShowsWhatIsThereWithinTheTolerance) {
+  constexpr float kTolerance = 0.02f;
+  Engine engine = furnished();
+  SolutionReader reader(engine.solution());
+  reader.mesh();
+  engine.select("pot");
+  for (int i = 0; i < 6; ++i) {
+    engine.apply(moved("pot", {0.03, 0.02, 0}));
+    engine.frame(5);
+    reader.refresh(kTolerance);
+    const SolutionMesh shown = reader.mesh(), exact = SolutionReader(engine.solution()).mesh();
+    EXPECT_NO_THROW(validate(shown));
+    std::vector<float> apart;  // of its light
+    for (std::size_t side = 0; side < shown.surfaces.size(); ++side) {
+      if (isEmptySide(exact.surfaces[side])) continue;
+      const auto &a = shown.surfaces[side]->vertices, &b = exact.surfaces[side]->vertices;
+      if (a.size() != b.size()) continue;  // torn otherwise
+      for (std::size_t k = 0; k < a.size(); ++k) {
+        EXPECT_EQ(a[k].position, b[k].position);
+        const Rgb E = b[k].direct + b[k].indirect + b[k].particle;
+        if (!isBlack(E))
+          apart.push_back(maxChannel(glm::abs(a[k].direct + a[k].indirect + a[k].particle - E)) / maxChannel(E));
+      }
+    }
+    ASSERT_GT(apart.size(), 1000u);
+    std::ranges::sort(apart);
+    // Fits and filters take light from several patches.
+    EXPECT_LT(apart[apart.size() * 99 / 100], 2 * kTolerance);
+  }
+}
+
 TEST(SolutionReader, MeshesDoNotDependOnThreads) {
   const Engine engine = furnished();
   const auto with = [&](std::size_t threads) {

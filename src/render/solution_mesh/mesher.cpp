@@ -49,6 +49,7 @@ std::vector<char> SolutionMesher::findChanged(const Solution& s) {
   standing_ = std::move(now);
   const std::size_t sides = 2 * s.scene.primitives.size();
   cuts_.resize(sides), pieces_.resize(sides), shapes_.resize(sides), sources_.resize(sides);
+  readings_.resize(sides);
   std::vector<char> changed(sides, 0);
   const double size = s.elements.sceneBox.diagonal();
   parallelFor(sides, kSidesBlock, [&](std::size_t i) {
@@ -90,12 +91,23 @@ void SolutionMesher::findShapes(const Solution& s, const std::vector<char>& chan
 
 std::shared_ptr<const SurfaceMesh> SolutionMesher::surfaceAt(std::size_t side, const Solution& s,
                                                              const Reconstruction& reconstruction,
-                                                             const SolutionMesh& before, std::uint64_t version) const {
+                                                             const SolutionMesh& before, std::uint64_t version) {
   const auto was = side < before.surfaces.size() ? before.surfaces[side] : nullptr;
   const bool there = shapes_[side] && !shapes_[side]->triangles.empty();
-  if (!there) return was ? withVersions(nothingOn(side), was, version) : nullptr;
-  if (was && !reshaped_[side] && isStillLit(*shapes_[side], s.scene, reconstruction, *was, generation_)) return was;
-  return withVersions(litSide(*shapes_[side], s.scene, reconstruction, was.get(), generation_), was, version);
+  SideReading& reading = readings_[side];
+  if (!there) {
+    reading = {};
+    return was ? withVersions(nothingOn(side), was, version) : nullptr;
+  }
+  const SideShape& shape = *shapes_[side];
+  if (was && !reshaped_[side] && isStillLit(shape, s.scene, reconstruction, *was, generation_)) return was;
+  if (was && !reshaped_[side] && reading.holds(shape, reconstruction.field)) {
+    SurfaceMesh now = litAgain(*was, reading, shape, s.scene, reconstruction, generation_);
+    if (sameLight(now, *was)) return was;
+    now.lightVersion = version;
+    return std::make_shared<const SurfaceMesh>(std::move(now));
+  }
+  return withVersions(litSide(shape, s.scene, reconstruction, was.get(), generation_, reading), was, version);
 }
 
 std::shared_ptr<const SurfaceCausticMesh> SolutionMesher::causticsAt(std::size_t side, const Solution& s,

@@ -8,6 +8,7 @@
 // changed.
 #include "caustics/caustics.hpp"
 #include "render/leaf_sites.hpp"
+#include "render/solution_mesh/side_light.hpp"
 #include "render/solution_mesh/side_shape.hpp"
 
 namespace deltalux {
@@ -38,7 +39,7 @@ class SolutionMesher {
   std::vector<char> findChanged(const Solution&);
   void findShapes(const Solution&, const std::vector<char>& changed);
   std::shared_ptr<const SurfaceMesh> surfaceAt(std::size_t side, const Solution&, const Reconstruction&,
-                                               const SolutionMesh& before, std::uint64_t version) const;
+                                               const SolutionMesh& before, std::uint64_t version);
   std::shared_ptr<const SurfaceCausticMesh> causticsAt(std::size_t side, const Solution&, const SurfaceMesh*,
                                                        const SolutionMesh& before, std::uint64_t version);
 
@@ -48,7 +49,8 @@ class SolutionMesher {
   std::vector<Cut> cuts_;                           // by side
   std::vector<SurfacePieces> pieces_;               // the same
   std::vector<std::shared_ptr<const SideShape>> shapes_;
-  std::vector<char> reshaped_;  // by side: has another shape than the snapshot before
+  std::vector<SideReading> readings_;  // by side, of the snapshot before
+  std::vector<char> reshaped_;         // by side: has another shape than the snapshot before
   std::vector<std::shared_ptr<const caustics::SurfaceCaustics>> sources_;  // by side, of its caustic textures
   std::uint64_t generation_ = 0;  // of the field that the snapshot before was read from
 };

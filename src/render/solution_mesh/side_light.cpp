@@ -13,11 +13,12 @@ namespace {
 constexpr std::size_t kReadBlock = 256;          // [task]
 constexpr std::uint32_t kNowhere = 0xffffffffu;  // [sentinel]
 
-/// Where a vertex reads the field; no leaf: it is dark.
-struct ReadingPlace {
-  hierarchy::ElementId leaf;
-  Vec3f position;
-};
+std::vector<char> tornParts(const SideShape& shape, const IrradianceField& field) {
+  std::vector<char> torn;
+  torn.reserve(shape.parts.size());
+  for (const SideShape::Part& part : shape.parts) torn.push_back(part.leaf.valid() && field.torn(part.leaf));
+  return torn;
+}
 
 /// Lays out the vertices of a side.
 class SideLayout {
@@ -29,24 +30,27 @@ class SideLayout {
     lit_.assign(shape.points.size(), kNowhere);
   }
 
-  /// Where to read the light of each vertex.
-  std::vector<ReadingPlace> layOut() {
-    for (const SideShape::Part& part : shape_.parts) {
+  SideReading layOut() {
+    SideReading reading;
+    reading.torn = tornParts(shape_, reconstruction_.field);
+    for (std::size_t i = 0; i < shape_.parts.size(); ++i) {
+      const SideShape::Part& part = shape_.parts[i];
       if (!part.leaf.valid()) {
         if (dark_.empty()) dark_.assign(shape_.points.size(), kNowhere);
         add(part, dark_);
-      } else if (!reconstruction_.field.torn(part.leaf)) {
+      } else if (!reading.torn[i]) {
         add(part, lit_);
       } else {
         if (own_.empty()) own_.assign(shape_.points.size(), kNowhere);
         const std::size_t first = to_.vertices.size();
         add(part, own_);
         pullInside(part.leaf, first);
-        for (std::uint32_t i = part.triangles; i < part.trianglesEnd; ++i) own_[shape_.triangles[i]] = kNowhere;
-        for (std::uint32_t i = part.outlines; i < part.outlinesEnd; ++i) own_[shape_.outlines[i]] = kNowhere;
+        for (std::uint32_t k = part.triangles; k < part.trianglesEnd; ++k) own_[shape_.triangles[k]] = kNowhere;
+        for (std::uint32_t k = part.outlines; k < part.outlinesEnd; ++k) own_[shape_.outlines[k]] = kNowhere;
       }
     }
-    return std::move(places_);
+    reading.places = std::move(places_);
+    return reading;
   }
 
  private:
@@ -78,7 +82,7 @@ class SideLayout {
   const SideShape& shape_;
   const Reconstruction& reconstruction_;
   SurfaceMesh& to_;
-  std::vector<ReadingPlace> places_;
+  std::vector<SideReading::Place> places_;
   std::vector<std::uint32_t> lit_, dark_, own_;  // by point: its vertex
 };
 
@@ -92,44 +96,59 @@ Rgb radianceAlongNormal(const Scene& scene, const scene::LightSampler& lights, c
                        : scene::seenRadiance(material, direction, far, shape.front);
 }
 
-}  // namespace
-
-namespace {
-
-/// What does not depend on the place.
-SurfaceMesh unlitSide(const SideShape& shape, const Scene& scene, const Reconstruction& reconstruction) {
-  SurfaceMesh side;
+/// Sets what does not depend on the place.
+void setLook(SurfaceMesh& side, const SideShape& shape, const Scene& scene, const Reconstruction& reconstruction) {
   side.primitive = shape.primitive, side.front = shape.front;
   const Material& material = scene.materialOf(shape.primitive);
   side.albedo = diffuseReflectance(material, shape.front);
   side.transmittance = diffuseTransmittance(material);
   side.radiance = radianceAlongNormal(scene, reconstruction.lights(), shape);
-  return side;
+}
+
+void readField(MeshVertex& v, const SideReading::Place& place, const IrradianceField& field) {
+  const PointIrradiance E = field.all({place.leaf, Vec2(v.uv)}, place.position);
+  v.direct = E.direct, v.indirect = E.indirect, v.particle = E.particle;
 }
 
 }  // namespace
 
+bool SideReading::holds(const SideShape& shape, const IrradianceField& field) const {
+  return torn == tornParts(shape, field);
+}
+
 SurfaceMesh litSide(const SideShape& shape, const Scene& scene, const Reconstruction& reconstruction,
-                    const SurfaceMesh* before, std::uint64_t generation) {
-  SurfaceMesh side = unlitSide(shape, scene, reconstruction);
-  const std::vector<ReadingPlace> places = SideLayout(shape, reconstruction, side).layOut();
+                    const SurfaceMesh* before, std::uint64_t generation, SideReading& reading) {
+  SurfaceMesh side;
+  setLook(side, shape, scene, reconstruction);
+  reading = SideLayout(shape, reconstruction, side).layOut();
   if (before && !sameShape(side, *before)) before = nullptr;
-  parallelFor(places.size(), kReadBlock, [&](std::size_t i) {
-    if (!places[i].leaf.valid()) return;
-    MeshVertex& v = side.vertices[i];
-    if (before && reconstruction.field.changedIn(places[i].leaf) <= generation) {
-      v = before->vertices[i];
-      return;
-    }
-    const PointIrradiance E = reconstruction.field.all({places[i].leaf, Vec2(v.uv)}, places[i].position);
-    v.direct = E.direct, v.indirect = E.indirect, v.particle = E.particle;
+  parallelFor(reading.places.size(), kReadBlock, [&](std::size_t i) {
+    const SideReading::Place& place = reading.places[i];
+    if (!place.leaf.valid()) return;
+    if (before && reconstruction.field.changedIn(place.leaf) <= generation)
+      side.vertices[i] = before->vertices[i];
+    else
+      readField(side.vertices[i], place, reconstruction.field);
+  });
+  return side;
+}
+
+SurfaceMesh litAgain(const SurfaceMesh& before, const SideReading& reading, const SideShape& shape, const Scene& scene,
+                     const Reconstruction& reconstruction, std::uint64_t generation) {
+  SurfaceMesh side = before;
+  setLook(side, shape, scene, reconstruction);
+  parallelFor(reading.places.size(), kReadBlock, [&](std::size_t i) {
+    const SideReading::Place& place = reading.places[i];
+    if (place.leaf.valid() && reconstruction.field.changedIn(place.leaf) > generation)
+      readField(side.vertices[i], place, reconstruction.field);
   });
   return side;
 }
 
 bool isStillLit(const SideShape& shape, const Scene& scene, const Reconstruction& reconstruction,
                 const SurfaceMesh& before, std::uint64_t generation) {
-  const SurfaceMesh now = unlitSide(shape, scene, reconstruction);
+  SurfaceMesh now;
+  setLook(now, shape, scene, reconstruction);
   return now.albedo == before.albedo && now.transmittance == before.transmittance && now.radiance == before.radiance &&
          std::none_of(shape.parts.begin(), shape.parts.end(), [&](const SideShape::Part& part) {
            return part.leaf.valid() && reconstruction.field.changedIn(part.leaf) > generation;
