@@ -1,10 +1,17 @@
 #include "solver_mail.hpp"
 
+#include <chrono>
+#include <cmath>
+
 namespace deltalux::viewer {
 
-Orders SolverInbox::take(bool wait) {
+Orders SolverInbox::take(double patience) {
   std::unique_lock lock(mutex_);
-  if (wait) wake_.wait(lock, [&] { return filled_ || stopped_; });
+  const auto called = [&] { return filled_ || stopped_; };
+  if (std::isinf(patience))
+    wake_.wait(lock, called);
+  else if (patience > 0)
+    wake_.wait_for(lock, std::chrono::duration<double>(patience), called);
   filled_ = false;
   Orders next;
   next.editCount = orders_.editCount, next.pinned = orders_.pinned;

@@ -56,8 +56,8 @@ class SolverInbox {
     wake_.notify_one();
     return change(orders_);
   }
-  /// Takes all that is there; with `wait` not before something is. Counters stay.
-  Orders take(bool wait);
+  /// Takes all that is there, as soon as there is something, or when so much time has passed [s]. Counters stay.
+  Orders take(double patience);
   bool filled() const { return filled_; }
   void stop();
   bool stopped() const { return stopped_; }

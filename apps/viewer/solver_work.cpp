@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <deltalux/error.hpp>
+#include <limits>
 
 #include "camera.hpp"
 #include "scene_state.hpp"
@@ -15,6 +16,7 @@ namespace deltalux::viewer {
 namespace {
 
 constexpr double kUsualRounds = 3;  // of a solve: what is shown as done is of these
+constexpr double kRest = 0.3;       // after which work begins that would keep the next edit waiting [s]
 
 /// Tells how far long work is, and ends it when the solver is stopped.
 class LongWork : public Progress {
@@ -68,7 +70,7 @@ void SolverWork::run(const Solver::Open& open) {
     for (const Orders::Save& s : saves_) s.written("the solver has stopped");
     measurements_.clear(), saves_.clear();
     if (in_.stopped() && !in_.filled()) return;
-    receive(true);
+    receive(std::numeric_limits<double>::infinity());
   }
 }
 
@@ -102,7 +104,7 @@ void SolverWork::openAndSolve(const Solver::Open& open) {
     solved = isSolved(nothingYet ? engine_->preview(&solving) : engine_->step(&solving));
     ++rounds;
     if (!solved) {
-      receive(false);
+      receive(0);
       if (!edits_.empty()) status_.message = fmt::format("{} edits wait until the scene is solved", edits_.size());
       publish(Reading::Exact);
     }
@@ -118,11 +120,7 @@ void SolverWork::openAndSolve(const Solver::Open& open) {
 
 void SolverWork::serve() {
   while (!in_.stopped()) {
-    const bool busy =
-        !edits_.empty() || select_ || (unsettled_ && !moving_) || movesOn() || !rays_.empty() || question_ ||
-        (!lightIsOld() &&
-         (!readExactly_ || !metersAreExact_ || pictureWaits() || !saves_.empty() || !measurements_.empty()));
-    receive(!busy);
+    receive(patience());
     prepareSelected();
     takeEdits();
     if (unsettled_) moving_ ? frame() : settle();
@@ -130,22 +128,33 @@ void SolverWork::serve() {
     if (question_) {
       answer();
     } else if (!lightIsOld()) {
-      if (!readExactly_)
+      if (!readExactly_ && (rests() || !measurements_.empty()))
         publish(Reading::Exact);
       else if (!measurements_.empty())
         measure();
-      else if (!metersAreExact_)
-        readMeters(true);
       else if (!saves_.empty())
         save();
-      else if (pictureWaits())
+      else if (readExactly_ && !metersAreExact_)
+        readMeters(true);
+      else if (readExactly_ && pictureWaits())
         improvePicture();
     }
   }
 }
 
-void SolverWork::receive(bool wait) {
-  Orders orders = in_.take(wait);
+double SolverWork::patience() const {
+  constexpr double kForEver = std::numeric_limits<double>::infinity();
+  if (!edits_.empty() || select_ || (unsettled_ && !moving_) || movesOn() || !rays_.empty() || question_) return 0;
+  if (lightIsOld()) return kForEver;
+  if (!saves_.empty() || !measurements_.empty()) return 0;
+  if (!readExactly_) return std::max(kRest - secondsSince(published_), 0.0);
+  return !metersAreExact_ || pictureWaits() ? 0 : kForEver;
+}
+
+bool SolverWork::rests() const { return secondsSince(published_) >= kRest; }
+
+void SolverWork::receive(double patience) {
+  Orders orders = in_.take(patience);
   edits_.insert(edits_.end(), std::make_move_iterator(orders.edits.begin()),
                 std::make_move_iterator(orders.edits.end()));
   editCount_ = orders.editCount;
@@ -233,6 +242,7 @@ void SolverWork::publish(Reading reading) {
     f.mesh = std::move(mesh);
     f.changes = reader_->changes();
   });
+  published_ = SteadyClock::now();
   readMeters(false);
 }
 

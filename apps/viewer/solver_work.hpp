@@ -24,10 +24,13 @@ class SolverWork {
  private:
   void openAndSolve(const Solver::Open&);
   void serve();
-  void receive(bool wait);
+  void receive(double patience);
 
   bool lightIsOld() const { return !edits_.empty() || unsettled_; }
   bool movesOn() const;
+  /// How long there is nothing to do, if there are no orders [s].
+  double patience() const;
+  bool rests() const;
   void prepareSelected();
   void takeEdits();
   void frame();
@@ -58,7 +61,8 @@ class SolverWork {
   bool unsettled_ = false;       // edits were applied and the light has not settled since
   bool deferred_ = false;        // the last frame left something to the next
   bool readExactly_ = false;     // what was published last
-  double emitted_ = 0;           // by all lamps, when it was settled last [W]
+  SteadyClock::time_point published_;
+  double emitted_ = 0;  // by all lamps, when it was settled last [W]
   std::vector<PixelRay> rays_;
   std::vector<ProbePoint> meters_;
   std::uint64_t pinned_ = 0;
