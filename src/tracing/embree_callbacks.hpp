@@ -3,6 +3,7 @@
 // on the triangles it finds. User data are the tables of records; contexts are ClosestQuery or PassageQuery.
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "tracing/analytic_surface.hpp"
@@ -89,15 +90,27 @@ void occludedCallback(const RTCOccludedFunctionNArguments* args) {
   }
 }
 
+/// Whether a triangle was found as it would be in any tree: by a ray that enters its own box. Embree takes triangles
+/// for hit by rays that pass their border at some distance, where those enter the node around them.
+inline bool isFoundAnyway(const RTCFilterFunctionNArguments* args, unsigned i, const PacketRay& ray) {
+  constexpr float kBorder = 0.01f;  // in barycentric coordinates, beyond which single precision does not err [rounding]
+  const float u = RTCHitN_u(args->hit, args->N, i), v = RTCHitN_v(args->hit, args->N, i);
+  if (std::min({u, v, 1 - u - v}) > kBorder) return true;
+  const auto& table = *static_cast<const TriangleTable*>(args->geometryUserPtr);
+  return enters(ray.origin(), ray.direction(), table.boxes[RTCHitN_primID(args->hit, args->N, i)]);
+}
+
+inline void nothingFilter(const RTCFilterFunctionNArguments* args) { std::fill_n(args->valid, args->N, 0); }
+
 /// (That the ray's reach grows by a few digits over what Embree saw is more than its manual grants to filters, but what
 /// its kernels heed.)
 inline void closestFilter(const RTCFilterFunctionNArguments* args) {
   auto& query = *static_cast<ClosestQuery*>(args->context);
-  const auto* records = static_cast<const TriangleRecord*>(args->geometryUserPtr);
+  const TriangleRecord* records = static_cast<const TriangleTable*>(args->geometryUserPtr)->records.data();
   for (unsigned i = 0; i < args->N; ++i) {
     if (!args->valid[i]) continue;
     const PacketRay ray{args->ray, args->N, i};
-    if (query.take(records[RTCHitN_primID(args->hit, args->N, i)], ray.tFar()))
+    if (isFoundAnyway(args, i, ray) && query.take(records[RTCHitN_primID(args->hit, args->N, i)], ray.tFar()))
       ray.tFar() = query.reach();
     else
       args->valid[i] = 0;
@@ -108,14 +121,14 @@ inline void closestFilter(const RTCFilterFunctionNArguments* args) {
 template <Passage passage>
 void triangleFilter(const RTCFilterFunctionNArguments* args) {
   auto& query = *static_cast<PassageQuery*>(args->context);
-  const auto* records = static_cast<const TriangleRecord*>(args->geometryUserPtr);
+  const TriangleRecord* records = static_cast<const TriangleTable*>(args->geometryUserPtr)->records.data();
   for (unsigned i = 0; i < args->N; ++i) {
     if (!args->valid[i]) continue;
     const PacketRay ray{args->ray, args->N, i};
     const TriangleRecord& record = records[RTCHitN_primID(args->hit, args->N, i)];
     const Vec3 origin = ray.origin(), direction = ray.direction();
     const auto t = static_cast<float>(record.meet(origin, direction, ray.tFar()));
-    bool blocked = t >= query.segment.tNear && t <= query.segment.tFar;
+    bool blocked = t >= query.segment.tNear && t <= query.segment.tFar && isFoundAnyway(args, i, ray);
     if constexpr (passage == Passage::Pane)
       blocked = blocked && !query.cross(record.primitive, t, std::abs(glm::dot(record.normal, direction)));
     if (blocked)

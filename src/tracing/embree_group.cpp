@@ -1,6 +1,7 @@
 #include "tracing/embree_group.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <variant>
 
@@ -13,7 +14,8 @@ namespace {
 enum Kind : unsigned { kTriangles, kSpheres, kCylinders, kCones, kRings, kThinTriangles };
 
 /// Polygons narrower than this, relative to their coordinates, would lose their shape in single precision.
-constexpr double kThin = 2e-4;  // [rounding]
+constexpr double kThin = 2e-4;                       // [rounding]
+constexpr unsigned kRim = 2 * (kThinTriangles + 1);  // geometry, behind all others
 constexpr unsigned geometryId(unsigned kind, Passage passage) { return 2 * kind + (passage == Passage::Pane ? 1 : 0); }
 
 }  // namespace
@@ -21,6 +23,7 @@ constexpr unsigned geometryId(unsigned kind, Passage passage) { return 2 * kind 
 /// Takes the shapes of primitives in, on their way into Embree's buffers and the layers' tables.
 struct EmbreeGroup::Collection {
   Layer& layer;
+  float extent;
   PrimitiveId id = PrimitiveId();
   std::vector<Vec3f> vertices = {};
   std::vector<std::array<std::uint32_t, 3>> indices = {};
@@ -30,11 +33,11 @@ struct EmbreeGroup::Collection {
       for (const auto& [a, b, c] : polygon.triangles)
         layer.thinTriangles.emplace_back(
             ThinTriangleSurface(polygon.vertices[a], polygon.vertices[b], polygon.vertices[c], polygon.normal), id,
-            bounds(polygon));
+            bounds(polygon), extent);
       return;
     }
     for (std::uint32_t t = 0; t < polygon.triangles.size(); ++t)
-      layer.triangles.emplace_back(id, 0, polygon.normal, polygon.vertices[0]);
+      layer.triangles.records.emplace_back(id, 0, polygon.normal, polygon.vertices[0]);
     addTriangles(polygon.vertices, polygon.triangles);
   }
   void operator()(const Mesh& mesh) {
@@ -42,14 +45,14 @@ struct EmbreeGroup::Collection {
       const auto& [a, b, c] = mesh.triangles[t];
       const Vec3& origin = mesh.positions[a];
       const Vec3 normal = glm::normalize(glm::cross(mesh.positions[b] - origin, mesh.positions[c] - origin));
-      layer.triangles.emplace_back(id, t, normal, origin);
+      layer.triangles.records.emplace_back(id, t, normal, origin);
     }
     addTriangles(mesh.positions, mesh.triangles);
   }
-  void operator()(const Sphere& s) { layer.spheres.emplace_back(SphereSurface(s), id, bounds(s)); }
-  void operator()(const Cylinder& s) { layer.cylinders.emplace_back(CylinderSurface(s), id, bounds(s)); }
-  void operator()(const Cone& s) { layer.cones.emplace_back(ConeSurface(s), id, bounds(s)); }
-  void operator()(const Ring& s) { layer.rings.emplace_back(RingSurface(s), id, bounds(s)); }
+  void operator()(const Sphere& s) { layer.spheres.emplace_back(SphereSurface(s), id, bounds(s), extent); }
+  void operator()(const Cylinder& s) { layer.cylinders.emplace_back(CylinderSurface(s), id, bounds(s), extent); }
+  void operator()(const Cone& s) { layer.cones.emplace_back(ConeSurface(s), id, bounds(s), extent); }
+  void operator()(const Ring& s) { layer.rings.emplace_back(RingSurface(s), id, bounds(s), extent); }
 
  private:
   /// Area over length: the width of a strip.
@@ -66,13 +69,13 @@ struct EmbreeGroup::Collection {
   }
 };
 
-EmbreeGroup::EmbreeGroup(RTCDevice device, const Scene& scene, std::vector<PrimitiveId> primitives)
+EmbreeGroup::EmbreeGroup(RTCDevice device, const Scene& scene, std::vector<PrimitiveId> primitives, float extent)
     : primitives_(std::move(primitives)), scene_(rtcNewScene(device)) {
   throwEmbreeError(device);
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);  // rays find no gap between neighbouring triangles
   for (const Passage passage : {Passage::Opaque, Passage::Pane}) {
     Layer& layer = layers_[passage == Passage::Pane ? 1 : 0];
-    Collection collection{layer};
+    Collection collection{layer, extent};
     for (const PrimitiveId id : primitives_) {
       if (passesStraight(scene.materialOf(id)) != (passage == Passage::Pane) || !(area(scene[id].shape) > 0)) continue;
       collection.id = id;
@@ -85,12 +88,39 @@ EmbreeGroup::EmbreeGroup(RTCDevice device, const Scene& scene, std::vector<Primi
     attachAnalytic(device, passage, kRings, layer.rings);
     attachAnalytic(device, passage, kThinTriangles, layer.thinTriangles);
   }
+  attachRim(device, scene, extent);
   rtcCommitScene(scene_.get());
   throwEmbreeError(device);
 }
 
-void EmbreeGroup::attachTriangles(RTCDevice device, Passage passage, const Collection& collection) {
+void EmbreeGroup::attachRim(RTCDevice device, const Scene& scene, float extent) {
+  Box box;
+  for (const PrimitiveId id : primitives_)
+    if (area(scene[id].shape) > 0) box.extend(bounds(scene[id].shape));
+  if (box.empty()) return;
+  const Vec3f margin(kRounding * extent);
+  const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+  auto* corners = static_cast<Vec3f*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), 2));
+  auto* indices = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
+      geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(std::array<std::uint32_t, 3>), 2));
+  throwEmbreeError(device);
+  corners[0] = Vec3f(box.lower) - margin, corners[1] = Vec3f(box.upper) + margin;
+  indices[0] = {0, 0, 0}, indices[1] = {1, 1, 1};
+  rtcSetGeometryIntersectFilterFunction(geometry.get(), nothingFilter);
+  rtcSetGeometryOccludedFilterFunction(geometry.get(), nothingFilter);
+  rtcSetGeometryMask(geometry.get(), static_cast<unsigned>(Passage::Opaque) | static_cast<unsigned>(Passage::Pane));
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometryByID(scene_.get(), geometry.get(), kRim);
+}
+
+void EmbreeGroup::attachTriangles(RTCDevice device, Passage passage, Collection& collection) {
   if (collection.indices.empty()) return;
+  TriangleTable& table = collection.layer.triangles;
+  for (const auto& corners : collection.indices) {
+    BoxF& box = table.boxes.emplace_back();
+    for (const std::uint32_t corner : corners) box.extend(collection.vertices[corner]);
+  }
   const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
   auto* vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
       geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), collection.vertices.size()));
@@ -100,7 +130,7 @@ void EmbreeGroup::attachTriangles(RTCDevice device, Passage passage, const Colle
   throwEmbreeError(device);
   std::copy(collection.vertices.begin(), collection.vertices.end(), vertices);
   std::copy(collection.indices.begin(), collection.indices.end(), indices);
-  rtcSetGeometryUserData(geometry.get(), collection.layer.triangles.data());
+  rtcSetGeometryUserData(geometry.get(), &table);
   rtcSetGeometryIntersectFilterFunction(geometry.get(), closestFilter);
   rtcSetGeometryOccludedFilterFunction(
       geometry.get(), passage == Passage::Pane ? triangleFilter<Passage::Pane> : triangleFilter<Passage::Opaque>);
@@ -127,6 +157,22 @@ void EmbreeGroup::attach(RTCGeometry geometry, Passage passage, unsigned kind) {
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(scene_.get(), geometry, geometryId(kind, passage));
   empty_ = false;
+}
+
+bool enters(const Vec3& origin, const Vec3& direction, const BoxF& box) {
+  // Nodes are as much wider as three of these, of which roundings take less than two. (Embree 3.13.)
+  constexpr double kSlack = std::numeric_limits<float>::epsilon();
+  double begin = 0, end = kInfinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double lower = box.lower[axis] - origin[axis], upper = box.upper[axis] - origin[axis];
+    if (direction[axis] == 0) {
+      if (lower > 0 || upper < 0) return false;
+      continue;
+    }
+    const double a = lower / direction[axis], b = upper / direction[axis];
+    begin = std::max(begin, std::min(a, b)), end = std::min(end, std::max(a, b));
+  }
+  return begin * (1 - kSlack) <= end * (1 + kSlack);
 }
 
 namespace {
@@ -166,7 +212,7 @@ Hit EmbreeGroup::hit(const ClosestQuery& query, const RTCHit& found) const {
   const unsigned i = found.primID;
   switch (found.geomID / 2) {
     case kTriangles:
-      return hitOn(layer.triangles[i], query);
+      return hitOn(layer.triangles.records[i], query);
     case kSpheres:
       return hitOn(layer.spheres[i], query);
     case kCylinders:

@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <deltalux/ids.hpp>
 #include <deltalux/math.hpp>
+#include <vector>
+
+#include "base/box_tree.hpp"
 
 namespace deltalux::tracing {
 
@@ -24,10 +27,25 @@ struct TriangleRecord {
   std::uint32_t triangle;  // in the mesh; 0 in polygons
 };
 
+/// Boxes of user primitives and groups are wider by so much of the largest coordinate: what Embree's traversal, which
+/// is not robust for them, may be off by on either side of its comparisons.
+inline constexpr float kRounding = 4e-7f;  // [rounding]
+
+struct TriangleTable {
+  std::vector<TriangleRecord> records;
+  std::vector<BoxF> boxes;  // around them as Embree has them, in single precision
+};
+
+/// Whether a ray enters a box, or passes it by less than Embree's robust traversal allows for: every node that holds
+/// the box is entered then, whatever else it holds. What a triangle takes for a hit is not farther from its border, so
+/// that of two that share an edge one is left.
+bool enters(const Vec3& origin, const Vec3& direction, const BoxF&);
+
 /// One of Embree's user primitives, with bounds that hold in single precision.
 template <class Surface>
 struct AnalyticRecord {
-  AnalyticRecord(const Surface&, PrimitiveId, const Box& bounds);
+  /// `extent`: the largest coordinate of where rays come from.
+  AnalyticRecord(const Surface&, PrimitiveId, const Box& bounds, float extent);
 
   Surface surface;
   PrimitiveId primitive;
@@ -43,9 +61,9 @@ inline double TriangleRecord::meet(const Vec3& origin, const Vec3& direction, fl
 }
 
 template <class Surface>
-AnalyticRecord<Surface>::AnalyticRecord(const Surface& s, PrimitiveId id, const Box& box) : surface(s), primitive(id) {
-  // Wider than the box by what rounding may take, also on the ray's side of the comparison.
-  const Vec3 margin = 4e-7 * glm::max(glm::abs(box.lower), glm::abs(box.upper));
+AnalyticRecord<Surface>::AnalyticRecord(const Surface& s, PrimitiveId id, const Box& box, float extent)
+    : surface(s), primitive(id) {
+  const Vec3 margin(kRounding * extent);
   lower = Vec3f(box.lower - margin), upper = Vec3f(box.upper + margin);
 }
 

@@ -26,6 +26,12 @@ RTCRay embreeRay(const Ray& ray, unsigned mask) {
   return r;
 }
 
+/// Largest coordinate.
+float extentOf(const Primitive& primitive) {
+  const Box box = bounds(primitive.shape);
+  return box.empty() ? 0.0f : std::max(largestCoordinate(Vec3f(box.lower)), largestCoordinate(Vec3f(box.upper)));
+}
+
 /// A closest-hit query on its way.
 struct Pending {
   explicit Pending(const Ray& ray) : query(ray) {
@@ -142,8 +148,9 @@ class EmbreeTracer final : public RayTracer {
     groupOf_.resize(scene_.primitives.size(), GroupId(0));  // primitives added since belong to the static rest
     std::vector<PrimitiveId> members;
     for (std::size_t i = 0; i < groupOf_.size(); ++i)
-      if (groupOf_[i].index() == group) members.emplace_back(i);
-    groups_[group] = std::make_unique<EmbreeGroup>(device_.get(), scene_, std::move(members));
+      if (groupOf_[i].index() == group)
+        members.emplace_back(i), extent_ = std::max(extent_, extentOf(scene_.primitives[i]));
+    groups_[group] = std::make_unique<EmbreeGroup>(device_.get(), scene_, std::move(members), extent_);
   }
 
   void join() {
@@ -172,6 +179,7 @@ class EmbreeTracer final : public RayTracer {
 
   const Scene& scene_;
   EmbreeDevice device_;
+  float extent_ = 0;  // the largest coordinate there was
   std::vector<std::unique_ptr<EmbreeGroup>> groups_;
   std::vector<GroupId> groupOf_;  // by primitive
   EmbreeScene instances_;

@@ -287,6 +287,66 @@ TEST(NastyGroups, CoincidentSurfacesAreHitAlikeHoweverTheyAreGrouped) {
   }
 }
 
+/// Rays that pass an edge within single precision: which of its faces they meet, if any, must not depend on what else
+/// is in the tree.
+TEST(NastyGroups, EdgesAreHitAlikeHoweverTheyAreGrouped) {
+  for (const bool turned : {false, true}) {
+    Scene scene = test::emptyScene();
+    Rng rng(8);
+    test::addBox(scene, {{-1.3, -1.7, -1.1}, {1.9, 1.3, 1.7}}, turned ? test::someTurn() : glm::dmat3(1));
+    std::vector<std::array<Vec3, 2>> edges;
+    for (int i = 0; i < 60; ++i) {
+      const Vec3 corner = test::randomIn({{-1.2, -1.6, -1.0}, {1.5, 1.0, 1.4}}, rng);
+      test::addBox(scene, {corner, corner + test::randomIn({Vec3(0.02), Vec3(0.3)}, rng)},
+                   turned ? test::someTurn() : glm::dmat3(1));
+    }
+    for (const Primitive& p : scene.primitives) {
+      const auto& vertices = std::get<Polygon>(p.shape).vertices;
+      for (std::size_t k = 0; k < vertices.size(); ++k)
+        edges.push_back({vertices[k], vertices[(k + 1) % vertices.size()]});
+    }
+    const auto fresh = makeEmbreeTracer(scene), grouped = makeEmbreeTracer(scene);
+    std::vector<PrimitiveId> movable;
+    for (std::size_t i = 6; i < scene.primitives.size(); i += 4) movable.emplace_back(i);
+    grouped->separate(movable);
+    int differ = 0;
+    for (int i = 0; i < 300000; ++i) {
+      const auto& [a, b] = edges[static_cast<std::size_t>(rng.uniform() * double(edges.size()))];
+      Ray ray;
+      ray.origin = Vec3f(test::randomIn({{-1.2, -1.6, -1.0}, {1.8, 1.2, 1.6}}, rng));
+      ray.direction = Vec3f(glm::normalize(glm::mix(a, b, rng.uniform()) - Vec3(ray.origin)));
+      differ +=
+          !same(fresh->closestHit(ray), grouped->closestHit(ray)) || fresh->occluded(ray) != grouped->occluded(ray);
+    }
+    EXPECT_EQ(differ, 0) << (turned ? "turned" : "along the axes");
+  }
+}
+
+/// Rays that start on the outermost faces of a group, inside of it: the group is entered whatever is rounded.
+TEST(NastyGroups, RaysFromTheRimOfAGroupAreItsOwn) {
+  Rng rng(9);
+  for (int i = 0; i < 200; ++i) {
+    Scene scene = test::emptyScene();
+    test::addBox(scene, {{-9, -9, -9}, {9, 9, 9}});
+    const Vec3 corner = test::randomIn({Vec3(-7), Vec3(7)}, rng);
+    const Box box{corner, corner + test::randomIn({Vec3(0.02), Vec3(1)}, rng)};
+    test::addBox(scene, box);
+    const auto fresh = makeEmbreeTracer(scene), grouped = makeEmbreeTracer(scene);
+    std::vector<PrimitiveId> own;
+    for (std::size_t p = 6; p < 12; ++p) own.emplace_back(p);
+    grouped->separate(own);
+    for (int k = 0; k < 500; ++k) {
+      Vec3 at = test::randomIn(box, rng);
+      const int axis = k % 3;
+      at[axis] = k % 2 ? box.lower[axis] : box.upper[axis];
+      Ray ray;
+      ray.origin = Vec3f(at), ray.direction = Vec3f(test::randomDirection(rng));
+      ASSERT_TRUE(same(fresh->closestHit(ray), grouped->closestHit(ray))) << "box " << i << " ray " << k;
+      ASSERT_EQ(fresh->occluded(ray), grouped->occluded(ray)) << "box " << i << " ray " << k;
+    }
+  }
+}
+
 TEST_F(Groups, GroupsOfGroups) {
   const auto tracer = makeEmbreeTracer(scene_);
   const GroupId all = tracer->separate(movable_);
