@@ -15,7 +15,7 @@ enum Kind : unsigned { kTriangles, kSpheres, kCylinders, kCones, kRings, kThinTr
 
 /// Polygons narrower than this, relative to their coordinates, would lose their shape in single precision.
 constexpr double kThin = 2e-4;                       // [rounding]
-constexpr unsigned kRim = 2 * (kThinTriangles + 1);  // geometry, behind all others
+constexpr unsigned kRim = 2 * (kThinTriangles + 1);  // geometry, behind all others [layout]
 constexpr unsigned geometryId(unsigned kind, Passage passage) { return 2 * kind + (passage == Passage::Pane ? 1 : 0); }
 
 }  // namespace
