@@ -61,7 +61,7 @@ bool Controller::takeChanges() {
   changed |= takeNewer(picture_, solver_->picture());
   if (takeNewer(readings_, solver_->readings())) takeReadings(*readings_), changed = true;
   if (takeNewer(answer_, solver_->answer())) takeAnswer(*answer_), changed = true;
-  if (settled())
+  if (settled() && status_.exact)
     for (int slot = 0; slot < 2; ++slot)
       if (std::exchange(storedEarly_[static_cast<std::size_t>(slot)], false)) store(slot);
   if (session_) askNext();

@@ -174,7 +174,7 @@ class Controller {
   std::array<std::optional<View>, 10> bookmarks_;
   int compared_ = -1;
   double wipe_ = 1;
-  std::array<bool, 2> storedEarly_{};  // before the light had settled: the light follows
+  std::array<bool, 2> storedEarly_{};  // before the light had settled, or was read to the bit: it follows
 
   std::optional<glm::dvec2> cursorAt_;  // pixels
   UnderCursor cursor_;

@@ -202,7 +202,7 @@ void Controller::store(int slot) {
   if (slot != 0 && slot != 1) refuseAction("states are stored as A or B");
   if (dragging()) endDrag();
   session_->store(static_cast<std::size_t>(slot), slot == 0 ? "A" : "B", mesh_);
-  storedEarly_[static_cast<std::size_t>(slot)] = !settled();
+  storedEarly_[static_cast<std::size_t>(slot)] = !settled() || !status_.exact;
 }
 
 void Controller::compare(int slot, double wipe) {

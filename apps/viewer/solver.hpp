@@ -26,6 +26,7 @@ enum class Phase { Opening, Solving, Moving, Settling, Settled, Failed };
 struct Status {
   Phase phase = Phase::Opening;
   double fraction = 0;       // of Opening and Solving that is done
+  bool exact = true;         // the mesh that was published last is the solution's to the bit, not just as it shows
   double staleShare = 0;     // light that is not yet where it would be, of all that lamps emit: 0 to 1
   std::string message;       // Failed: what is wrong. Else of an edit that was refused, until the next; or that waits
   double settleSeconds = 0;  // of the last Settling

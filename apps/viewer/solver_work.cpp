@@ -128,15 +128,15 @@ void SolverWork::serve() {
     if (question_) {
       answer();
     } else if (!lightIsOld()) {
-      if (!readExactly_ && (rests() || !measurements_.empty()))
+      if (!status_.exact && (rests() || !measurements_.empty()))
         publish(Reading::Exact);
       else if (!measurements_.empty())
         measure();
       else if (!saves_.empty())
         save();
-      else if (readExactly_ && !metersAreExact_)
+      else if (status_.exact && !metersAreExact_)
         readMeters(true);
-      else if (readExactly_ && pictureWaits())
+      else if (status_.exact && pictureWaits())
         improvePicture();
     }
   }
@@ -147,7 +147,7 @@ double SolverWork::patience() const {
   if (!edits_.empty() || select_ || (unsettled_ && !moving_) || movesOn() || !rays_.empty() || question_) return 0;
   if (lightIsOld()) return kForEver;
   if (!saves_.empty() || !measurements_.empty()) return 0;
-  if (!readExactly_) return std::max(kRest - secondsSince(published_), 0.0);
+  if (!status_.exact) return std::max(kRest - secondsSince(published_), 0.0);
   return !metersAreExact_ || pictureWaits() ? 0 : kForEver;
 }
 
@@ -231,9 +231,9 @@ void SolverWork::settle() {
 
 void SolverWork::publish(Reading reading) {
   picture_.reset(), pictureDone_ = false;
-  readExactly_ = reading == Reading::Exact;
+  status_.exact = reading == Reading::Exact;
   if (reader_)
-    reader_->refresh(readExactly_ ? 0.0f : SolutionReader::kVisibleStep);
+    reader_->refresh(status_.exact ? 0.0f : SolutionReader::kVisibleStep);
   else
     reader_.emplace(engine_->solution());
   auto mesh = std::make_shared<const SolutionMesh>(reader_->mesh());

@@ -56,13 +56,12 @@ class SolverWork {
 
   std::optional<std::string> select_;
   std::vector<Edit> edits_;
-  std::uint64_t editCount_ = 0;  // with those that wait here
-  bool moving_ = false;          // more edits will follow
-  bool unsettled_ = false;       // edits were applied and the light has not settled since
-  bool deferred_ = false;        // the last frame left something to the next
-  bool readExactly_ = false;     // what was published last
-  SteadyClock::time_point published_;
-  double emitted_ = 0;  // by all lamps, when it was settled last [W]
+  std::uint64_t editCount_ = 0;        // with those that wait here
+  bool moving_ = false;                // more edits will follow
+  bool unsettled_ = false;             // edits were applied and the light has not settled since
+  bool deferred_ = false;              // the last frame left something to the next
+  SteadyClock::time_point published_;  // what is shown
+  double emitted_ = 0;                 // by all lamps, when it was settled last [W]
   std::vector<PixelRay> rays_;
   std::vector<ProbePoint> meters_;
   std::uint64_t pinned_ = 0;
