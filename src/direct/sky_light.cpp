@@ -127,6 +127,15 @@ void SkyVisibility::setShares(std::size_t guide, const Counts& counts) {
   keys_[guide] = key;
 }
 
+bool SkyVisibility::takeShares(std::size_t guide, const SkyVisibility& before) {
+  const auto was = before.guideOfLeaves_.find(guided_[guide]);
+  if (was == before.guideOfLeaves_.end()) return false;
+  std::copy_n(before.share_.begin() + std::ptrdiff_t(was->second) * SkyCells::kCount, SkyCells::kCount,
+              share_.begin() + static_cast<std::ptrdiff_t>(guide) * SkyCells::kCount);
+  keys_[guide] = before.keys_[was->second];
+  return true;
+}
+
 SkyKey skyKey(const Skies& skies, const SkyVisibility& visibility, const SkyLeaf& s) {
   SkyKey all;
   std::uint64_t& key = all.points;

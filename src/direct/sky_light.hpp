@@ -2,10 +2,13 @@
 // Direct light of skies at leaves: the leaf's lines that escape, balanced [VG95] with shadow rays that are drawn by the
 // sky's radiance, the cosine, and the visibility estimates that lines below a common element have found, in octaves, so
 // that what a few lines see is not told from chance.
+#include <algorithm>
 #include <array>
 #include <span>
+#include <unordered_map>
 
 #include "base/parallel.hpp"
+#include "base/random.hpp"
 #include "direct/tuning.hpp"
 #include "hierarchy/leaf_table.hpp"
 #include "scene/light_sampling.hpp"
@@ -51,21 +54,28 @@ class Skies {
 class SkyVisibility {
  public:
   /// `forEachLineOf(leaf, sink)` calls sink(cell, escaped) for every line of a leaf. Counts below the lowest element
-  /// above each leaf that has enough lines.
-  template <class ForEachLineOf>
+  /// above each leaf that has enough lines. Of leaves with `same(leaf)` the lines are those that `before` counted.
+  template <class ForEachLineOf, class Same>
   SkyVisibility(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
-                std::span<const std::uint32_t> linesOf, const ForEachLineOf& forEachLineOf) {
+                std::span<const std::uint32_t> linesOf, const ForEachLineOf& forEachLineOf, const SkyVisibility* before,
+                const Same& same) {
     const GuidedLeaves guided = placeGuides(elements, leaves, linesOf);
-    share_.resize(guides_ * SkyCells::kCount), keys_.resize(guides_);
+    share_.resize(guides_ * SkyCells::kCount), keys_.resize(guides_), guided_.resize(guides_);
     parallelFor(guides_, 1, [&](std::size_t guide) {
+      const std::span own =
+          std::span(guided.leaf).subspan(guided.first[guide], guided.first[guide + 1] - guided.first[guide]);
+      for (const std::uint32_t leaf : own)
+        guided_[guide] = combineKeys(guided_[guide], elements.key[leaves[leaf].index()]);
+      if (before && std::ranges::all_of(own, same) && takeShares(guide, *before)) return;
       Counts counts;
-      for (std::uint32_t k = guided.first[guide]; k < guided.first[guide + 1]; ++k)
-        forEachLineOf(guided.leaf[k], [&](int cell, bool escaped) {
+      for (const std::uint32_t leaf : own)
+        forEachLineOf(leaf, [&](int cell, bool escaped) {
           const auto c = static_cast<std::size_t>(cell);
           counts.all[c] += 1, counts.open[c] += escaped;
         });
       setShares(guide, counts);
     });
+    for (std::uint32_t guide = 0; guide < guides_; ++guide) guideOfLeaves_[guided_[guide]] = guide;
   }
 
   /// The same for leaves of equal shares.
@@ -86,11 +96,15 @@ class SkyVisibility {
   GuidedLeaves placeGuides(const hierarchy::Elements&, const hierarchy::LeafTable&,
                            std::span<const std::uint32_t> linesOf);
   void setShares(std::size_t guide, const Counts&);
+  /// Those of the guide of the same leaves, if there was one.
+  bool takeShares(std::size_t guide, const SkyVisibility& before);
 
   std::size_t guides_ = 0;
-  std::vector<std::uint32_t> guideOf_;  // by leaf
-  std::vector<float> share_;            // by guide and cell
-  std::vector<std::uint64_t> keys_;     // by guide: of its shares
+  std::vector<std::uint32_t> guideOf_;                              // by leaf
+  std::vector<float> share_;                                        // by guide and cell
+  std::vector<std::uint64_t> keys_;                                 // by guide: of its shares
+  std::vector<std::uint64_t> guided_;                               // the same: of its leaves
+  std::unordered_map<std::uint64_t, std::uint32_t> guideOfLeaves_;  // by that key
 };
 
 /// Own lines of a leaf that escape.

@@ -40,9 +40,11 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
   constexpr std::size_t kEach = LeafSky::kRays;
   const bool sameSkies = std::exchange(sky.skies, x.skies.key()) == x.skies.key();
   sky.at.assign(leaves.size(), {}), sky.of.resize(x.s.elements.size());
+  const std::optional<direct::SkyVisibility> was = std::exchange(sky.visibility, {});
   if (x.skies.empty()) return sky;
   const lines::KnownLines* before = x.knownLines ? &*x.knownLines : nullptr;
-  const direct::SkyVisibility visibility = skyVisibility(x.s.elements, leaves, traced.lines);
+  const direct::SkyVisibility& visibility =
+      sky.visibility.emplace(skyVisibility(x.s.elements, leaves, traced.lines, was ? &*was : nullptr, before));
   struct Scratch {
     std::vector<direct::EscapedView> escaped;
     std::vector<std::uint32_t> points;

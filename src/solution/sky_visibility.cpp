@@ -20,18 +20,21 @@ const CellOfCode& CellOfCode::table() {
 }
 
 direct::SkyVisibility skyVisibility(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
-                                    const lines::Lines& lines) {
+                                    const lines::Lines& lines, const direct::SkyVisibility* before,
+                                    const lines::KnownLines* known) {
   std::vector<std::uint32_t> counts(leaves.size(), 0);
   if (!lines.empty())
     for (std::size_t i = 0; i < leaves.size(); ++i) counts[i] = lines.countOf(leaves[i]);
   const CellOfCode& cellOf = CellOfCode::table();
-  return {elements, leaves, counts, [&](std::size_t leaf, const auto& sink) {
-            if (counts[leaf] == 0) return;
-            const std::span<const std::uint32_t> ends = lines.endsOf(leaves[leaf]);
-            const std::span<const lines::LineCode> codes = lines.codesOf(leaves[leaf]);
-            for (std::size_t k = 0; k < ends.size(); ++k)
-              if (ends[k] != lines::kCovered) sink(cellOf(codes[k]), ends[k] == lines::kEscaped);
-          }};
+  const auto forEachLineOf = [&](std::size_t leaf, const auto& sink) {
+    if (counts[leaf] == 0) return;
+    const std::span<const std::uint32_t> ends = lines.endsOf(leaves[leaf]);
+    const std::span<const lines::LineCode> codes = lines.codesOf(leaves[leaf]);
+    for (std::size_t k = 0; k < ends.size(); ++k)
+      if (ends[k] != lines::kCovered) sink(cellOf(codes[k]), ends[k] == lines::kEscaped);
+  };
+  const auto same = [&](std::uint32_t leaf) { return known->same(leaves[leaf], lines); };
+  return {elements, leaves, counts, forEachLineOf, known ? before : nullptr, same};
 }
 
 }  // namespace deltalux

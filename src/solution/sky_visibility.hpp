@@ -22,6 +22,9 @@ class CellOfCode {
   std::vector<std::uint16_t> cells_;
 };
 
-direct::SkyVisibility skyVisibility(const hierarchy::Elements&, const hierarchy::LeafTable&, const lines::Lines&);
+/// `known`: of lines that `before` was counted from; both or neither.
+direct::SkyVisibility skyVisibility(const hierarchy::Elements&, const hierarchy::LeafTable&, const lines::Lines&,
+                                    const direct::SkyVisibility* before = nullptr,
+                                    const lines::KnownLines* known = nullptr);
 
 }  // namespace deltalux

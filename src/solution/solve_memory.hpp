@@ -65,8 +65,9 @@ struct LeafSky {
 };
 
 struct KnownSky {
-  std::uint64_t skies = 0;                   // direct::Skies::key()
-  std::vector<direct::SkyAtLeaf> at;         // of the receiving leaves in order
+  std::uint64_t skies = 0;                               // direct::Skies::key()
+  std::vector<direct::SkyAtLeaf> at;                     // of the receiving leaves in order
+  std::optional<direct::SkyVisibility> visibility = {};  // by the lines of those leaves
   std::vector<std::unique_ptr<LeafSky>> of;  // by element, of those leaves; of what was one once, out of date
 };
 
