@@ -18,7 +18,12 @@ class Wheel(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             checkout = folder / "checkout"
-            hidden = shutil.ignore_patterns("build*", "out", ".*", "__pycache__", "*.egg-info", "node_modules", "shared")
+            made = shutil.ignore_patterns(".*", "__pycache__", "*.egg-info", "node_modules")
+            at_top = shutil.ignore_patterns("build*", "out", "shared")  # further down they may be sources
+
+            def hidden(of, names):
+                return made(of, names) | (at_top(of, names) if pathlib.Path(of) == SOURCE else set())
+
             shutil.copytree(SOURCE, checkout, ignore=hidden, symlinks=True)
             environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "VIRTUAL_ENV")}
             environment["PIP_NO_INDEX"] = "1"  # offline
