@@ -7,6 +7,7 @@
 
 #include "base/unit_circle.hpp"
 #include "hierarchy/leaf_sequence.hpp"
+#include "hierarchy/tuning.hpp"
 #include "scene/nominal_scale.hpp"
 #include "scene/stops_light.hpp"
 
@@ -78,11 +79,11 @@ Skies::Skies(const Scene& scene) {
   for (int cell = 0; cell < SkyCells::kCount; ++cell)
     for (const double corner : {0.25, 0.75}) add(key_, radiance(SkyCells::direction(cell, corner, corner)));
   for (int cell = 0; cell < SkyCells::kCount; ++cell)
-    for (int i = 0; i < tuning::kGrid * tuning::kGrid; ++i)
+    for (int i = 0; i < hierarchy::tuning::kGrid * hierarchy::tuning::kGrid; ++i)
       strength_[static_cast<std::size_t>(cell)] +=
-          gray(radiance(SkyCells::direction(cell, (i % tuning::kGrid + 0.5) / tuning::kGrid,
-                                            (i / tuning::kGrid + 0.5) / tuning::kGrid))) /
-          (tuning::kGrid * tuning::kGrid);
+          gray(radiance(SkyCells::direction(cell, (i % hierarchy::tuning::kGrid + 0.5) / hierarchy::tuning::kGrid,
+                                            (i / hierarchy::tuning::kGrid + 0.5) / hierarchy::tuning::kGrid))) /
+          (hierarchy::tuning::kGrid * hierarchy::tuning::kGrid);
 }
 
 Rgb Skies::radiance(const Vec3f& direction) const {

@@ -50,8 +50,6 @@ constexpr double kFloor = 0.02;
 /// Cells of the sphere that visibility estimates are kept by: along height, and as many around. Fewer: rays beside the
 /// window. More: cells that hardly any line tells of.
 constexpr int kSkySide = 16;
-/// Looks a side that the radiance of a cell, or of a narrow sky, is averaged over. Fewer: bright spots are missed.
-constexpr int kGrid = 8;
 /// Directions that the width of a lamp's beam is found by: polar angles, and azimuths of each. Fewer: narrow beams are
 /// taken for wide.
 constexpr int kBeamRings = 48, kBeamAround = 16;

@@ -6,6 +6,7 @@
 #include "base/prefetch.hpp"
 #include "engine/line_solve.hpp"
 #include "hierarchy/patch.hpp"
+#include "hierarchy/tuning.hpp"
 #include "lines/scene_widths.hpp"
 #include "lines/tuning.hpp"
 
@@ -221,7 +222,7 @@ bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const s
         continue;
       }
       // Corners of what sees far are no narrow places.
-      const float wide = static_cast<float>(lines::tuning::kSurroundings) * x.samples.scale[chosen[i].index()].mean;
+      const float wide = hierarchy::tuning::kSurroundings * x.samples.scale[chosen[i].index()].mean;
       for (std::size_t c = 0; c < elements.at(chosen[i]).childCount; ++c) {
         const hierarchy::ElementId part = elements.child(chosen[i], c);
         float& path = elements.geometry[part.index()].meanFreePath;

@@ -5,6 +5,7 @@
 
 #include "base/check.hpp"
 #include "base/check_interrupted.hpp"
+#include "base/tuning.hpp"
 #include "caustics/choice.hpp"
 #include "engine/clock.hpp"
 #include "engine/light_columns.hpp"
@@ -196,8 +197,8 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const T
   solve->coarseTransfer->apply(s.elements, solve->nominal);
   swapCoarse(solve->samples, inputs);
   if (known) solve->sky = known->takeCoarseSky();
-  lightLeaves(*solve, traceLeaves(*solve, lines::tuning::kFirstLines, &KnownSolve::takeCoarseLines, progress),
-              Dimming::none(s.scene), lines::tuning::kCoarseConverged, progress);
+  lightLeaves(*solve, traceLeaves(*solve, deltalux::tuning::kPilots, &KnownSolve::takeCoarseLines, progress),
+              Dimming::none(s.scene), deltalux::tuning::kNegligible, progress);
   for (const hierarchy::ElementId e : inputs) {
     hierarchy::ElementLight& l = s.elements.radiometry[e.index()];
     l.typical = gray(l.direct + l.indirect);
@@ -242,7 +243,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
                         std::max(meshSeconds + s.report.times.visibility + s.report.times.hierarchy, 1e-3);
     const double affordable = tuning::kLineTime * std::max(budget.left(), 0.0) * rate / std::max(leaves, 1.0);
     base = static_cast<std::uint32_t>(
-        std::clamp(affordable, double(lines::tuning::kFirstLines), static_cast<double>(wanted)));
+        std::clamp(affordable, double(deltalux::tuning::kPilots), static_cast<double>(wanted)));
   }
   if (x.known) x.sky = x.known->takeSky(), x.exchange = x.known->takeExchange();
   lines::TracedLines traced = traceLeaves(x, base, &KnownSolve::takeLines, progress);

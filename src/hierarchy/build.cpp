@@ -216,7 +216,7 @@ class Builder {
   void widenPaths(ElementId e, float above = 0, float twiceAbove = 0) {
     ElementGeometry& g = elements_.geometry[e.index()];
     const float own = g.meanFreePath;
-    g.meanFreePath = std::max(own, tuning::kSlot * twiceAbove);
+    g.meanFreePath = std::max(own, tuning::kSurroundings * twiceAbove);
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i)
       widenPaths(elements_.child(e, i), own, std::max(above, own));
   }

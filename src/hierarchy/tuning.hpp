@@ -9,8 +9,9 @@ namespace deltalux::hierarchy::tuning {
 /// stays in it. More, smaller: links to clusters err. Fewer, larger: deep trees.
 constexpr std::size_t kLeafGroups = 4;
 constexpr double kLarge = 0.5;
-/// Least mean free path, relative to that of the surroundings. Less: slots between boards fill with elements.
-constexpr float kSlot = 0.5f;
+/// Least mean free path of an element, relative to what is usual around it, and of a part, relative to the mean
+/// distance of what it is part of. Less: slots between boards, narrow places and corners fill with elements.
+constexpr float kSurroundings = 0.5f;
 /// Within which things touch, are aligned, or end, in the size of what they are parts of: what stands on a surface,
 /// lines along its foot, ends of patches. Larger: splits along lines where nothing stands. Smaller: walls of scanned or
 /// rounded coordinates are overlooked.
@@ -21,8 +22,8 @@ constexpr double kUpright = 0.3;
 /// be split along. Less: crooked patches around small things. More: light leaks below walls.
 constexpr float kCrossed = 0.5f;
 constexpr double kWall = 0.2;
-/// Points along each parameter of a curved patch or of a part of the sky, that bound it and tell its mean. Fewer: loose
-/// bounds, and normals that are off. More: time in the square.
+/// Points along each parameter of a curved patch, or of a part or a cell of the sky, that bound it and tell its mean.
+/// Fewer: loose bounds, normals that are off, and bright spots that are missed. More: time in the square.
 constexpr int kGrid = 8;
 /// Patches of the input level that one thing is worth: a mesh of no more faces may be the polygons that it is made of;
 /// one that is fine has at least as many, but for so many faces in each, and is fine where it has two. Fewer, more:

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/tuning.hpp"
+#include "hierarchy/tuning.hpp"
 #include "lines/scene_widths.hpp"
 #include "lines/tuning.hpp"
 
@@ -24,7 +25,7 @@ LeafScale ScaleMeter::measure(hierarchy::ElementId patch, FirstLines& first) con
   const PrimitiveId own = elements_.domain[patch.index()].primitive;
   const Cover::About about = cover_.about(elements_, patch);
   constexpr std::uint32_t kBatch = hierarchy::LeafSequence::kBatch;
-  static_assert(tuning::kFirstLines == kBatch, "one batch tells");
+  static_assert(deltalux::tuning::kPilots == kBatch, "one batch tells");
   std::array<tracing::Ray, kBatch> rays;
   std::array<tracing::Hit, kBatch> hits;
   std::array<std::uint32_t, kBatch> which;
@@ -90,7 +91,7 @@ void setMeanFreePaths(hierarchy::Elements& elements, const std::vector<LeafScale
       about = elements.at(about).parent;
     const double n = count[about.index()], usual = n > 0 ? std::exp(sum[about.index()] / n) : 0.0;
     elements.geometry[input.index()].meanFreePath =
-        std::max(scales[input.index()].mean, static_cast<float>(tuning::kSurroundings * usual));
+        std::max(scales[input.index()].mean, static_cast<float>(hierarchy::tuning::kSurroundings * usual));
   }
 }
 

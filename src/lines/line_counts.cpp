@@ -18,7 +18,7 @@ constexpr std::uint64_t kCountKey = 0x636f756e74735f5full;  // [key]
 
 std::uint32_t baseLines(double error) {
   const double lines = tuning::kBaseLines * std::pow(deltalux::tuning::kUsualError / error, 2);
-  return static_cast<std::uint32_t>(std::clamp(lines, double(tuning::kFirstLines), 65536.0));
+  return static_cast<std::uint32_t>(std::clamp(lines, double(deltalux::tuning::kPilots), 65536.0));
 }
 
 std::vector<std::uint32_t> lineCounts(const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,

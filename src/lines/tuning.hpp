@@ -19,8 +19,6 @@ constexpr double kDimWays = 400, kClosedLines = 262144;
 /// time.
 constexpr double kMostDim = 1 << 20, kDimRoom = 0.5, kDimShare = 1.0 / 32, kDimFree = 1 << 21;
 constexpr int kDimBounces = 2, kDimRounds = 2;
-/// Lines that tell a leaf's surroundings before there are others. Fewer: splits by chance.
-constexpr int kFirstLines = 16;
 /// Non-diffuse events of a line. Fewer: light between facing mirrors is lost.
 constexpr int kMostEvents = 8;
 /// Least chance that a line ends on what has any diffuse part. Less: the few lines that end on metal weigh much.
@@ -39,9 +37,8 @@ constexpr double kSlot = 0.5;
 /// [m], and the same relative to the scene's diagonal. Larger: the floor of a wide room that no lamp shines on is one
 /// leaf. Less: gaps between logs fill with leaves.
 constexpr double kSlotWidth = 1, kSlotOfScene = 0.1, kSlotDim = 10;
-/// Least mean free path of a surface, relative to what is usual below a cluster so many above it, and of a part,
-/// relative to the mean distance of what it is part of. Less, fewer: narrow places and corners fill with leaves.
-constexpr double kSurroundings = 0.5;
+/// Clusters that a surface is looked at below, to know what mean free paths are usual around it. Fewer: narrow places
+/// and corners fill with leaves.
 constexpr int kClustersUp = 3;
 
 /// Walks that look for light from an input-level side, and their bounces; the first steps tell how wide the hollow is.
@@ -76,7 +73,5 @@ constexpr double kLeafConverged = 6e-3;
 /// Share of that above which a leaf takes part in passes over late ones. Larger: passes over all must follow. Smaller:
 /// most leaves are late.
 constexpr double kLate = 0.5;
-/// The same of the coarse light, by which the mesh is refined. Larger: dark rooms are meshed for too little light.
-constexpr double kCoarseConverged = 1e-3;
 
 }  // namespace deltalux::lines::tuning
