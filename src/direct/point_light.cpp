@@ -17,12 +17,12 @@ Lamp narrow(LightId id, const DomeLight& dome, const Rgb& scale) {
   lamp.id = id, lamp.sun = true, lamp.axis = dome.axis, lamp.halfAngle = dome.halfAngle;
   const Frame frame(dome.axis);
   const double least = std::cos(dome.halfAngle), angle = 2 * kPi * (1 - least);
-  for (int k = 0; k < hierarchy::tuning::kGrid * hierarchy::tuning::kGrid; ++k) {
-    const double z = least + (1 - least) * (k % hierarchy::tuning::kGrid + 0.5) / hierarchy::tuning::kGrid,
-                 phi = 2 * kPi * (k / hierarchy::tuning::kGrid + 0.5) / hierarchy::tuning::kGrid;
+  constexpr int looks = hierarchy::tuning::kGrid;
+  for (int k = 0; k < looks * looks; ++k) {
+    const double z = least + (1 - least) * (k % looks + 0.5) / looks, phi = 2 * kPi * (k / looks + 0.5) / looks;
     const double r = std::sqrt(std::max(0.0, 1 - z * z));
     const Vec3 w = frame.toWorld({r * std::cos(phi), r * std::sin(phi), z});
-    lamp.most += angle / (hierarchy::tuning::kGrid * hierarchy::tuning::kGrid) * gray(scale * skyRadiance(dome, w));
+    lamp.most += angle / (looks * looks) * gray(scale * skyRadiance(dome, w));
   }
   return lamp;
 }
@@ -47,15 +47,14 @@ PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer)
       whole_.push_back(narrow(LightId(i), *dome, light.scale));
       continue;
     }
+    constexpr int looks = hierarchy::tuning::kGrid;
     Sky sky{LightId(i), *dome, light.scale};
     for (int cell = 0; cell < SkyCells::kCount; ++cell)
-      for (int k = 0; k < hierarchy::tuning::kGrid * hierarchy::tuning::kGrid; ++k)
+      for (int k = 0; k < looks * looks; ++k)
         sky.strength[static_cast<std::size_t>(cell)] +=
-            gray(sky.scale *
-                 skyRadiance(*dome, Vec3(SkyCells::direction(
-                                        cell, (k % hierarchy::tuning::kGrid + 0.5) / hierarchy::tuning::kGrid,
-                                        (k / hierarchy::tuning::kGrid + 0.5) / hierarchy::tuning::kGrid)))) /
-            (hierarchy::tuning::kGrid * hierarchy::tuning::kGrid);
+            gray(sky.scale * skyRadiance(*dome, Vec3(SkyCells::direction(cell, (k % looks + 0.5) / looks,
+                                                                         (k / looks + 0.5) / looks)))) /
+            (looks * looks);
     skies_.push_back(std::move(sky));
   }
   for (int cell = 0; cell < SkyCells::kCount; ++cell) {

@@ -78,12 +78,12 @@ Skies::Skies(const Scene& scene) {
     domes_.push_back({std::get<DomeLight>(scene.lights[i].emitter), alike_ ? nominal[i] : scene.lights[i].scale});
   for (int cell = 0; cell < SkyCells::kCount; ++cell)
     for (const double corner : {0.25, 0.75}) add(key_, radiance(SkyCells::direction(cell, corner, corner)));
+  constexpr int looks = hierarchy::tuning::kGrid;
   for (int cell = 0; cell < SkyCells::kCount; ++cell)
-    for (int i = 0; i < hierarchy::tuning::kGrid * hierarchy::tuning::kGrid; ++i)
+    for (int i = 0; i < looks * looks; ++i)
       strength_[static_cast<std::size_t>(cell)] +=
-          gray(radiance(SkyCells::direction(cell, (i % hierarchy::tuning::kGrid + 0.5) / hierarchy::tuning::kGrid,
-                                            (i / hierarchy::tuning::kGrid + 0.5) / hierarchy::tuning::kGrid))) /
-          (hierarchy::tuning::kGrid * hierarchy::tuning::kGrid);
+          gray(radiance(SkyCells::direction(cell, (i % looks + 0.5) / looks, (i / looks + 0.5) / looks))) /
+          (looks * looks);
 }
 
 Rgb Skies::radiance(const Vec3f& direction) const {
@@ -128,8 +128,8 @@ void SkyVisibility::setShares(std::size_t guide, const Counts& counts) {
   keys_[guide] = key;
 }
 
-bool SkyVisibility::takeShares(std::size_t guide, const SkyVisibility& before) {
-  const auto was = before.guideOfLeaves_.find(guided_[guide]);
+bool SkyVisibility::takeShares(std::size_t guide, std::uint64_t leaves, const SkyVisibility& before) {
+  const auto was = before.guideOfLeaves_.find(leaves);
   if (was == before.guideOfLeaves_.end()) return false;
   std::copy_n(before.share_.begin() + std::ptrdiff_t(was->second) * SkyCells::kCount, SkyCells::kCount,
               share_.begin() + static_cast<std::ptrdiff_t>(guide) * SkyCells::kCount);

@@ -60,13 +60,14 @@ class SkyVisibility {
                 std::span<const std::uint32_t> linesOf, const ForEachLineOf& forEachLineOf, const SkyVisibility* before,
                 const Same& same) {
     const GuidedLeaves guided = placeGuides(elements, leaves, linesOf);
-    share_.resize(guides_ * SkyCells::kCount), keys_.resize(guides_), guided_.resize(guides_);
+    share_.resize(guides_ * SkyCells::kCount), keys_.resize(guides_);
+    std::vector<std::uint64_t> guidedKeys(guides_, 0);
     parallelFor(guides_, 1, [&](std::size_t guide) {
       const std::span own =
           std::span(guided.leaf).subspan(guided.first[guide], guided.first[guide + 1] - guided.first[guide]);
-      for (const std::uint32_t leaf : own)
-        guided_[guide] = combineKeys(guided_[guide], elements.key[leaves[leaf].index()]);
-      if (before && std::ranges::all_of(own, same) && takeShares(guide, *before)) return;
+      std::uint64_t& key = guidedKeys[guide];
+      for (const std::uint32_t leaf : own) key = combineKeys(key, elements.key[leaves[leaf].index()]);
+      if (before && std::ranges::all_of(own, same) && takeShares(guide, key, *before)) return;
       Counts counts;
       for (const std::uint32_t leaf : own)
         forEachLineOf(leaf, [&](int cell, bool escaped) {
@@ -75,7 +76,7 @@ class SkyVisibility {
         });
       setShares(guide, counts);
     });
-    for (std::uint32_t guide = 0; guide < guides_; ++guide) guideOfLeaves_[guided_[guide]] = guide;
+    for (std::uint32_t guide = 0; guide < guides_; ++guide) guideOfLeaves_[guidedKeys[guide]] = guide;
   }
 
   /// The same for leaves of equal shares.
@@ -96,15 +97,14 @@ class SkyVisibility {
   GuidedLeaves placeGuides(const hierarchy::Elements&, const hierarchy::LeafTable&,
                            std::span<const std::uint32_t> linesOf);
   void setShares(std::size_t guide, const Counts&);
-  /// Those of the guide of the same leaves, if there was one.
-  bool takeShares(std::size_t guide, const SkyVisibility& before);
+  /// Those of the guide of the leaves of that key, if there was one.
+  bool takeShares(std::size_t guide, std::uint64_t leaves, const SkyVisibility& before);
 
   std::size_t guides_ = 0;
   std::vector<std::uint32_t> guideOf_;                              // by leaf
   std::vector<float> share_;                                        // by guide and cell
   std::vector<std::uint64_t> keys_;                                 // by guide: of its shares
-  std::vector<std::uint64_t> guided_;                               // the same: of its leaves
-  std::unordered_map<std::uint64_t, std::uint32_t> guideOfLeaves_;  // by that key
+  std::unordered_map<std::uint64_t, std::uint32_t> guideOfLeaves_;  // by a key of them
 };
 
 /// Own lines of a leaf that escape.

@@ -8,7 +8,6 @@
 #include "base/sobol.hpp"
 #include "base/tuning.hpp"
 #include "hierarchy/patch.hpp"
-#include "hierarchy/tuning.hpp"
 #include "render/linear_fit.hpp"
 #include "render/tuning.hpp"
 
@@ -64,7 +63,7 @@ void IrradianceField::gather(const std::vector<LeafIrradiance>& values, const Ir
   std::vector<LeafIrradiance>& stage = stages_[Gathered];
   stage.resize(sites_.size()), coverage_.resize(sites_.size());
   differs_[Gathered].assign(sites_.size(), 1);
-  const float floor = tolerance > 0 ? hierarchy::tuning::kDarkest * meanOf(values) : 0.0f;
+  const float floor = tolerance > 0 ? floorOf([&](std::size_t i) { return lightOf(values[leafOf(i).index()]); }) : 0.0f;
   parallelFor(sites_.size(), kBlock, [&](std::size_t i) {
     const hierarchy::ElementId leaf = sites_[i].leaf;
     const std::uint32_t was = before ? sites_.before(i) : LeafSites::kNone;
@@ -75,15 +74,6 @@ void IrradianceField::gather(const std::vector<LeafIrradiance>& values, const Ir
     if (tolerance > 0 && difference(stage[i], held) < tolerance * std::max(lightOf(held), floor)) stage[i] = held;
     differs_[Gathered][i] = stage[i] != held || coverage_[i] != before->coverage_[was];
   });
-}
-
-float IrradianceField::meanOf(const std::vector<LeafIrradiance>& values) const {
-  double light = 0, area = 0;
-  for (std::size_t i = 0; i < sites_.size(); ++i) {
-    const double lit = elements_.shape(sites_[i].leaf).litArea();
-    light += lit * double(lightOf(values[sites_[i].leaf.index()])), area += lit;
-  }
-  return area > 0 ? static_cast<float>(light / area) : 0.0f;
 }
 
 bool IrradianceField::disagreeing(std::size_t home, std::size_t other) const {

@@ -29,6 +29,7 @@
 #include <span>
 
 #include "hierarchy/side_locator.hpp"
+#include "hierarchy/tuning.hpp"
 #include "render/leaf_irradiance.hpp"
 #include "render/leaf_sites.hpp"
 #include "render/tuning.hpp"
@@ -68,6 +69,16 @@ class IrradianceField {
   // What a leaf's points read, for who watches it change.
 
   std::size_t sites() const { return sites_.size(); }
+  /// Light below which changes are compared with that: a share of the mean of light(site) over all that is lit [W/m2].
+  template <class Light>
+  float floorOf(const Light& light) const {
+    double sum = 0, area = 0;
+    for (std::size_t i = 0; i < sites(); ++i) {
+      const double lit = elements_.shape(leafOf(i)).litArea();
+      sum += lit * double(light(i)), area += lit;
+    }
+    return area > 0 ? hierarchy::tuning::kDarkest * static_cast<float>(sum / area) : 0.0f;
+  }
   hierarchy::ElementId leafOf(std::size_t site) const { return sites_[site].leaf; }
   /// Irradiance as a site has it, to first order: at its centre, and by unit of length along the axes.
   struct Trend {
@@ -99,8 +110,6 @@ class IrradianceField {
 
   /// Takes in the first stage.
   void gather(const std::vector<LeafIrradiance>& values, const IrradianceField* before, float tolerance);
-  /// Over all that is lit [W/m2].
-  float meanOf(const std::vector<LeafIrradiance>& values) const;
   void relate(const IrradianceField* before);
   /// Whether no light at all comes to one of two surfaces: the inside of what stands flush on the other.
   bool oneIsHollow(std::size_t home, std::size_t other) const;

@@ -97,6 +97,12 @@ std::vector<LeafSites::Side> LeafSites::sidesOf(std::span<const LeafSite> sites)
   return sides;
 }
 
+BoxTree LeafSites::treeOver(std::span<const Side> sides) {
+  std::vector<BoxF> reaches;
+  for (const Side& side : sides) reaches.push_back(side.reach);
+  return BoxTree(std::move(reaches));
+}
+
 LeafSites::Matching LeafSites::match(const LeafSites& before) const {
   Matching m{std::vector<std::uint32_t>(all_.size(), kNone), std::vector<std::uint32_t>(before.size(), kNone)};
   parallelFor(all_.size(), kSitesBlock, [&](std::size_t i) {
@@ -131,9 +137,8 @@ void LeafSites::findBefore(const LeafSites& before, const Matching& matching) {
     if (matching.now[was] == kNone) changed.push_back(before.all_[was]);
   if (changed.empty()) return;
   std::vector<Side> sides = sidesOf(changed);
-  std::vector<BoxF> reaches;
-  for (Side& side : sides) side.plantTree(changed), reaches.push_back(side.reach);
-  const BoxTree around(std::move(reaches));
+  for (Side& side : sides) side.plantTree(changed);
+  const BoxTree around = treeOver(sides);
   parallelFor(sides_.size(), 1, [&](std::size_t s) {
     const Side& here = sides_[s];
     around.overlapping(here.reach, [&](std::uint32_t k) {
@@ -149,9 +154,7 @@ void LeafSites::findBefore(const LeafSites& before, const Matching& matching) {
 }
 
 void LeafSites::findNear(const LeafSites* before, std::span<const std::uint32_t> numberNow) {
-  std::vector<BoxF> reaches;
-  for (const Side& side : sides_) reaches.push_back(side.reach);
-  const BoxTree sides(std::move(reaches));
+  const BoxTree sides = treeOver(sides_);
   std::vector<std::uint32_t> sideOf(all_.size());
   for (std::uint32_t s = 0; s < sides_.size(); ++s)
     for (const std::uint32_t i : sides_[s].sites) sideOf[i] = s;

@@ -72,6 +72,9 @@ class LeafSites {
   /// Those that have sites, ascending, without trees.
   static std::vector<Side> sidesOf(std::span<const LeafSite>);
 
+  /// Over what their sites reach.
+  static BoxTree treeOver(std::span<const Side>);
+
   /// By site, its number before where it stands as it did; and by number before.
   struct Matching {
     std::vector<std::uint32_t> before, now;

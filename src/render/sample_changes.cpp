@@ -9,7 +9,6 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/tuning.hpp"
-#include "hierarchy/tuning.hpp"
 #include "particles/segment_box.hpp"
 #include "particles/side_index.hpp"
 #include "render/place_boxes.hpp"
@@ -151,7 +150,7 @@ class LeafComparison {
   LeafComparison(const Solution& s, const IrradianceField& field, NotedSolution& noted, const Difference& difference)
       : elements_(s.elements), field_(field), noted_(noted), difference_(difference) {
     noted_.leaves.resize(elements_.size());
-    sumUp();
+    floor_ = field_.floorOf([&](std::size_t i) { return maxChannel(field_.trend(i).value); });
     findDarkest();
   }
 
@@ -182,15 +181,6 @@ class LeafComparison {
  private:
   NotedSolution::Leaf& noted(std::size_t i) { return noted_.leaves[field_.leafOf(i).index()]; }
   std::uint64_t key(std::size_t i) const { return elements_.key[field_.leafOf(i).index()] | 1; }
-
-  void sumUp() {
-    double light = 0, area = 0;
-    for (std::size_t i = 0; i < field_.sites(); ++i) {
-      const double lit = elements_.shape(field_.leafOf(i)).litArea();
-      light += lit * double(maxChannel(field_.trend(i).value)), area += lit;
-    }
-    floor_ = area > 0 ? hierarchy::tuning::kDarkest * static_cast<float>(light / area) : 0.0f;
-  }
 
   /// By site, of all leaves at whose points it is read.
   void findDarkest() {

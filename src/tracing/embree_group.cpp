@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -69,7 +70,8 @@ struct EmbreeGroup::Collection {
   }
 };
 
-EmbreeGroup::EmbreeGroup(RTCDevice device, const Scene& scene, std::vector<PrimitiveId> primitives, float extent)
+EmbreeGroup::EmbreeGroup(RTCDevice device, const Scene& scene, std::vector<PrimitiveId> primitives, const Box& box,
+                         float extent)
     : primitives_(std::move(primitives)), scene_(rtcNewScene(device)) {
   throwEmbreeError(device);
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);  // rays find no gap between neighbouring triangles
@@ -88,25 +90,34 @@ EmbreeGroup::EmbreeGroup(RTCDevice device, const Scene& scene, std::vector<Primi
     attachAnalytic(device, passage, kRings, layer.rings);
     attachAnalytic(device, passage, kThinTriangles, layer.thinTriangles);
   }
-  attachRim(device, scene, extent);
+  if (!empty_) attachRim(device, box, extent);
   rtcCommitScene(scene_.get());
   throwEmbreeError(device);
 }
 
-void EmbreeGroup::attachRim(RTCDevice device, const Scene& scene, float extent) {
-  Box box;
-  for (const PrimitiveId id : primitives_)
-    if (area(scene[id].shape) > 0) box.extend(bounds(scene[id].shape));
-  if (box.empty()) return;
-  const Vec3f margin(kRounding * extent);
-  const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-  auto* corners = static_cast<Vec3f*>(
-      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), 2));
-  auto* indices = static_cast<std::array<std::uint32_t, 3>*>(rtcSetNewGeometryBuffer(
-      geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(std::array<std::uint32_t, 3>), 2));
+namespace {
+
+EmbreeGeometry triangleGeometry(RTCDevice device, std::span<const Vec3f> vertices,
+                                std::span<const std::array<std::uint32_t, 3>> corners) {
+  EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+  auto* positions = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0,
+                                                                RTC_FORMAT_FLOAT3, sizeof(Vec3f), vertices.size()));
+  auto* indices = static_cast<std::array<std::uint32_t, 3>*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              sizeof(std::array<std::uint32_t, 3>), corners.size()));
   throwEmbreeError(device);
-  corners[0] = Vec3f(box.lower) - margin, corners[1] = Vec3f(box.upper) + margin;
-  indices[0] = {0, 0, 0}, indices[1] = {1, 1, 1};
+  std::ranges::copy(vertices, positions);
+  std::ranges::copy(corners, indices);
+  return geometry;
+}
+
+}  // namespace
+
+void EmbreeGroup::attachRim(RTCDevice device, const Box& box, float extent) {
+  const Vec3f margin(kRounding * extent);
+  const std::array<Vec3f, 2> ends{Vec3f(box.lower) - margin, Vec3f(box.upper) + margin};
+  const std::array<std::array<std::uint32_t, 3>, 2> corners{{{0, 0, 0}, {1, 1, 1}}};
+  const EmbreeGeometry geometry = triangleGeometry(device, ends, corners);
   rtcSetGeometryIntersectFilterFunction(geometry.get(), nothingFilter);
   rtcSetGeometryOccludedFilterFunction(geometry.get(), nothingFilter);
   rtcSetGeometryMask(geometry.get(), static_cast<unsigned>(Passage::Opaque) | static_cast<unsigned>(Passage::Pane));
@@ -121,15 +132,7 @@ void EmbreeGroup::attachTriangles(RTCDevice device, Passage passage, Collection&
     BoxF& box = table.boxes.emplace_back();
     for (const std::uint32_t corner : corners) box.extend(collection.vertices[corner]);
   }
-  const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-  auto* vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
-      geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), collection.vertices.size()));
-  auto* indices = static_cast<std::array<std::uint32_t, 3>*>(
-      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              sizeof(std::array<std::uint32_t, 3>), collection.indices.size()));
-  throwEmbreeError(device);
-  std::copy(collection.vertices.begin(), collection.vertices.end(), vertices);
-  std::copy(collection.indices.begin(), collection.indices.end(), indices);
+  const EmbreeGeometry geometry = triangleGeometry(device, collection.vertices, collection.indices);
   rtcSetGeometryUserData(geometry.get(), &table);
   rtcSetGeometryIntersectFilterFunction(geometry.get(), closestFilter);
   rtcSetGeometryOccludedFilterFunction(

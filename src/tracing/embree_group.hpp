@@ -21,8 +21,8 @@ namespace deltalux::tracing {
 class EmbreeGroup {
  public:
   /// Throws what throwEmbreeError throws.
-  /// `extent`: the largest coordinate of where rays come from.
-  EmbreeGroup(RTCDevice, const Scene&, std::vector<PrimitiveId> primitives, float extent);
+  /// `box`: around all of them; `extent`: the largest coordinate of where rays come from.
+  EmbreeGroup(RTCDevice, const Scene&, std::vector<PrimitiveId> primitives, const Box& box, float extent);
   EmbreeGroup(const EmbreeGroup&) = delete;
   EmbreeGroup& operator=(const EmbreeGroup&) = delete;
 
@@ -55,7 +55,7 @@ class EmbreeGroup {
   void attach(RTCGeometry, Passage, unsigned kind);
   /// Triangles without area at two corners, by which the group's box holds all of it with a margin: instances are
   /// entered by whatever arithmetic is fastest, not by the robust one.
-  void attachRim(RTCDevice, const Scene&, float extent);
+  void attachRim(RTCDevice, const Box&, float extent);
 
   std::vector<PrimitiveId> primitives_;
   std::array<Layer, 2> layers_;

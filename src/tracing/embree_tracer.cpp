@@ -26,12 +26,6 @@ RTCRay embreeRay(const Ray& ray, unsigned mask) {
   return r;
 }
 
-/// Largest coordinate.
-float extentOf(const Primitive& primitive) {
-  const Box box = bounds(primitive.shape);
-  return box.empty() ? 0.0f : std::max(largestCoordinate(Vec3f(box.lower)), largestCoordinate(Vec3f(box.upper)));
-}
-
 /// A closest-hit query on its way.
 struct Pending {
   explicit Pending(const Ray& ray) : query(ray) {
@@ -147,10 +141,15 @@ class EmbreeTracer final : public RayTracer {
   void build(std::size_t group) {
     groupOf_.resize(scene_.primitives.size(), GroupId(0));  // primitives added since belong to the static rest
     std::vector<PrimitiveId> members;
-    for (std::size_t i = 0; i < groupOf_.size(); ++i)
-      if (groupOf_[i].index() == group)
-        members.emplace_back(i), extent_ = std::max(extent_, extentOf(scene_.primitives[i]));
-    groups_[group] = std::make_unique<EmbreeGroup>(device_.get(), scene_, std::move(members), extent_);
+    Box box;
+    for (std::size_t i = 0; i < groupOf_.size(); ++i) {
+      if (groupOf_[i].index() != group) continue;
+      members.emplace_back(i);
+      if (const Shape& shape = scene_.primitives[i].shape; area(shape) > 0) box.extend(bounds(shape));
+    }
+    if (!box.empty())
+      extent_ = std::max({extent_, largestCoordinate(Vec3f(box.lower)), largestCoordinate(Vec3f(box.upper))});
+    groups_[group] = std::make_unique<EmbreeGroup>(device_.get(), scene_, std::move(members), box, extent_);
   }
 
   void join() {

@@ -1,6 +1,7 @@
 #include "render/solution_mesh/side_light.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/parallel.hpp"
 #include "hierarchy/tuning.hpp"
@@ -105,9 +106,16 @@ void setLook(SurfaceMesh& side, const SideShape& shape, const Scene& scene, cons
   side.radiance = radianceAlongNormal(scene, reconstruction.lights(), shape);
 }
 
-void readField(MeshVertex& v, const SideReading::Place& place, const IrradianceField& field) {
-  const PointIrradiance E = field.all({place.leaf, Vec2(v.uv)}, place.position);
-  v.direct = E.direct, v.indirect = E.indirect, v.particle = E.particle;
+/// Reads the light of a side where it has changed after field number `since`; nullopt: all of it.
+void readLight(SurfaceMesh& side, const SideReading& reading, const IrradianceField& field,
+               std::optional<std::uint64_t> since) {
+  parallelFor(reading.places.size(), kReadBlock, [&](std::size_t i) {
+    const SideReading::Place& place = reading.places[i];
+    if (!place.leaf.valid() || (since && field.changedIn(place.leaf) <= *since)) return;
+    MeshVertex& v = side.vertices[i];
+    const PointIrradiance E = field.all({place.leaf, Vec2(v.uv)}, place.position);
+    v.direct = E.direct, v.indirect = E.indirect, v.particle = E.particle;
+  });
 }
 
 }  // namespace
@@ -121,15 +129,9 @@ SurfaceMesh litSide(const SideShape& shape, const Scene& scene, const Reconstruc
   SurfaceMesh side;
   setLook(side, shape, scene, reconstruction);
   reading = SideLayout(shape, reconstruction, side).layOut();
-  if (before && !sameShape(side, *before)) before = nullptr;
-  parallelFor(reading.places.size(), kReadBlock, [&](std::size_t i) {
-    const SideReading::Place& place = reading.places[i];
-    if (!place.leaf.valid()) return;
-    if (before && reconstruction.field.changedIn(place.leaf) <= generation)
-      side.vertices[i] = before->vertices[i];
-    else
-      readField(side.vertices[i], place, reconstruction.field);
-  });
+  const bool same = before && sameShape(side, *before);
+  if (same) side.vertices = before->vertices;
+  readLight(side, reading, reconstruction.field, same ? std::optional(generation) : std::nullopt);
   return side;
 }
 
@@ -137,11 +139,7 @@ SurfaceMesh litAgain(const SurfaceMesh& before, const SideReading& reading, cons
                      const Reconstruction& reconstruction, std::uint64_t generation) {
   SurfaceMesh side = before;
   setLook(side, shape, scene, reconstruction);
-  parallelFor(reading.places.size(), kReadBlock, [&](std::size_t i) {
-    const SideReading::Place& place = reading.places[i];
-    if (place.leaf.valid() && reconstruction.field.changedIn(place.leaf) > generation)
-      readField(side.vertices[i], place, reconstruction.field);
-  });
+  readLight(side, reading, reconstruction.field, generation);
   return side;
 }
 
