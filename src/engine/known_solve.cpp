@@ -65,6 +65,7 @@ hierarchy::Elements KnownSolve::takeMesh(const Scene& scene, const std::function
   if (edits_.stands && !roomy && hierarchy::bringTo(elements_, scene, edits_.moved)) {
     for (const hierarchy::ElementId e : paintedSurfaces(elements_, scene, edits_.painted))
       hierarchy::setReflectance(elements_, scene, e);
+    hierarchy::reshape(elements_, scene, hierarchy::elementsOf(elements_, edits_.relit));
     mesh = std::move(elements_);
   } else {
     mesh = build();
@@ -111,7 +112,7 @@ bool KnownSolve::known(const hierarchy::Elements& elements, hierarchy::ElementId
 
 bool KnownSolve::holdsWalks(const hierarchy::Elements& elements, hierarchy::ElementId side,
                             const lines::LightWalks& walks) const {
-  return edits_.lightsStay && known(elements, side) && change::holdWalks(edits_.space, walks);
+  return edits_.sameLights && known(elements, side) && change::holdWalks(edits_.space, walks);
 }
 
 void KnownSolve::moveOpened(const hierarchy::Elements& elements, const std::vector<char>& enclosed) {

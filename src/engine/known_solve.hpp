@@ -14,8 +14,10 @@ struct EditedScene {
   change::MovedSpace space;
   std::vector<PrimitiveId> moved;
   std::vector<MaterialId> painted;
-  bool stands = true;             // surfaces have moved, at most: none has come or gone, and lights are what they were
-  bool lightsStay = true;         // all of them are where they were, and none has come or gone
+  std::vector<LightId> relit;     // lights that are elsewhere, or send another power
+  bool stands = true;             // surfaces and lights are elsewhere, at most: none has come or gone
+  bool lightsStay = true;         // all lights are where they were, and none has come or gone
+  bool sameLights = true;         // none has come or gone, wherever they are
   std::vector<char> movedLights;  // by light: those that are not where they were
   bool lightsSame = true;  // they count for what they did as well: where lamps are drawn, one decides about rays to all
   const particles::ParticleUpdate* retraced = nullptr;  // particles that have followed; null: all may be others
@@ -40,8 +42,9 @@ class KnownSolve {
   std::optional<particles::ParticleTransfer> takeCoarseTransfer() { return std::move(memory_.coarseTransfer); }
   const particles::ParticleUpdate& retraced() const { return *followed_; }
 
-  /// Whether walks for light from a side are what they would be now.
+  /// Whether walks for light from a side run where they would now; by light, those that are elsewhere than they knew.
   bool holdsWalks(const hierarchy::Elements&, hierarchy::ElementId side, const lines::LightWalks&) const;
+  std::span<const char> movedLights() const { return edits_.movedLights; }
   /// Takes sides of hollows that have opened or closed for moved: lines into them count otherwise.
   void moveOpened(const hierarchy::Elements&, const std::vector<char>& enclosed);
   /// The same of what is known of a patch's surroundings.

@@ -67,9 +67,6 @@ struct Samplers {
     const std::size_t e = patch.index();
     const std::uint64_t rays = measureLight(patch, x.samples.whole[e]);
     x.samples.direct[e] = x.samples.whole[e]->light;
-    if (std::unique_ptr<EvaluatedLight>& choice = x.samples.evaluated[e];
-        choice && choice->choice != direct::DirectSampler::Choice::Split)
-      choice.reset();  // its light is gone
     return rays;
   }
   /// The same of the input level, for the coarse light.
@@ -212,8 +209,12 @@ bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const s
     }
     const bool stopped = stop();
     std::vector<hierarchy::ElementId> chosen, parts, whole;
-    for (std::size_t i = 0; i < patches.size(); ++i)
-      if (split[i]) chosen.push_back(patches[i]);
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      if (split[i])
+        chosen.push_back(patches[i]);
+      else
+        x.samples.whole[patches[i].index()].reset();  // nobody has asked for that
+    }
     const std::vector<char> done =
         stopped ? std::vector<char>(chosen.size(), false) : hierarchy::subdivide(elements, x.s.scene, chosen);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -221,6 +222,7 @@ bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const s
         whole.push_back(chosen[i]);
         continue;
       }
+      x.samples.whole[chosen[i].index()].reset();
       // Corners of what sees far are no narrow places.
       const float wide = hierarchy::tuning::kSurroundings * x.samples.scale[chosen[i].index()].mean;
       for (std::size_t c = 0; c < elements.at(chosen[i]).childCount; ++c) {

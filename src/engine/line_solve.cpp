@@ -109,10 +109,11 @@ void refineForParticles(LineSolve& x) {
   for (std::size_t i = 0; i < s.elements.size(); ++i) {
     const hierarchy::ElementId e(i);
     if (x.measured[i] || !s.elements.receives(e)) continue;
+    // Nobody has asked it what it may have been asked before.
     if (s.elements.isLeaf(e))
-      parts.push_back(e);
+      parts.push_back(e), x.samples.evaluated[i].reset();
     else
-      x.samples.forget(i);  // nobody has asked it what it may have been asked before
+      x.samples.forget(i);
   }
   samplePatches(x, parts);
 }
@@ -183,7 +184,8 @@ std::unique_ptr<LineSolve> solveCoarsely(Solution& s, KnownSolve* known, const T
   const auto hold = [&](hierarchy::ElementId side, const lines::LightWalks& walks) {
     return known && known->holdsWalks(s.elements, side, walks);
   };
-  s.report.counts.raysVisibility += lines::walkForLight(s.elements, solve->tracer, hold, solve->walks);
+  s.report.counts.raysVisibility += lines::walkForLight(
+      s.elements, solve->tracer, hold, known ? known->movedLights() : std::span<const char>(), solve->walks);
   for (const lines::LightWalks& w : solve->walks) solve->enclosed.push_back(w.enclosed);
   openToParticles(*solve);
   if (known) known->moveOpened(s.elements, solve->enclosed);

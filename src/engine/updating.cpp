@@ -137,10 +137,13 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
   const std::vector<Rgb> nominal = scene::nominalScales(s.scene);
   edited.movedLights = engine::lightsThatMoved(s.scene, edits);
   const auto black = [](const Rgb& scale) { return isBlack(scale); };
-  edited.lightsStay = !lampMoves && std::ranges::equal(nominal, before->nominal, {}, black, black) &&
+  edited.sameLights = std::ranges::equal(nominal, before->nominal, {}, black, black);
+  edited.lightsStay = !lampMoves && edited.sameLights &&
                       std::ranges::none_of(edited.movedLights, [](char moved) { return moved != 0; });
   edited.lightsSame = edited.lightsStay && nominal == before->nominal;
-  edited.stands = edited.lightsStay && edits.dimmed.empty() &&
+  for (const std::vector<LightId>* some : {&edits.movedLights, &edits.dimmed})
+    edited.relit.insert(edited.relit.end(), some->begin(), some->end());
+  edited.stands = engine::haveElements(s.elements, s.scene, edits) &&
                   std::ranges::none_of(edits.moved,
                                        [](const SceneChange::Moved& m) { return m.before.empty() || m.after.empty(); });
   edited.retraced = newPaths ? &*newPaths : nullptr;

@@ -16,7 +16,7 @@ namespace deltalux::lines {
 
 namespace {
 
-constexpr std::uint64_t kWalkKey = 0x77616c6b73ull;  // [key]
+constexpr std::uint64_t kWalkKey = 0x77616c6b73ull, kAskKey = 0x6173ull;  // [key]
 constexpr std::size_t kMostWalkSteps = 8;            // that are kept one by one [task]
 
 /// Many short steps are as well told by the box that they run in.
@@ -48,9 +48,20 @@ class LightSearch {
   LightWalks from(hierarchy::ElementId side, double hollow, std::uint64_t& rays) const {
     LightWalks walks;
     walks.enclosed = encloses(side, hollow, walks, rays);
+    if (!walks.enclosed) walks.asked = {};
     putIntoBox(walks);
-    walks.steps.shrink_to_fit();
+    walks.steps.shrink_to_fit(), walks.asked.shrink_to_fit();
     return walks;
+  }
+
+  /// Whether one of these lights is seen from where walks that found none have asked for it.
+  bool findsAny(std::span<const char> moved, hierarchy::ElementId side, LightWalks& walks, std::uint64_t& rays) const {
+    for (std::size_t i = 0; i < walks.asked.size(); ++i) {
+      const ToLight to = toLight(elements_.key[side.index()], i);
+      if (moved[to.light.index()] && sees(to, walks.asked[i], walks, rays)) return true;
+    }
+    putIntoBox(walks);
+    return false;
   }
 
  private:
@@ -60,6 +71,12 @@ class LightSearch {
     int steps = 0;
 
     double width() const { return steps > 0 ? sum / steps : 0; }
+  };
+
+  /// A light, and where on it.
+  struct ToLight {
+    LightId light;
+    Vec2 at;
   };
 
   bool encloses(hierarchy::ElementId side, double hollow, LightWalks& walks, std::uint64_t& rays) const {
@@ -109,7 +126,11 @@ class LightSearch {
     hierarchy::PatchPoint x = points.point(static_cast<std::uint32_t>(walk));
     for (int bounce = 0; bounce < tuning::kBounces; ++bounce) {
       const LineEnd end = step(x, random, walks, rays);
-      if (sees(x, random, walks, rays)) return true;
+      if (!asked_.empty()) {
+        const ToLight to = toLight(points.key(), walks.asked.size());
+        walks.asked.push_back(x);
+        if (sees(to, x, walks, rays)) return walks.found = to.light, true;
+      }
       if (end.termination == LineTermination::Escaped && outside_) return true;
       if (end.termination != LineTermination::Ended) return false;
       if (bounce >= counted) lengths.sum += end.turned ? 0 : end.distance, ++lengths.steps;
@@ -122,12 +143,16 @@ class LightSearch {
     return false;
   }
 
-  /// A shadow ray to one of the lights that are not all around.
-  bool sees(const hierarchy::PatchPoint& x, Rng& random, LightWalks& walks, std::uint64_t& rays) const {
-    if (asked_.empty()) return false;
+  /// Of the lights that are not all around, the one that the walks of a side ask for the so manieth time.
+  ToLight toLight(std::uint64_t key, std::size_t time) const {
+    Rng random(combineKeys(key, kAskKey), time);
     const auto k = static_cast<std::size_t>(random.uniform() * static_cast<double>(asked_.size()));
     const double u = random.uniform(), v = random.uniform();
-    const auto s = lights_.sample(asked_[k], Vec3(x.position), {u, v});
+    return {asked_[k], {u, v}};
+  }
+  /// A shadow ray.
+  bool sees(const ToLight& to, const hierarchy::PatchPoint& x, LightWalks& walks, std::uint64_t& rays) const {
+    const auto s = lights_.sample(to.light, Vec3(x.position), to.at);
     if (!s || !(glm::dot(s->direction, Vec3(x.normal)) > 0) || isBlack(s->radiance)) return false;
     ++rays;
     const tracing::Ray ray = tracing::shadowRay(Vec3(x.position), Vec3(x.normal), s->direction, s->distance, s->normal);
@@ -149,7 +174,7 @@ class LightSearch {
 }  // namespace
 
 std::uint64_t walkForLight(const hierarchy::Elements& elements, const LineTracer& tracer, const WalksHold& hold,
-                           std::vector<LightWalks>& walks) {
+                           std::span<const char> movedLights, std::vector<LightWalks>& walks) {
   constexpr std::size_t kBlock = 16;  // [task]
   const Scene& scene = tracer.scene();
   const double hollow = widthsOf(scene, elements.sceneBox).hollow;
@@ -160,7 +185,11 @@ std::uint64_t walkForLight(const hierarchy::Elements& elements, const LineTracer
     const hierarchy::ElementId side = elements.inputs[i];
     if (!elements.receives(side)) return own;
     LightWalks& of = walks[side.index()];
-    if (!hold(side, of)) of = search.from(side, hollow, own);
+    // What has found another light has found one, whichever it would find before.
+    const auto findsNow = [&] {
+      return of.enclosed ? search.findsAny(movedLights, side, of, own) : of.found.valid() && movedLights[of.found.index()];
+    };
+    if (!hold(side, of) || (!movedLights.empty() && findsNow())) of = search.from(side, hollow, own);
     return own;
   });
 }

@@ -71,14 +71,15 @@ Scene roomWithHollows(bool lamp = true) {
 /// A scene and the walks of its sides.
 class Walked {
  public:
-  explicit Walked(Scene s, const lines::WalksHold& hold = lines::nothingHolds, std::vector<LightWalks> before = {})
+  explicit Walked(Scene s, const lines::WalksHold& hold = lines::nothingHolds, std::vector<LightWalks> before = {},
+                  std::span<const char> movedLights = {})
       : scene(std::move(s)),
         tracer(scene),
         responses(scene, true),
         lines(scene, tracer, responses),
         elements(hierarchy::buildElements(scene, hierarchy::surfaceSides(scene))),
         walks(std::move(before)),
-        rays(lines::walkForLight(elements, lines, hold, walks)) {}
+        rays(lines::walkForLight(elements, lines, hold, movedLights, walks)) {}
 
   const LightWalks& of(std::size_t primitive, bool front) const {
     return walks[elements.side(PrimitiveId(primitive), 0, front).index()];
@@ -144,7 +145,7 @@ TEST(LightWalks, ThatHoldStay) {
   Walked fresh(roomWithHollows());
   const hierarchy::ElementId side = fresh.elements.side(PrimitiveId(kRoom), 0, true);
   std::vector<LightWalks> before = fresh.walks;
-  before[side.index()] = {{{Vec3f(1, 2, 3), Vec3f(0, 0, 1), 4}}, {}, true};  // what no walk would find
+  before[side.index()] = {{{Vec3f(1, 2, 3), Vec3f(0, 0, 1), 4}}, {}, true, {}, {}};  // what no walk would find
   const auto hold = [&](hierarchy::ElementId e, const LightWalks&) { return e == side; };
   const Walked some(roomWithHollows(), hold, before);
   EXPECT_LT(some.rays, fresh.rays);
@@ -174,6 +175,29 @@ bool touched(const LightWalks& walks, const Vec3f& p) {
   for (std::size_t i = 0; i < one.primitives.size(); ++i)
     moved.push_back({PrimitiveId(i), {}, bounds(one.primitives[i].shape)});
   return !change::holdWalks(change::MovedSpace(one, moved), walks);
+}
+
+/// Two lamps; the second is somewhere.
+Scene roomWithLampAt(const Vec3& at) {
+  Scene scene = roomWithHollows();
+  addLight(scene, PointLight{at, Rgb(1.0f)});
+  return scene;
+}
+
+TEST(LightWalks, LookForTheLampThatMovedAlone) {
+  const lines::WalksHold all = [](hierarchy::ElementId, const LightWalks&) { return true; };
+  const std::vector<char> moved = {0, 1};
+  const Vec3 outside(1, 3, 2), inTheBox(1.05, 1.05, 0.55), elsewhere(3, 3, 1);
+  std::vector<LightWalks> known = Walked(roomWithLampAt(outside)).walks;
+  std::size_t opened = 0;
+  for (const Vec3& at : {elsewhere, inTheBox, outside, inTheBox, elsewhere}) {
+    const Walked fresh(roomWithLampAt(at)), now(roomWithLampAt(at), all, known, moved);
+    for (std::size_t e = 0; e < fresh.walks.size(); ++e) EXPECT_EQ(now.walks[e].enclosed, fresh.walks[e].enclosed) << e;
+    EXPECT_LT(static_cast<double>(now.rays), 0.7 * static_cast<double>(fresh.rays));
+    opened += !now.of(kBox, false).enclosed;
+    known = now.walks;
+  }
+  EXPECT_EQ(opened, 2u);
 }
 
 TEST(LightWalks, HoldEveryRayThatWasAsked) {

@@ -31,7 +31,7 @@ void expectTheSameWithFirstLines(const SolutionView& view) {
   const lines::LineTracer tracer(s.scene, *s.tracer, responses);
   const lines::Cover cover(s.scene, *s.tracer);
   std::vector<lines::LightWalks> walks;
-  lines::walkForLight(s.elements, tracer, lines::nothingHolds, walks);
+  lines::walkForLight(s.elements, tracer, lines::nothingHolds, {}, walks);
   std::vector<char> enclosed;
   for (const lines::LightWalks& w : walks) enclosed.push_back(w.enclosed);
   const std::vector<std::uint32_t> counts(leaves.size(), 24);

@@ -1,6 +1,7 @@
 #pragma once
 // Solutions of small scenes, and what is measured on them.
 #include <algorithm>
+#include <bit>
 #include <deltalux/engine.hpp>
 #include <deltalux/render.hpp>
 
@@ -34,11 +35,24 @@ inline std::uint64_t hashOf(const Engine& engine) {
   return combineKeys(combineKeys(hashes.mesh, hashes.lines), hashes.particles);
 }
 
-/// Whether mesh, lines and particles are those of a fresh solve of its scene.
+/// Of the direct light of its leaves.
+inline std::uint64_t directHashOf(const Engine& engine) {
+  const hierarchy::Elements& e = engine.solution().get().elements;
+  std::uint64_t hash = 0;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    if (!e.isReceivingLeaf(hierarchy::ElementId(i))) continue;
+    std::uint64_t own = e.key[i];
+    for (int c = 0; c < 3; ++c) own = combineKeys(own, std::bit_cast<std::uint32_t>(e.radiometry[i].direct[c]));
+    hash += own;  // in any order
+  }
+  return hash;
+}
+
+/// Whether mesh, lines, particles and direct light are those of a fresh solve of its scene.
 inline bool isTheFreshOne(const Engine& engine) {
   Engine fresh(engine.solution().scene(), engine.solution().settings());
   fresh.solve();
-  return hashOf(engine) == hashOf(fresh);
+  return hashOf(engine) == hashOf(fresh) && directHashOf(engine) == directHashOf(fresh);
 }
 
 /// Shadow rays until their own error is a fraction of one per cent.
