@@ -47,6 +47,20 @@ TEST(LineUpdate, HasTheRowsOfTheFreshSolve) {
   }
 }
 
+/// A patch may be asked because light varies over it in one update, because particles split what it is part of in the
+/// next, and not at all in one between.
+TEST(LineUpdate, KnowsOfNoPatchWhatIsOfAnotherTime) {
+  SolveSettings settings;
+  settings.error = 0.05, settings.particles = 20000, settings.causticTextures = false;
+  Engine engine(furnishedRoom(), settings);
+  engine.solve();
+  RandomEdits edits(engine, editableOfFurnishedRoom(), 1);
+  for (int i = 0; i < 11; ++i) {
+    edits.step();
+    if (i > 7) EXPECT_TRUE(isTheFreshOne(engine)) << edits.last();
+  }
+}
+
 TEST(LineUpdate, WithoutParticlesToo) {
   SolveSettings settings = coarse();
   settings.diffuseOnly = true;
