@@ -42,9 +42,10 @@ class KnownSolve {
   std::optional<particles::ParticleTransfer> takeCoarseTransfer() { return std::move(memory_.coarseTransfer); }
   const particles::ParticleUpdate& retraced() const { return *followed_; }
 
-  /// Whether walks for light from a side run where they would now; by light, those that are elsewhere than they knew.
+  /// Whether walks for light from a side run where they would now.
   bool holdsWalks(const hierarchy::Elements&, hierarchy::ElementId side, const lines::LightWalks&) const;
-  std::span<const char> movedLights() const { return edits_.movedLights; }
+  /// By light, those that are elsewhere than they knew; empty for none.
+  std::span<const char> movedLights() const { return edits_.lightsStay ? std::span<const char>() : edits_.movedLights; }
   /// Takes sides of hollows that have opened or closed for moved: lines into them count otherwise.
   void moveOpened(const hierarchy::Elements&, const std::vector<char>& enclosed);
   /// The same of what is known of a patch's surroundings.

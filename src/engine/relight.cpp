@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "base/prefetch.hpp"
 #include "lines/iterate.hpp"
 #include "lines/tuning.hpp"
 #include "scene/nominal_scale.hpp"
@@ -11,12 +12,13 @@ namespace deltalux::engine {
 
 namespace {
 constexpr std::size_t kRelitLeaves = 1024;  // of a task [task]
+constexpr std::size_t kAhead = 8;           // leaves, whose lamps memory is asked for [task]
 }  // namespace
 
 LampsOfLeaves lampsOf(const PatchSamples& samples, std::span<const DimLeaf> dimLeaves,
                       const hierarchy::LeafTable& leaves) {
   LampsOfLeaves all(leaves.size());
-  for (std::size_t i = 0; i < leaves.size(); ++i) all[i] = samples.direct[leaves[i].index()].lamps;
+  parallelFor(leaves.size(), kRelitLeaves, [&](std::size_t i) { all[i] = samples.direct[leaves[i].index()].lamps; });
   for (const DimLeaf& dim : dimLeaves) all[leaves.indexOf[dim.leaf.index()]] = dim.light.lamps;
   return all;
 }
@@ -33,6 +35,7 @@ void relight(Solution& s, const hierarchy::LeafTable& leaves, lines::Exchange& e
   std::vector<float> deviation(n);
   parallelFor(n, kRelitLeaves, [&](std::size_t i) {
     hierarchy::ElementLight& l = elements.radiometry[leaves[i].index()];
+    if (i + kAhead < n) prefetch(lamps[i + kAhead]);
     const direct::DimmedLight direct = direct::dimmed(lamps[i], dimming.lights);
     const double lamp = direct.deviation, dome = double(gray(dimming.skies)) * sky.at[i].deviation;
     deviation[i] = static_cast<float>(std::sqrt(lamp * lamp + dome * dome));

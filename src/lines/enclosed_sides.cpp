@@ -17,7 +17,7 @@ namespace deltalux::lines {
 namespace {
 
 constexpr std::uint64_t kWalkKey = 0x77616c6b73ull, kAskKey = 0x6173ull;  // [key]
-constexpr std::size_t kMostWalkSteps = 8;            // that are kept one by one [task]
+constexpr std::size_t kMostWalkSteps = 8;                                 // that are kept one by one [task]
 
 /// Many short steps are as well told by the box that they run in.
 void putIntoBox(LightWalks& walks) {
@@ -187,7 +187,8 @@ std::uint64_t walkForLight(const hierarchy::Elements& elements, const LineTracer
     LightWalks& of = walks[side.index()];
     // What has found another light has found one, whichever it would find before.
     const auto findsNow = [&] {
-      return of.enclosed ? search.findsAny(movedLights, side, of, own) : of.found.valid() && movedLights[of.found.index()];
+      return of.enclosed ? search.findsAny(movedLights, side, of, own)
+                         : of.found.valid() && movedLights[of.found.index()];
     };
     if (!hold(side, of) || (!movedLights.empty() && findsNow())) of = search.from(side, hollow, own);
     return own;

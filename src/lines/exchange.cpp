@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <tuple>
 #include <type_traits>
 
 #include "base/parallel.hpp"
@@ -326,26 +327,36 @@ void Exchange::weigh(std::uint32_t i) {
 
 void Exchange::addSpecials(const Lines& lines) {
   const std::size_t n = row_.size();
-  specialBegin_.assign(n + 1, 0);
-  const auto forEachException = [&](const auto& visit) {
-    for (std::size_t i = 0; i < leaves_.size(); ++i)
-      for (const ExceptionalLine& e : lines.exceptions.at(leaves_[i])) visit(slot_[i], slotOf_[e.end], e);
+  /// visit(slot, special) of both ends of all lines.
+  const auto forEachSpecial = [&](const auto& visit) {
+    parallelFor(leaves_.size(), kLeaves, [&](std::size_t leaf) {
+      const std::uint32_t i = slot_[leaf];
+      for (const ExceptionalLine& e : lines.exceptions.at(leaves_[leaf])) {
+        const std::uint32_t j = slotOf_[e.end];
+        if (e.rough) {
+          visit(i, Special{j, e.weight / (m_[i] * e_[i] * e_[j]), true});
+          continue;
+        }
+        const Rgb x = e.weight / (e_[i] * e_[j] * (m_[i] + m_[j]));  // [VG95 (balance heuristic)]
+        visit(i, Special{j, x, false});
+        if (!onlyReceives(i)) visit(j, Special{i, x, false});
+      }
+    });
   };
-  forEachException([&](std::uint32_t i, std::uint32_t j, const ExceptionalLine& e) {
-    ++specialBegin_[i + 1];
-    if (!e.rough && !onlyReceives(i)) ++specialBegin_[j + 1];
-  });
-  for (std::size_t i = 0; i < n; ++i) specialBegin_[i + 1] += specialBegin_[i];
+  std::vector<std::atomic<std::uint32_t>> count(n);
+  forEachSpecial([&](std::uint32_t i, const Special&) { count[i].fetch_add(1, std::memory_order_relaxed); });
+  specialBegin_.assign(n + 1, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    specialBegin_[i + 1] = specialBegin_[i] + count[i].load(std::memory_order_relaxed);
   specials_.resize(specialBegin_[n]);
-  std::vector<std::uint32_t> next(specialBegin_.begin(), specialBegin_.end() - 1);
-  forEachException([&](std::uint32_t i, std::uint32_t j, const ExceptionalLine& e) {
-    if (e.rough) {
-      specials_[next[i]++] = {j, e.weight / (m_[i] * e_[i] * e_[j]), true};
-      return;
-    }
-    const Rgb x = e.weight / (e_[i] * e_[j] * (m_[i] + m_[j]));  // [VG95 (balance heuristic)]
-    specials_[next[i]++] = {j, x, false};
-    if (!onlyReceives(i)) specials_[next[j]++] = {i, x, false};
+  forEachSpecial([&](std::uint32_t i, const Special& special) {
+    specials_[specialBegin_[i] + count[i].fetch_sub(1, std::memory_order_relaxed) - 1] = special;
+  });
+  // In one order, whichever thread came first.
+  const auto keyOf = [](const Special& s) { return std::tuple(s.rough, s.other, s.x.r, s.x.g, s.x.b); };
+  parallelFor(n, kLeaves, [&](std::size_t i) {
+    std::ranges::sort(std::span(specials_).subspan(specialBegin_[i], specialBegin_[i + 1] - specialBegin_[i]), {},
+                      keyOf);
   });
 }
 

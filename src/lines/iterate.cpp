@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "hierarchy/below.hpp"
@@ -70,7 +72,7 @@ void addBehind(const hierarchy::Elements& elements, const hierarchy::LeafTable& 
 /// Of leaves in a pass: summed power, and the most relative to what a leaf has.
 struct Change {
   RgbSum power{0.0};
-  double most = 0;
+  float most = 0;
 
   Change& operator+=(const Change& other) {
     power += other.power, most = std::max(most, other.most);
@@ -99,9 +101,10 @@ Rgb reflected(const LeafLight& light, std::uint32_t i) {
 }
 
 /// Change of a leaf's radiosity, relative to it, or to what would be `negligible` there: light that goes out for good
-/// becomes less by the same share in every pass.
-double relativeChange(const Rgb& before, const Rgb& now, float negligible) {
-  return isBlack(now) ? 0.0 : double(gray(glm::abs(now - before))) / std::max(gray(now), negligible);
+/// becomes less by the same share in every pass. None of what is too little for the digits of a number.
+float relativeChange(const Rgb& before, const Rgb& now, float negligible) {
+  const float light = gray(now);
+  return light < std::numeric_limits<float>::min() ? 0.0f : gray(glm::abs(now - before)) / std::max(light, negligible);
 }
 
 /// Leaves of which the radiosity still changes, however little it is.
@@ -124,15 +127,15 @@ void putOut(LeafLight& light, std::span<const std::uint32_t> leaves, std::span<R
 void iterateLate(Exchange& exchange, LeafLight& light, std::span<const std::uint32_t> late,
                  std::span<const float> negligible) {
   std::vector<Rgb> own(late.size());
-  double most = kInfinity;
+  float most = std::numeric_limits<float>::max();
   for (int pass = 0; pass < kMostPasses && most > tuning::kLate * tuning::kLeafConverged; ++pass) {
+    exchange.gatherAmong(late, light.B, light.indirect);
     most = 0;
     for (std::size_t k = 0; k < late.size(); ++k) {
       own[k] = reflected(light, late[k]);
       most = std::max(most, relativeChange(light.B[late[k]], own[k], negligible[late[k]]));
     }
     for (std::size_t k = 0; k < late.size(); ++k) light.B[late[k]] = own[k];
-    exchange.gatherAmong(late, light.B, light.indirect);
   }
   exchange.gatherAbout(late, light.B, light.indirect);
 }
@@ -172,11 +175,13 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     return report;
   }
   exchange.gather(light.B, light.indirect);
+  std::vector<std::uint32_t> late;  // in the end, in the order in which they turned out to be
+  std::vector<char> isLate(n, false);
   while (true) {
     std::vector<std::vector<std::uint32_t>> lateOf((n + kLeafBlock - 1) / kLeafBlock);
     const Change change = parallelSum<Change>(n, kLeafBlock, [&](std::size_t i) {
       next[i] = reflected(light, static_cast<std::uint32_t>(i));
-      const double relative = relativeChange(light.B[i], next[i], negligible[i]);
+      const float relative = relativeChange(light.B[i], next[i], negligible[i]);
       if (relative > tuning::kLate * tuning::kLeafConverged)
         lateOf[i / kLeafBlock].push_back(static_cast<std::uint32_t>(i));
       return Change{double(exchange.area(i)) * RgbSum(glm::abs(next[i] - light.B[i])), relative};
@@ -186,15 +191,17 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     const bool power = gray(report.residual) <= converged * gray(report.emitted),
                leaves = report.change <= tuning::kLeafConverged;
     if (report.passes == most) break;
-    std::vector<std::uint32_t> late;
+    std::vector<std::uint32_t> more;
     if (power && leaves) {
-      late = fading(light.B, next);
-      if (late.empty()) break;
-      putOut(light, late, next);
+      more = fading(light.B, next);
+      if (more.empty()) break;
+      putOut(light, more, next);
       std::ranges::fill(negligible, 0.0f);
     } else if (power) {
-      for (const auto& block : lateOf) late.insert(late.end(), block.begin(), block.end());
+      for (const auto& block : lateOf) more.insert(more.end(), block.begin(), block.end());
     }
+    for (const std::uint32_t i : more)
+      if (!std::exchange(isLate[i], true)) late.push_back(i);
     light.B.swap(next);
     if (power) {
       exchange.send(light.B);  // by what is as good as there
