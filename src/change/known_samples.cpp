@@ -101,13 +101,12 @@ bool holdDimRays(const MovedSpace& space, const direct::Lamps& lamps, const hier
                             [&](const tracing::Ray& ray) { return crosses(space, ray); });
 }
 
-bool holdShadowRays(const MovedSpace& space, const direct::DirectSampler& sampler, const hierarchy::Elements& elements,
-                    hierarchy::ElementId patch, const direct::KnownPoints& known, const direct::LampSight& above,
-                    const direct::LeafDirect& before, std::uint64_t through) {
+bool holdAskedRays(const MovedSpace& space, const direct::DirectSampler& sampler, const hierarchy::Elements& elements,
+                   hierarchy::ElementId patch, const direct::KnownPoints& known, const direct::LeafDirect& before,
+                   std::uint64_t through, bool& drawn) {
   if (space.moved(elements.domain[patch.index()].primitive)) return false;
   if (!faces(space, elements, patch)) return true;
-  const auto stops = [&](const tracing::Ray& ray) { return crosses(space, ray); };
-  bool holds = true, drawn = false;
+  bool holds = true;
   forEachMayShadow(space, sampler.lamps(), elements.shape(patch), through, [&](const direct::Lamp& lamp) {
     if (!holds) return;
     const auto asked = std::ranges::find_if(
@@ -116,9 +115,20 @@ bool holdShadowRays(const MovedSpace& space, const direct::DirectSampler& sample
       drawn = true;
     else
       holds = !sampler.anyRay(
-          patch, known, *asked, [&](const Vec3f& from) { return mayShadow(space, lamp, at(from)); }, stops);
+          patch, known, *asked, [&](const Vec3f& from) { return mayShadow(space, lamp, at(from)); },
+          [&](const tracing::Ray& ray) { return crosses(space, ray); });
   });
-  return holds && !(drawn && before.drawn > 0 && sampler.anyDrawnRay(patch, known, above, before.drawn, stops));
+  return holds;
+}
+
+bool holdShadowRays(const MovedSpace& space, const direct::DirectSampler& sampler, const hierarchy::Elements& elements,
+                    hierarchy::ElementId patch, const direct::KnownPoints& known, const direct::LampSight& above,
+                    const direct::LeafDirect& before, std::uint64_t through) {
+  bool drawn = false;
+  return holdAskedRays(space, sampler, elements, patch, known, before, through, drawn) &&
+         !(drawn && before.drawn > 0 &&
+           sampler.anyDrawnRay(patch, known, above, before.drawn,
+                               [&](const tracing::Ray& ray) { return crosses(space, ray); }));
 }
 
 bool holdSkyRays(const MovedSpace& space, const hierarchy::Elements& elements, hierarchy::ElementId patch,

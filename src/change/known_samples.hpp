@@ -26,7 +26,12 @@ std::uint64_t lampsThrough(const MovedSpace&, const direct::Lamps&, const BoxF& 
 /// what they did. `through`: lampsThrough() of it.
 bool holdDimRays(const MovedSpace&, const direct::Lamps&, const hierarchy::Elements&, const Scene&,
                  hierarchy::ElementId leaf, std::span<const std::uint32_t> points, std::uint64_t through);
-/// The same of those that a patch's light has come about by; `above`: what was known of lamps then.
+/// Whether shadow rays are that a patch's light has come about by, to those lamps that were asked; tells whether such
+/// as were drawn may not be.
+bool holdAskedRays(const MovedSpace&, const direct::DirectSampler&, const hierarchy::Elements&,
+                   hierarchy::ElementId patch, const direct::KnownPoints&, const direct::LeafDirect&,
+                   std::uint64_t through, bool& drawn);
+/// The same of all of them; `above`: what was known of lamps then.
 bool holdShadowRays(const MovedSpace&, const direct::DirectSampler&, const hierarchy::Elements&,
                     hierarchy::ElementId patch, const direct::KnownPoints&, const direct::LampSight& above,
                     const direct::LeafDirect&, std::uint64_t through);

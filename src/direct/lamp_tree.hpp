@@ -25,6 +25,8 @@ class LampTree {
   struct Reaching {
     std::uint32_t lamp;
     double potential;
+
+    bool operator==(const Reaching&) const = default;
   };
   /// Lamps below a node, and no less than what all of them together may bring [W/m2, gray].
   struct Branch {

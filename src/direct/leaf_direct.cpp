@@ -123,6 +123,7 @@ struct DirectSampler::Drawn {
   bool matter = false;
   Tally pilot, tally;
 
+  std::uint32_t points() const { return static_cast<std::uint32_t>(tally.first + tally.samples); }
   /// Moves a lamp to those asked; false where it is there.
   bool leave(std::uint32_t lamp) {
     const auto at = std::lower_bound(left.begin(), left.end(), lamp);
@@ -170,6 +171,12 @@ struct Draws {
   ScrambledSobol numbers;
 };
 
+LampTree::Cut cutOf(const LampTree& tree, const hierarchy::ElementGeometry& g, const LampSight& above) {
+  LampTree::Cut cut;
+  tree.cut(g, above.none() ? tuning::kFirstShare : tuning::kAskedShare, tuning::kLampsAsked, above.seen, cut);
+  return cut;
+}
+
 /// Whether a lamp is so near that its light varies much over the patch.
 bool nearBy(const Lamp& lamp, const hierarchy::ElementGeometry& g) {
   const Vec3f center = 0.5f * (lamp.lower + lamp.upper), half = 0.5f * (lamp.upper - lamp.lower);
@@ -209,10 +216,28 @@ void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, LampShadow
   }
 }
 
-LampTree::Cut DirectSampler::cutFor(const hierarchy::ElementGeometry& g, const LampSight& above) const {
-  LampTree::Cut cut;
-  lamps_.tree().cut(g, above.none() ? tuning::kFirstShare : tuning::kAskedShare, tuning::kLampsAsked, above.seen, cut);
-  return cut;
+bool DirectSampler::stands(hierarchy::ElementId patch, const KnownPoints& known, const LampSight& above,
+                           const LeafDirect& before, const LampTree& treeBefore, std::uint64_t moved,
+                           std::uint64_t& rays) const {
+  const hierarchy::ElementGeometry& g = elements_.shape(patch);
+  const auto sunMoved = [&](std::uint32_t sun) { return (moved & lampBit(lamps_.all()[sun].id)) != 0; };
+  if (before.sight.drawnSeen || before.tooWideForBeam != lamps_.tooWideForBeam(g) ||
+      std::ranges::any_of(lamps_.suns(), sunMoved))
+    return false;
+  Drawn drawn{g, cutOf(lamps_.tree(), g, above), {}, 0, {}, false, {}, {}};
+  const auto isAsked = [&](const LampTree::Reaching& r) { return (moved & lampBit(lamps_.all()[r.lamp].id)) != 0; };
+  if (std::ranges::any_of(drawn.cut.lamps, isAsked) ||
+      !std::ranges::equal(drawn.cut.lamps, cutOf(treeBefore, g, above).lamps))
+    return false;
+  Points points(elements_, scene_, patch, known);
+  if (!points.have(1)) return true;
+  double found = before.found;
+  std::vector<Asked> none;
+  askDrawn(above, found, points, drawn, none);
+  if (drawn.matter != before.sight.drawnAsked || drawn.pilot.passed > 0) return false;
+  finishDrawn(above, points, drawn);
+  rays += drawn.pilot.rays + drawn.tally.rays;
+  return drawn.tally.passed == 0 && drawn.points() == before.drawn;
 }
 
 bool DirectSampler::anyRay(hierarchy::ElementId patch, const KnownPoints& known, const LampLight& asked,
@@ -230,7 +255,7 @@ bool DirectSampler::anyRay(hierarchy::ElementId patch, const KnownPoints& known,
 bool DirectSampler::anyDrawnRay(hierarchy::ElementId patch, const KnownPoints& known, const LampSight& above,
                                 std::uint32_t count, const Stops& stops) const {
   const hierarchy::ElementGeometry& g = elements_.shape(patch);
-  const LampTree::Cut cut = cutFor(g, above);
+  const LampTree::Cut cut = cutOf(lamps_.tree(), g, above);
   Points points(elements_, scene_, patch, known);
   const Draws draws(points.sequence.key());
   for (std::size_t k = 0; k < count && points.have(static_cast<int>(k) + 1); ++k) {
@@ -374,7 +399,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   Points points(elements_, scene_, patch, known, before);
   result.tooWideForBeam = lamps_.tooWideForBeam(g);
   if (!points.have(1)) return result;
-  Drawn drawn{g, cutFor(g, above), {}, 0, {}, false, {}, {}};
+  Drawn drawn{g, cutOf(lamps_.tree(), g, above), {}, 0, {}, false, {}, {}};
   std::vector<Asked> asked;
   asked.reserve(lamps_.suns().size() + drawn.cut.lamps.size() + tuning::kLampRays);
   for (const std::uint32_t i : lamps_.suns())
@@ -382,6 +407,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   for (const LampTree::Reaching& r : drawn.cut.lamps) ask(lamps_.all()[r.lamp], r.potential, above, points, asked);
   double found = 0;
   for (const Asked& a : asked) found += a.pilot.mean();
+  found = result.found = static_cast<float>(found);  // as stands() will know it
   askDrawn(above, found, points, drawn, asked);
   finishDrawn(above, points, drawn);
 
@@ -406,7 +432,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   result.variation = static_cast<float>(deviationOf(quadrants));
   result.deviation = static_cast<float>(std::sqrt(variance));
   const Choice choice = splits ? splits(result) : Choice::Whole;
-  result.drawn = static_cast<std::uint32_t>(drawn.tally.first + drawn.tally.samples);
+  result.drawn = drawn.points();
   if (choice == Choice::Split) {
     for (const Asked& a : asked) result.lamps.push_back(a.light());
     return result;

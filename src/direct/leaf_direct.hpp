@@ -41,6 +41,7 @@ struct LeafDirect {
   std::uint32_t rays = 0;
   LampSight sight;
   std::uint32_t drawn = 0;       // points, the first ones, that have asked a lamp that was drawn
+  float found = 0;               // by the first rays to those that were asked, gray [W/m2]
   std::vector<LampLight> lamps;  // that were asked, or found; of what is not split: what E comes from
 };
 
@@ -66,6 +67,12 @@ class DirectSampler {
   LeafDirect at(hierarchy::ElementId patch, const KnownPoints&, const LampSight& above = {}, const Splits& splits = {},
                 const KnownShadows* before = nullptr) const;
 
+  /// Whether the light of a patch is what it was when some lamps were elsewhere, by the tree of lamps of then, if the
+  /// rays to those that were asked hold: none of those that moved was asked, or would be, and of such as are drawn none
+  /// was found, nor is now. `moved`: by lampBit. Adds the rays that tell.
+  bool stands(hierarchy::ElementId patch, const KnownPoints&, const LampSight& above, const LeafDirect& before,
+              const LampTree& treeBefore, std::uint64_t moved, std::uint64_t& rays) const;
+
   const Lamps& lamps() const { return lamps_; }
   using Stops = std::function<bool(const tracing::Ray&)>;
   using StopsAny = std::function<bool(const Vec3f& from)>;
@@ -84,7 +91,6 @@ class DirectSampler {
   struct Drawn;
   void shoot(const Lamp&, Points&, int upTo, LampShadows&, Tally&) const;
   void shootDrawn(Points&, int upTo, Drawn&, Tally&) const;
-  LampTree::Cut cutFor(const hierarchy::ElementGeometry&, const LampSight& above) const;
   void ask(const Lamp&, double potential, const LampSight& above, Points&, std::vector<Asked>&) const;
   void finish(double found, Points&, Asked&) const;
   std::uint32_t askAgain(double all, Points&, Asked&) const;

@@ -147,10 +147,14 @@ std::uint64_t KnownSolve::through(const hierarchy::Elements& elements, const dir
 
 bool KnownSolve::holdsLight(const hierarchy::Elements& elements, const direct::DirectSampler& sampler,
                             hierarchy::ElementId e, const lines::LeafScale& scale, const direct::LampSight& before,
-                            const direct::LampSight& above, const direct::LeafDirect& light) {
-  return edits_.lightsSame && known(elements, e) && sameSight(before, above) &&
-         change::holdShadowRays(edits_.space, sampler, elements, e, {scale.covered, scale.known}, above, light,
-                                through(elements, sampler.lamps(), e));
+                            const direct::LampSight& above, const direct::LeafDirect& light, std::uint64_t& rays) {
+  if (!edits_.lightsSame || !known(elements, e) || !sameSight(before, above)) return false;
+  const direct::KnownPoints points{scale.covered, scale.known};
+  const std::uint64_t lamps = through(elements, sampler.lamps(), e);
+  if (edits_.lightsStay) return change::holdShadowRays(edits_.space, sampler, elements, e, points, above, light, lamps);
+  bool drawn = false;
+  return change::holdAskedRays(edits_.space, sampler, elements, e, points, light, lamps, drawn) &&
+         sampler.stands(e, points, above, light, memory_.lampTree, edits_.movedLamps, rays);
 }
 
 std::function<bool(const direct::Lamp&, const tracing::Ray&)> KnownSolve::shadowsThatHold(
@@ -165,7 +169,7 @@ std::function<bool(const direct::Lamp&, const tracing::Ray&)> KnownSolve::shadow
 const direct::DimDirect* KnownSolve::dim(const hierarchy::Elements& elements, const Scene& scene,
                                          const direct::Lamps& lamps, hierarchy::ElementId leaf, std::uint64_t key,
                                          std::span<const std::uint32_t> points) {
-  if (!edits_.lightsSame || !known(elements, leaf)) return nullptr;
+  if (!edits_.lightsSame || !edits_.lightsStay || !known(elements, leaf)) return nullptr;
   const auto at = std::ranges::lower_bound(memory_.dim, leaf, {}, &DimLeaf::leaf);
   if (at == memory_.dim.end() || at->leaf != leaf || at->points != key) return nullptr;
   const bool holds =

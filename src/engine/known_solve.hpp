@@ -19,7 +19,8 @@ struct EditedScene {
   bool lightsStay = true;         // all lights are where they were, and none has come or gone
   bool sameLights = true;         // none has come or gone, wherever they are
   std::vector<char> movedLights;  // by light: those that are not where they were
-  bool lightsSame = true;  // they count for what they did as well: where lamps are drawn, one decides about rays to all
+  std::uint64_t movedLamps = 0;   // the same, by lampBit
+  bool lightsSame = true;         // they count for what they did, wherever they are
   const particles::ParticleUpdate* retraced = nullptr;  // particles that have followed; null: all may be others
 };
 
@@ -50,10 +51,10 @@ class KnownSolve {
   void moveOpened(const hierarchy::Elements&, const std::vector<char>& enclosed);
   /// The same of what is known of a patch's surroundings.
   bool holdsScale(const hierarchy::Elements&, const Scene&, hierarchy::ElementId, const lines::FirstLines&) const;
-  /// Of its direct light, found by rays that came to `light`, and knew of lamps what is above.
+  /// Of its direct light, found by rays that came to `light`, and knew of lamps what is above. Adds the rays that tell.
   bool holdsLight(const hierarchy::Elements&, const direct::DirectSampler&, hierarchy::ElementId,
                   const lines::LeafScale&, const direct::LampSight& before, const direct::LampSight& above,
-                  const direct::LeafDirect& light);
+                  const direct::LeafDirect& light, std::uint64_t& rays);
   /// Which of its shadow rays are, however its light may differ; empty where none is known to be.
   std::function<bool(const direct::Lamp&, const tracing::Ray&)> shadowsThatHold(const hierarchy::Elements&,
                                                                                 const direct::Lamps&,

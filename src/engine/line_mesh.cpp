@@ -87,19 +87,20 @@ struct Samplers {
     const direct::LampSight above = sightAbove(x.samples, x.s.elements, patch);
     std::unique_ptr<EvaluatedLight>& evaluated = x.samples.evaluated[e];
     direct::LeafDirect& light = x.samples.direct[e];
+    std::uint64_t rays = 0;
     if (x.known && evaluated &&
-        x.known->holdsLight(x.s.elements, direct, patch, scale, evaluated->above, above, light)) {
+        x.known->holdsLight(x.s.elements, direct, patch, scale, evaluated->above, above, light, rays)) {
       const auto choice = choose(evaluated->found);
       if (choice == evaluated->choice) {
         if (choice == Split) light.sight = evaluated->found.sight;
-        return 0;
+        return rays;
       }
       if (choice == Split) {  // by what was asked so far
         evaluated->choice = choice;
         const direct::LeafDirect& found = evaluated->found;
-        light = {found.E,    found.deviation, found.variation, found.tooWideForBeam,
-                 found.rays, found.sight,     light.drawn,     std::move(light.lamps)};
-        return 0;
+        light = {found.E,     found.deviation, found.variation, found.tooWideForBeam,  found.rays,
+                 found.sight, light.drawn,     found.found,     std::move(light.lamps)};
+        return rays;
       }
     }
     const direct::DirectSampler::KnownShadows shadows = evaluated ? shadowsBefore(patch, light) : shadowsOfCoarse(e);
@@ -109,7 +110,7 @@ struct Samplers {
       return evaluated->choice = choose(found);
     };
     light = direct.at(patch, {scale.covered, scale.known}, above, chooseByFound, shadows.holds ? &shadows : nullptr);
-    return light.rays;
+    return rays + light.rays;
   }
 
  private:
@@ -126,15 +127,16 @@ struct Samplers {
   std::uint64_t measureLight(hierarchy::ElementId patch, std::unique_ptr<WholeLight>& whole) const {
     const lines::LeafScale& scale = x.samples.scale[patch.index()];
     const direct::LampSight above = sightAbove(x.samples, x.s.elements, patch);
-    const bool holds =
-        x.known && whole && x.known->holdsLight(x.s.elements, direct, patch, scale, whole->above, above, whole->light);
+    std::uint64_t rays = 0;
+    const bool holds = x.known && whole &&
+                       x.known->holdsLight(x.s.elements, direct, patch, scale, whole->above, above, whole->light, rays);
     if (!holds) {
       direct::DirectSampler::KnownShadows shadows;
       if (whole) shadows = shadowsBefore(patch, whole->light);
       whole = std::make_unique<WholeLight>(WholeLight{
           direct.at(patch, {scale.covered, scale.known}, above, {}, shadows.holds ? &shadows : nullptr), above});
     }
-    return holds ? 0 : whole->light.rays;
+    return holds ? rays : rays + whole->light.rays;
   }
 };
 

@@ -162,7 +162,7 @@ std::shared_ptr<SolveMemory> memoryOf(LineSolve&& x) {
   memory->coarse = std::move(x.coarse);
   memory->coarseTransfer = std::move(x.coarseTransfer);
   memory->plain = x.responses.plain();
-  memory->nominal = std::move(x.nominal);
+  memory->nominal = std::move(x.nominal), memory->lampTree = x.lamps.tree();
   return memory;
 }
 

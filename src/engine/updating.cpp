@@ -140,7 +140,9 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
   edited.sameLights = std::ranges::equal(nominal, before->nominal, {}, black, black);
   edited.lightsStay = !lampMoves && edited.sameLights &&
                       std::ranges::none_of(edited.movedLights, [](char moved) { return moved != 0; });
-  edited.lightsSame = edited.lightsStay && nominal == before->nominal;
+  edited.lightsSame = edited.sameLights && nominal == before->nominal;
+  for (std::size_t i = 0; i < edited.movedLights.size(); ++i)
+    if (edited.movedLights[i]) edited.movedLamps |= direct::lampBit(LightId(i));
   for (const std::vector<LightId>* some : {&edits.movedLights, &edits.dimmed})
     edited.relit.insert(edited.relit.end(), some->begin(), some->end());
   edited.stands = engine::haveElements(s.elements, s.scene, edits) &&

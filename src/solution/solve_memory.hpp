@@ -97,8 +97,9 @@ struct SolveMemory {
   std::unique_ptr<lines::Exchange> exchange;                  // over those lines
   std::optional<particles::ParticleTransfer> coarseTransfer;  // of the particles, on the input level
   CoarseLines coarse;
-  std::vector<char> plain;   // by material: SurfaceResponses::plain()
-  std::vector<Rgb> nominal;  // by light: the scale that all was decided by
+  std::vector<char> plain;    // by material: SurfaceResponses::plain()
+  std::vector<Rgb> nominal;   // by light: the scale that all was decided by
+  direct::LampTree lampTree;  // at those
 };
 
 }  // namespace deltalux

@@ -121,6 +121,53 @@ TEST(LeafDirect, ShadowsThatAreKnownAreNotTracedAgain) {
   EXPECT_EQ(again(true).rays, first.rays - clear - shut);
 }
 
+/// Tiles of two rooms with a wall between, which has a gap, and six lamps in each; the last one is somewhere.
+Scene twoRooms(const Vec3& last, std::vector<PrimitiveId>& tiles) {
+  Scene scene;
+  for (int i = 0; i < 16; ++i) tiles.push_back(addTile(scene, -8 + i, 0.3));
+  addPolygon(scene, addMaterial(scene, "wall", lambert(0.5f)), {{0, -9, 0.2}, {0, 9, 0.2}, {0, 9, 9}, {0, -9, 9}});
+  for (int i = 0; i < 11; ++i) addLight(scene, PointLight{{-7.5 + 1.3 * i, 0.5, 2 + 0.1 * i}, Rgb(5.0f)});
+  addLight(scene, PointLight{last, Rgb(1.0f)});
+  return scene;
+}
+
+TEST(LeafDirect, StandsWhereNoLampThatMovedIsAskedOrFound) {
+  std::vector<PrimitiveId> tiles;
+  const Lit before(twoRooms({7, 0.5, 3}, tiles));
+  const direct::DirectSampler sampler(before.elements, before.scene, *before.tracer, *before.lamps, 0.05);
+  std::size_t stand = 0, differ = 0;
+  for (const Vec3& to : {Vec3(6.8, 0.4, 3), Vec3(5, -1, 1), Vec3(-3, 0, 2)}) {
+    std::vector<PrimitiveId> same;
+    const Lit after(twoRooms(to, same));
+    const direct::DirectSampler now(after.elements, after.scene, *after.tracer, *after.lamps, 0.05);
+    for (const PrimitiveId tile : tiles) {
+      const hierarchy::ElementId patch = before.elements.side(tile, 0, true);
+      direct::LampSight above;  // as if all had been asked, and none been seen
+      above.asked = ~std::uint64_t(0), above.drawnAsked = true;
+      const direct::LeafDirect was = sampler.at(patch, {}, above), is = now.at(patch, {}, above);
+      std::uint64_t rays = 0;
+      const bool holds = now.stands(patch, {}, above, was, before.lamps->tree(), direct::lampBit(LightId(11u)), rays);
+      differ += was.E != is.E;
+      if (!holds) continue;
+      ++stand;
+      EXPECT_EQ(was.E, is.E);
+      EXPECT_EQ(was.variation, is.variation);
+      EXPECT_EQ(was.sight.asked, is.sight.asked);
+      EXPECT_EQ(was.sight.seen, is.sight.seen);
+      EXPECT_EQ(was.sight.drawnAsked, is.sight.drawnAsked);
+      EXPECT_EQ(was.drawn, is.drawn);
+      ASSERT_EQ(was.lamps.size(), is.lamps.size());
+      for (std::size_t i = 0; i < is.lamps.size(); ++i) {
+        EXPECT_EQ(was.lamps[i].lamp, is.lamps[i].lamp);
+        EXPECT_EQ(was.lamps[i].E, is.lamps[i].E);
+        EXPECT_EQ(was.lamps[i].points, is.lamps[i].points);
+      }
+    }
+  }
+  EXPECT_GT(stand, 5u);
+  EXPECT_GT(differ, 5u);
+}
+
 TEST(LeafDirect, ManyLampsAreRightInTheMean) {
   Scene scene;
   const PrimitiveId tile = addTile(scene, -0.01, 0.01);
