@@ -128,7 +128,7 @@ void iterateLate(Exchange& exchange, LeafLight& light, std::span<const std::uint
                  std::span<const float> negligible) {
   std::vector<Rgb> own(late.size());
   float most = std::numeric_limits<float>::max();
-  for (int pass = 0; pass < kMostPasses && most > tuning::kLate * tuning::kLeafConverged; ++pass) {
+  for (int pass = 0; pass < kMostPasses && most > tuning::kLeafConverged; ++pass) {
     exchange.gatherAmong(late, light.B, light.indirect);
     most = 0;
     for (std::size_t k = 0; k < late.size(); ++k) {
@@ -182,8 +182,7 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     const Change change = parallelSum<Change>(n, kLeafBlock, [&](std::size_t i) {
       next[i] = reflected(light, static_cast<std::uint32_t>(i));
       const float relative = relativeChange(light.B[i], next[i], negligible[i]);
-      if (relative > tuning::kLate * tuning::kLeafConverged)
-        lateOf[i / kLeafBlock].push_back(static_cast<std::uint32_t>(i));
+      if (relative > tuning::kLeafConverged) lateOf[i / kLeafBlock].push_back(static_cast<std::uint32_t>(i));
       return Change{double(exchange.area(i)) * RgbSum(glm::abs(next[i] - light.B[i])), relative};
     });
     ++report.passes;

@@ -70,8 +70,5 @@ constexpr double kConvergedAgain = 1e-5;
 /// Most that a leaf's radiosity changes in the last pass, relative. Larger: dark rooms beside bright places are not
 /// done.
 constexpr double kLeafConverged = 6e-3;
-/// Share of that above which a leaf takes part in passes over late ones. Larger: passes over all must follow. Smaller:
-/// most leaves are late.
-constexpr double kLate = 0.5;
 
 }  // namespace deltalux::lines::tuning
