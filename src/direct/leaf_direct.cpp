@@ -217,16 +217,15 @@ void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, LampShadow
 }
 
 bool DirectSampler::stands(hierarchy::ElementId patch, const KnownPoints& known, const LampSight& above,
-                           const LeafDirect& before, const LampTree& treeBefore, std::uint64_t moved,
+                           const LeafDirect& before, const LampTree& treeBefore, std::span<const char> moved,
                            std::uint64_t& rays) const {
   const hierarchy::ElementGeometry& g = elements_.shape(patch);
-  const auto sunMoved = [&](std::uint32_t sun) { return (moved & lampBit(lamps_.all()[sun].id)) != 0; };
+  const auto isElsewhere = [&](std::uint32_t lamp) { return moved[lamps_.all()[lamp].id.index()] != 0; };
   if (before.sight.drawnSeen || before.tooWideForBeam != lamps_.tooWideForBeam(g) ||
-      std::ranges::any_of(lamps_.suns(), sunMoved))
+      std::ranges::any_of(lamps_.suns(), isElsewhere))
     return false;
   Drawn drawn{g, cutOf(lamps_.tree(), g, above), {}, 0, {}, false, {}, {}};
-  const auto isAsked = [&](const LampTree::Reaching& r) { return (moved & lampBit(lamps_.all()[r.lamp].id)) != 0; };
-  if (std::ranges::any_of(drawn.cut.lamps, isAsked) ||
+  if (std::ranges::any_of(drawn.cut.lamps, isElsewhere, &LampTree::Reaching::lamp) ||
       !std::ranges::equal(drawn.cut.lamps, cutOf(treeBefore, g, above).lamps))
     return false;
   Points points(elements_, scene_, patch, known);

@@ -69,9 +69,9 @@ class DirectSampler {
 
   /// Whether the light of a patch is what it was when some lamps were elsewhere, by the tree of lamps of then, if the
   /// rays to those that were asked hold: none of those that moved was asked, or would be, and of such as are drawn none
-  /// was found, nor is now. `moved`: by lampBit. Adds the rays that tell.
+  /// was found, nor is now. `moved`: by light. Adds the rays that tell.
   bool stands(hierarchy::ElementId patch, const KnownPoints&, const LampSight& above, const LeafDirect& before,
-              const LampTree& treeBefore, std::uint64_t moved, std::uint64_t& rays) const;
+              const LampTree& treeBefore, std::span<const char> moved, std::uint64_t& rays) const;
 
   const Lamps& lamps() const { return lamps_; }
   using Stops = std::function<bool(const tracing::Ray&)>;

@@ -154,7 +154,7 @@ bool KnownSolve::holdsLight(const hierarchy::Elements& elements, const direct::D
   if (edits_.lightsStay) return change::holdShadowRays(edits_.space, sampler, elements, e, points, above, light, lamps);
   bool drawn = false;
   return change::holdAskedRays(edits_.space, sampler, elements, e, points, light, lamps, drawn) &&
-         sampler.stands(e, points, above, light, memory_.lampTree, edits_.movedLamps, rays);
+         sampler.stands(e, points, above, light, memory_.lampTree, edits_.movedLights, rays);
 }
 
 std::function<bool(const direct::Lamp&, const tracing::Ray&)> KnownSolve::shadowsThatHold(

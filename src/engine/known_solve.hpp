@@ -19,7 +19,6 @@ struct EditedScene {
   bool lightsStay = true;         // all lights are where they were, and none has come or gone
   bool sameLights = true;         // none has come or gone, wherever they are
   std::vector<char> movedLights;  // by light: those that are not where they were
-  std::uint64_t movedLamps = 0;   // the same, by lampBit
   bool lightsSame = true;         // they count for what they did, wherever they are
   const particles::ParticleUpdate* retraced = nullptr;  // particles that have followed; null: all may be others
 };

@@ -141,8 +141,6 @@ void Engine::State::recall(const engine::SceneUpdate& edits) {
   edited.lightsStay = !lampMoves && edited.sameLights &&
                       std::ranges::none_of(edited.movedLights, [](char moved) { return moved != 0; });
   edited.lightsSame = edited.sameLights && nominal == before->nominal;
-  for (std::size_t i = 0; i < edited.movedLights.size(); ++i)
-    if (edited.movedLights[i]) edited.movedLamps |= direct::lampBit(LightId(i));
   for (const std::vector<LightId>* some : {&edits.movedLights, &edits.dimmed})
     edited.relit.insert(edited.relit.end(), some->begin(), some->end());
   edited.stands = engine::haveElements(s.elements, s.scene, edits) &&

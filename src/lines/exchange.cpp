@@ -57,6 +57,20 @@ void forEachChange(std::span<const std::uint32_t> before, std::span<const std::u
   }
 }
 
+/// Values by slot, one after the other, in any order; `begin`: of all slots, and one more for the end.
+/// forEach(visit): visit(slot, value), from any thread, the same each time.
+template <class T, class ForEach>
+void listBySlot(std::size_t slots, const ForEach& forEach, std::vector<std::uint32_t>& begin, std::vector<T>& values) {
+  std::vector<std::atomic<std::uint32_t>> count(slots);
+  forEach([&](std::uint32_t slot, const T&) { count[slot].fetch_add(1, std::memory_order_relaxed); });
+  begin.assign(slots + 1, 0);
+  for (std::size_t i = 0; i < slots; ++i) begin[i + 1] = begin[i] + count[i].load(std::memory_order_relaxed);
+  values.resize(begin.back());
+  forEach([&](std::uint32_t slot, const T& value) {
+    values[begin[slot] + count[slot].fetch_sub(1, std::memory_order_relaxed) - 1] = value;
+  });
+}
+
 }  // namespace
 
 Exchange::Exchange(const Lines& lines, const hierarchy::Elements& elements, const hierarchy::LeafTable& leaves,
@@ -343,32 +357,12 @@ void Exchange::addSpecials(const Lines& lines) {
       }
     });
   };
-  std::vector<std::atomic<std::uint32_t>> count(n);
-  forEachSpecial([&](std::uint32_t i, const Special&) { count[i].fetch_add(1, std::memory_order_relaxed); });
-  specialBegin_.assign(n + 1, 0);
-  for (std::size_t i = 0; i < n; ++i)
-    specialBegin_[i + 1] = specialBegin_[i] + count[i].load(std::memory_order_relaxed);
-  specials_.resize(specialBegin_[n]);
-  forEachSpecial([&](std::uint32_t i, const Special& special) {
-    specials_[specialBegin_[i] + count[i].fetch_sub(1, std::memory_order_relaxed) - 1] = special;
-  });
+  listBySlot(n, forEachSpecial, specialBegin_, specials_);
   // In one order, whichever thread came first.
   const auto keyOf = [](const Special& s) { return std::tuple(s.rough, s.other, s.x.r, s.x.g, s.x.b); };
   parallelFor(n, kLeaves, [&](std::size_t i) {
     std::ranges::sort(std::span(specials_).subspan(specialBegin_[i], specialBegin_[i + 1] - specialBegin_[i]), {},
                       keyOf);
-  });
-}
-
-template <class ForEach>
-void Exchange::Seers::list(std::size_t slots, const ForEach& forEach) {
-  std::vector<std::atomic<std::uint32_t>> count(slots);
-  forEach([&](std::uint32_t seen, std::uint32_t) { count[seen].fetch_add(1, std::memory_order_relaxed); });
-  begin.assign(slots + 1, 0);
-  for (std::size_t i = 0; i < slots; ++i) begin[i + 1] = begin[i] + count[i].load(std::memory_order_relaxed);
-  seers.resize(begin.back());
-  forEach([&](std::uint32_t seen, std::uint32_t seer) {
-    seers[begin[seen] + count[seen].fetch_sub(1, std::memory_order_relaxed) - 1] = seer;
   });
 }
 
@@ -380,12 +374,13 @@ void Exchange::listSeers() {
       for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k) visit(i, specials_[k]);
     });
   };
-  roughly_.list(row_.size(), [&](const auto& visit) {
+  const auto list = [&](Seers& of, const auto& forEach) { listBySlot(row_.size(), forEach, of.begin, of.seers); };
+  list(roughly_, [&](const auto& visit) {
     forEachSpecial([&](std::uint32_t i, const Special& s) {
       if (s.rough) visit(s.other, i);
     });
   });
-  receiving_.list(row_.size(), [&](const auto& visit) {
+  list(receiving_, [&](const auto& visit) {
     forEachSpecial([&](std::uint32_t i, const Special& s) {
       if (!s.rough && onlyReceives(i)) visit(s.other, i);
     });

@@ -84,9 +84,6 @@ class Exchange {
     std::span<const std::uint32_t> of(std::uint32_t seen) const {
       return std::span(seers).subspan(begin[seen], begin[seen + 1] - begin[seen]);
     }
-    /// forEach(visit): visit(seen, seer), from any thread.
-    template <class ForEach>
-    void list(std::size_t slots, const ForEach& forEach);
   };
   /// What a leaf's own straight lines meet and end on, by which its row is scaled.
   struct OwnLines {

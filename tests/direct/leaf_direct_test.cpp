@@ -135,6 +135,8 @@ TEST(LeafDirect, StandsWhereNoLampThatMovedIsAskedOrFound) {
   std::vector<PrimitiveId> tiles;
   const Lit before(twoRooms({7, 0.5, 3}, tiles));
   const direct::DirectSampler sampler(before.elements, before.scene, *before.tracer, *before.lamps, 0.05);
+  std::vector<char> moved(before.scene.lights.size(), 0);
+  moved.back() = 1;
   std::size_t stand = 0, differ = 0;
   for (const Vec3& to : {Vec3(6.8, 0.4, 3), Vec3(5, -1, 1), Vec3(-3, 0, 2)}) {
     std::vector<PrimitiveId> same;
@@ -146,7 +148,7 @@ TEST(LeafDirect, StandsWhereNoLampThatMovedIsAskedOrFound) {
       above.asked = ~std::uint64_t(0), above.drawnAsked = true;
       const direct::LeafDirect was = sampler.at(patch, {}, above), is = now.at(patch, {}, above);
       std::uint64_t rays = 0;
-      const bool holds = now.stands(patch, {}, above, was, before.lamps->tree(), direct::lampBit(LightId(11u)), rays);
+      const bool holds = now.stands(patch, {}, above, was, before.lamps->tree(), moved, rays);
       differ += was.E != is.E;
       if (!holds) continue;
       ++stand;
