@@ -47,14 +47,10 @@ PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer)
       whole_.push_back(narrow(LightId(i), *dome, light.scale));
       continue;
     }
-    constexpr int looks = hierarchy::tuning::kGrid;
     Sky sky{LightId(i), *dome, light.scale};
     for (int cell = 0; cell < SkyCells::kCount; ++cell)
-      for (int k = 0; k < looks * looks; ++k)
-        sky.strength[static_cast<std::size_t>(cell)] +=
-            gray(sky.scale * skyRadiance(*dome, Vec3(SkyCells::direction(cell, (k % looks + 0.5) / looks,
-                                                                         (k / looks + 0.5) / looks)))) /
-            (looks * looks);
+      sky.strength[static_cast<std::size_t>(cell)] = SkyCells::meanOver(
+          cell, [&](const Vec3f& direction) { return gray(sky.scale * skyRadiance(*dome, Vec3(direction))); });
     skies_.push_back(std::move(sky));
   }
   for (int cell = 0; cell < SkyCells::kCount; ++cell) {

@@ -7,7 +7,6 @@
 
 #include "base/unit_circle.hpp"
 #include "hierarchy/leaf_sequence.hpp"
-#include "hierarchy/tuning.hpp"
 #include "scene/nominal_scale.hpp"
 #include "scene/stops_light.hpp"
 
@@ -78,12 +77,9 @@ Skies::Skies(const Scene& scene) {
     domes_.push_back({std::get<DomeLight>(scene.lights[i].emitter), alike_ ? nominal[i] : scene.lights[i].scale});
   for (int cell = 0; cell < SkyCells::kCount; ++cell)
     for (const double corner : {0.25, 0.75}) add(key_, radiance(SkyCells::direction(cell, corner, corner)));
-  constexpr int looks = hierarchy::tuning::kGrid;
   for (int cell = 0; cell < SkyCells::kCount; ++cell)
-    for (int i = 0; i < looks * looks; ++i)
-      strength_[static_cast<std::size_t>(cell)] +=
-          gray(radiance(SkyCells::direction(cell, (i % looks + 0.5) / looks, (i / looks + 0.5) / looks))) /
-          (looks * looks);
+    strength_[static_cast<std::size_t>(cell)] =
+        SkyCells::meanOver(cell, [&](const Vec3f& direction) { return gray(radiance(direction)); });
 }
 
 Rgb Skies::radiance(const Vec3f& direction) const {

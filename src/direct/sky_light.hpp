@@ -11,6 +11,7 @@
 #include "base/random.hpp"
 #include "direct/tuning.hpp"
 #include "hierarchy/leaf_table.hpp"
+#include "hierarchy/tuning.hpp"
 #include "scene/light_sampling.hpp"
 #include "tracing/ray_tracer.hpp"
 
@@ -22,6 +23,15 @@ struct SkyCells {
   static int of(const Vec3f& direction);
   static Vec3f direction(int cell, double a, double b);
   static constexpr double solidAngle() { return 4 * kPi / kCount; }
+  /// Mean of a function of directions over a cell.
+  template <class Value>
+  static float meanOver(int cell, const Value& value) {
+    constexpr int looks = hierarchy::tuning::kGrid;
+    float sum = 0;
+    for (int k = 0; k < looks * looks; ++k)
+      sum += value(direction(cell, (k % looks + 0.5) / looks, (k / looks + 0.5) / looks)) / (looks * looks);
+    return sum;
+  }
 };
 
 /// All skies of a scene, at their nominal scales where all of them are dimmed alike.
