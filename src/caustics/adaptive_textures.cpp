@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/tuning.hpp"
 #include "caustics/adaptive_kernel.hpp"
 #include "caustics/chart_part.hpp"
 #include "caustics/choice.hpp"
@@ -18,7 +19,8 @@ constexpr int squared(int side) { return side * side; }
 
 /// Counts of texels are of a few: light that differs a little is cut alike, so that it compares.
 int steady(double texels) {
-  return static_cast<int>(std::exp2(tuning::kStep * std::round(std::log2(texels) / tuning::kStep)));
+  return static_cast<int>(
+      std::exp2(deltalux::tuning::kOctaveStep * std::round(std::log2(texels) / deltalux::tuning::kOctaveStep)));
 }
 
 /// Cuts the part into texels that hold `perTexel` particles where they are dense, from `least` to `most` of them.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/tuning.hpp"
 #include "caustics/tuning.hpp"
 #include "caustics/vector_math.hpp"
 
@@ -68,7 +69,7 @@ class WidthSearch {
       open_[i] = 0;
       return !stays;
     });
-    return static_cast<double>(left + cut_.size()) <= tuning::kFew * static_cast<double>(cells_);
+    return static_cast<double>(left + cut_.size()) <= deltalux::tuning::kNegligible * static_cast<double>(cells_);
   }
 
   /// Logarithms of the widths in cells.

@@ -180,7 +180,7 @@ bool TextureUpdate::changed(std::size_t side, double background, bool textured) 
   const double factor = gray(now) / gray(then), other = background * area;
   if (gray(glm::abs(now - factor * then)) > error * (gray(now) + other)) return true;  // another colour
   const double noisier = (gray(now) + other) / (factor * (gray(then) + looks_[side].background * area));
-  return noisier > tuning::kOtherNoise || noisier < 1 / tuning::kOtherNoise;
+  return std::max(noisier, 1 / noisier) > 1 + tuning::kNoticed;
 }
 
 /// By side; on each in the order of the particles.

@@ -6,11 +6,9 @@ namespace deltalux::caustics::tuning {
 /// Share of the target error that matters: differences that make an edge, a region, or a texture, and noise that a
 /// kernel need not grow to reduce. More: blur. Less: grain, and textures of next to nothing.
 constexpr double kMatters = 0.5;
-/// Of the target error, noise from which on the low-frequency layer is asked; of the noise of a tile's flux, what is no
-/// change. More: grain; slow change is not followed. Less: blur; textures made for nothing.
+/// Of the target error, noise from which on the low-frequency layer is asked; of the noise of a tile's flux, or of all,
+/// what is no change. More: grain; slow change is not followed. Less: blur; textures made for nothing.
 constexpr double kNoticed = 0.25;
-/// Times more or less noise that is worth another reconstruction. More: grain after edits. Less: time.
-constexpr double kOtherNoise = 1.25;
 /// Narrowest and widest kernel, standard deviation in cells, and the factor between widths. Wider: time. Narrower:
 /// grain where light is dim. Larger steps: widths that do not fit.
 constexpr double kNarrowest = 0.5, kWidest = 6, kWidthFactor = 1.6;
@@ -33,19 +31,13 @@ constexpr double kRegion = 64;
 /// Texels across: the grid that resolution starts from (and tiles across a side), at most to choose by, of a coarse
 /// texture, and of a fine one. Fewer: blur. More: time and memory in the square.
 constexpr int kFirstSide = 16, kChoiceSide = 48, kCoarseSide = 128, kFineSide = 256;
-/// Between numbers of texels, as powers of two: light that differs a little is cut alike. Less: texels crawl.
-constexpr double kStep = 0.25;
 /// Coarse texels around a region. Fewer: its outline shows.
 constexpr int kMargin = 2;
 /// Part of a whole texel below which it joins a neighbour. Less: bright texels on outlines and at poles.
 constexpr double kPart = 0.5;
-/// Share of the cells that are not worth another width. More: grain in the dark.
-constexpr double kFew = 0.02;
 /// What a mesh of few patches can show, in the surface's size. More: textures for what the mesh shows.
 constexpr double kCoarse = 1.0 / 8;
 /// Share of a side's area that may be darker than what noise is compared with. More: grain in its shadows.
 constexpr double kDarkest = 0.1;
-/// Range of modes that are damped, as far as half of them go in a time of 1. Less: checkerboards. More: steps.
-constexpr double kDamping = 1;
 
 }  // namespace deltalux::caustics::tuning

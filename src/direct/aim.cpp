@@ -8,6 +8,12 @@
 
 namespace deltalux::direct {
 
+namespace {
+/// Of the variance within the quarters of a square, what that between them exceeds by chance in one case of twenty: the
+/// F distribution of three degrees of freedom, by many.
+constexpr double kUneven = 2.605;  // [defined]
+}  // namespace
+
 Aim::Aim(std::span<const Source> sources) {
   squares_.reserve(sources.size());
   for (const Source& s : sources) {
@@ -147,7 +153,7 @@ bool Aim::uneven(const Square& square, std::span<const Look> looks) {
   }
   const double count = static_cast<double>(looks.size()), within = squares - between;
   between -= all * all / count;
-  return between / std::max(groups - 1, 1.0) > tuning::kUneven * within / (count - groups) && between > 1e-6 * squares;
+  return between / std::max(groups - 1, 1.0) > kUneven * within / (count - groups) && between > 1e-6 * squares;
 }
 
 /// Appends the square as `looks` have it, or its quarters.
@@ -158,8 +164,7 @@ void Aim::divide(const Square& square, std::span<Look> looks, std::vector<Square
   for (const Look& l : looks) sum += l.E * l.E;
   now.strength = std::sqrt((sum + tuning::kDoubt * square.guess * square.guess) /
                            (static_cast<float>(looks.size()) + tuning::kDoubt));
-  if (square.size <= tuning::kSmallest || now.share() < deltalux::tuning::kNegligible * total() ||
-      !uneven(square, looks)) {
+  if (now.share() < deltalux::tuning::kNegligible * total() || !uneven(square, looks)) {
     for (const Look& l : looks) kept.push_back({static_cast<std::uint32_t>(squares.size()), l.u, l.E});
     squares.push_back(now);
     return;
@@ -201,13 +206,13 @@ ProbeResult measure(const PointSampler& light, std::span<const Source> sources, 
                tuning::kBatch);  // no ray may outweigh a whole estimate: few of them would not know
   if (aim.dark()) return result;
   BatchMean mean;
-  while (mean.count() < tuning::kFewestBatches || result.samples < static_cast<std::uint64_t>(maxSamples)) {
+  while (mean.count() < deltalux::tuning::kFewestEstimates || result.samples < static_cast<std::uint64_t>(maxSamples)) {
     RgbSum E(0.0);
     aim.sample(light, x, 0, combineKeys(key, 2 + static_cast<std::uint64_t>(mean.count())),
                [&](const Arrival& a) { E += RgbSum(static_cast<float>(glm::dot(a.direction, x.normal)) * a.E); });
     mean.add(E);
     result.samples += static_cast<std::uint64_t>(aim.rays());
-    if (mean.count() >= tuning::kFewestBatches &&
+    if (mean.count() >= deltalux::tuning::kFewestEstimates &&
         gray(mean.standardError()) <= error * (gray(mean.mean()) + gray(RgbSum(ambient))))
       break;
   }

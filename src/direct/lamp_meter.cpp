@@ -34,7 +34,7 @@ Rgb LampMeter::of(const Reaching& reaching, const hierarchy::PatchPoint& x, doub
   const double potential = known ? double(gray(*known)) : reaching.potential;
   const int most = point ? 1 : raysToTell(potential, allowed);
   const int asked = static_cast<int>(std::ceil(std::sqrt(most)));
-  const int pilots = doubt == Doubt::Much ? asked : std::min(asked, tuning::kLampRays);
+  const int pilots = doubt == Doubt::Much ? asked : std::min(asked, tuning::kLampPilots);
   const ScrambledSobol numbers(combineKeys(kMeterKey, id.value));
   RgbSum open(0.0), lit(0.0);
   double least = kInfinity, greatest = 0;  // of what passes

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tuning.hpp"
 #include "direct/tuning.hpp"
 
 namespace deltalux::direct {
@@ -16,7 +17,7 @@ struct Beam {
 };
 
 Beam beamOf(const scene::LightSampler& sampler, LightId id, const Vec3& axis, const auto& intensity) {
-  constexpr int kRings = tuning::kBeamRings, kAround = tuning::kBeamAround;
+  constexpr int kRings = tuning::kBeamRings, kAround = deltalux::tuning::kPilots;
   const Frame frame(axis);
   std::array<double, kRings + 1> brightest{};
   Beam beam;

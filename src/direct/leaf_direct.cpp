@@ -14,11 +14,11 @@ namespace {
 
 constexpr int kMostPoints = 64;                                                          // [layout]
 constexpr std::uint64_t kLampKey = 0x6c616d70735f5full, kDrawKey = 0x647261775f5f5full;  // [key]
-static_assert(tuning::kRays <= kMostPoints && tuning::kSunPilots + tuning::kMixedSunRays <= kMostPoints);
+static_assert(tuning::kRays <= kMostPoints);
 
 /// In inverse proportion to the error: the area where rays disagree shrinks with the mesh as well.
 int raysFor(double error, int normal) {
-  return std::clamp(static_cast<int>(std::lround(normal * deltalux::tuning::kUsualError / error)), tuning::kFaintRays,
+  return std::clamp(static_cast<int>(std::lround(normal * deltalux::tuning::kUsualError / error)), 1,
                     kMostPoints - tuning::kSunPilots);
 }
 
@@ -141,7 +141,7 @@ DirectSampler::DirectSampler(const hierarchy::Elements& elements, const Scene& s
       lamps_(lamps),
       lampRays_(raysFor(error, tuning::kLampRays)),
       mixedRays_(raysFor(error, tuning::kRays)),
-      mixedSunRays_(std::max(tuning::kRays, raysFor(error, tuning::kMixedSunRays))),
+      mixedSunRays_(std::max(tuning::kRays, raysFor(error, kMostPoints - tuning::kSunPilots))),
       openDrawn_(raysFor(error, tuning::kRays)),
       mixedDrawn_(raysFor(error, tuning::kManyRays)) {}
 
@@ -173,14 +173,15 @@ struct Draws {
 
 LampTree::Cut cutOf(const LampTree& tree, const hierarchy::ElementGeometry& g, const LampSight& above) {
   LampTree::Cut cut;
-  tree.cut(g, above.none() ? tuning::kFirstShare : tuning::kAskedShare, tuning::kLampsAsked, above.seen, cut);
+  tree.cut(g, above.none() ? tuning::kMatters : tuning::kAskedShare, static_cast<std::size_t>(1 / tuning::kAskedShare),
+           above.seen, cut);
   return cut;
 }
 
 /// Whether a lamp is so near that its light varies much over the patch.
 bool nearBy(const Lamp& lamp, const hierarchy::ElementGeometry& g) {
   const Vec3f center = 0.5f * (lamp.lower + lamp.upper), half = 0.5f * (lamp.upper - lamp.lower);
-  return glm::length(center - g.center) < tuning::kNearBy * (g.radius + glm::length(half));
+  return glm::length(center - g.center) < deltalux::tuning::kFar * (g.radius + glm::length(half));
 }
 
 }  // namespace
@@ -234,7 +235,7 @@ bool DirectSampler::stands(hierarchy::ElementId patch, const KnownPoints& known,
   std::vector<Asked> none;
   askDrawn(above, found, points, drawn, none);
   if (drawn.matter != before.sight.drawnAsked || drawn.pilot.passed > 0) return false;
-  finishDrawn(above, points, drawn);
+  finishDrawn(points, drawn);
   rays += drawn.pilot.rays + drawn.tally.rays;
   return drawn.tally.passed == 0 && drawn.points() == before.drawn;
 }
@@ -309,11 +310,7 @@ Rgb DirectSampler::unshadowed(const Lamp& lamp, Points& points, int wanted) cons
 void DirectSampler::ask(const Lamp& lamp, double potential, const LampSight& above, Points& points,
                         std::vector<Asked>& asked) const {
   Asked& a = asked.emplace_back(Asked{&lamp, potential, !lamp.sun && above.missed(lamp.id), {}, {}, {}});
-  shoot(lamp, points,
-        lamp.sun   ? tuning::kSunPilots
-        : a.missed ? tuning::kFaintRays
-                   : tuning::kLampPilots,
-        a.shadows, a.pilot);
+  shoot(lamp, points, lamp.sun ? tuning::kSunPilots : a.missed ? 1 : tuning::kLampPilots, a.shadows, a.pilot);
 }
 
 /// The samples that count, where about as much light as `found` was found.
@@ -323,9 +320,9 @@ void DirectSampler::finish(double found, Points& points, Asked& a) const {
   const double open = pilot.shot > 0 ? gray(pilot.open) / pilot.samples : a.potential;
   const bool mixed = pilot.mixed() || (a.missed && pilot.passed > 0);
   int wanted = lamp.sun ? (mixed ? mixedSunRays_ : tuning::kRays) : mixed ? mixedRays_ : lampRays_;
-  if (!lamp.sun && !(open > tuning::kMatters * found)) wanted = tuning::kFaintRays;
-  a.missed = a.missed && pilot.passed == 0 && wanted > tuning::kFaintRays;
-  if (a.missed) wanted = tuning::kFaintRays;
+  if (!lamp.sun && !(open > tuning::kMatters * found)) wanted = 1;
+  a.missed = a.missed && pilot.passed == 0 && wanted > 1;
+  if (a.missed) wanted = 1;
   Tally& t = a.tally;
   t.first = pilot.samples;
   shoot(lamp, points, wanted, a.shadows, t);
@@ -345,21 +342,24 @@ std::uint32_t DirectSampler::askAgain(double all, Points& points, Asked& a) cons
   if (!(open > 0)) return 0;
   Tally fresh;
   fresh.first = a.tally.first + a.tally.samples;
-  shoot(*a.lamp, points, a.lamp->sun ? tuning::kFewRays : 2 * open > all ? tuning::kUnseenRays : 1, a.shadows, fresh);
+  shoot(*a.lamp, points,
+        a.lamp->sun      ? tuning::kLampPilots
+        : 2 * open > all ? 2 * tuning::kLampPilots
+                         : 1,
+        a.shadows, fresh);
   if (fresh.samples == 0) return 0;  // there are no more points
   fresh.unshadowed = a.tally.unshadowed, fresh.measured = a.tally.measured;
   a.missed = true, a.tally = fresh;
   return fresh.rays;
 }
 
-/// The share that passes times what would without shadows; `light`: about how much there is of all lamps.
-Rgb DirectSampler::refined(const Asked& a, double light, const hierarchy::ElementGeometry& g, Points& points) const {
+/// The share that passes times what would without shadows.
+Rgb DirectSampler::refined(const Asked& a, const hierarchy::ElementGeometry& g, Points& points) const {
   const Tally& t = a.tally;
   Rgb E = t.light();
   if (a.lamp->sun || a.missed) return E;  // a ratio of so few would favour what is seen where it is faint
-  const bool much = gray(t.lit) > tuning::kMuch * light * t.samples, varied = t.shot < t.samples || nearBy(*a.lamp, g);
-  const Rgb open =
-      t.measured ? t.unshadowed : unshadowed(*a.lamp, points, much && varied ? kMostPoints : tuning::kRays);
+  const bool varied = t.shot < t.samples || nearBy(*a.lamp, g);
+  const Rgb open = t.measured ? t.unshadowed : unshadowed(*a.lamp, points, varied ? kMostPoints : tuning::kRays);
   for (int c = 0; c < 3; ++c) E[c] = t.open[c] > 0 ? open[c] * static_cast<float>(t.lit[c] / t.open[c]) : 0.0f;
   return E;
 }
@@ -370,7 +370,7 @@ void DirectSampler::askDrawn(const LampSight& above, double& found, Points& poin
                              std::vector<Asked>& asked) const {
   drawn.matter = drawn.cut.restMost > tuning::kMatters * found;
   if (!drawn.matter) return;
-  shootDrawn(points, above.missedDrawn() ? tuning::kFewRays : tuning::kLampRays, drawn, drawn.pilot);
+  shootDrawn(points, tuning::kLampPilots, drawn, drawn.pilot);
   found += drawn.pilot.mean();
   drawn.piloted = drawn.passed.size();
   for (const auto& [r, lit] : drawn.passed)
@@ -378,12 +378,12 @@ void DirectSampler::askDrawn(const LampSight& above, double& found, Points& poin
       ask(lamps_.all()[r.lamp], r.potential, above, points, asked);
 }
 
-void DirectSampler::finishDrawn(const LampSight& above, Points& points, Drawn& drawn) const {
+void DirectSampler::finishDrawn(Points& points, Drawn& drawn) const {
   if (!(drawn.cut.restMost > 0)) return;
   const Tally& pilot = drawn.pilot;
-  int wanted = tuning::kFaintRays;  // one for all that may bring next to nothing
+  int wanted = 1;  // one for all that may bring next to nothing
   if (drawn.matter && pilot.passed == 0)
-    wanted = above.missedDrawn() ? tuning::kFewRays : tuning::kLampRays;
+    wanted = tuning::kLampPilots;
   else if (drawn.matter)
     wanted = pilot.mixed() ? mixedDrawn_ : openDrawn_;
   // The pilots' points again where there are no more: without what is asked on its own now.
@@ -400,7 +400,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   if (!points.have(1)) return result;
   Drawn drawn{g, cutOf(lamps_.tree(), g, above), {}, 0, {}, false, {}, {}};
   std::vector<Asked> asked;
-  asked.reserve(lamps_.suns().size() + drawn.cut.lamps.size() + tuning::kLampRays);
+  asked.reserve(lamps_.suns().size() + drawn.cut.lamps.size() + tuning::kLampPilots);
   for (const std::uint32_t i : lamps_.suns())
     if (const double most = potential(lamps_.all()[i], g); most > 0) ask(lamps_.all()[i], most, above, points, asked);
   for (const LampTree::Reaching& r : drawn.cut.lamps) ask(lamps_.all()[r.lamp], r.potential, above, points, asked);
@@ -408,7 +408,7 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
   for (const Asked& a : asked) found += a.pilot.mean();
   found = result.found = static_cast<float>(found);  // as stands() will know it
   askDrawn(above, found, points, drawn, asked);
-  finishDrawn(above, points, drawn);
+  finishDrawn(points, drawn);
 
   std::array<double, 4> quadrants{};
   double variance = drawn.tally.variance();
@@ -442,12 +442,11 @@ LeafDirect DirectSampler::at(hierarchy::ElementId patch, const KnownPoints& know
     for (Asked& a : asked) result.rays += askAgain(rest, points, a);
   }
 
-  const double light = gray(result.E);
   for (const Asked& a : asked) {
     result.lamps.push_back(a.light());
     if (a.tally.passed == 0) continue;
     LampLight& lamp = result.lamps.back();
-    lamp.E = refined(a, light, g, points);
+    lamp.E = refined(a, g, points);
     if (a.tally.mixed()) lamp.variance = static_cast<float>(a.tally.variance());
   }
   std::vector<LampLight> passed;
@@ -467,7 +466,7 @@ DirectSampler::Choice choiceOf(const LeafDirect& direct, const hierarchy::Elemen
   using enum DirectSampler::Choice;
   if (direct.tooWideForBeam) return Split;
   const double side = tuning::kScale * meanDistance, around = side * side;
-  if (g.area < tuning::kFinest * error * around) return Whole;
+  if (g.area < error * around) return Whole;
   return direct.variation * g.area > tuning::kVariation * error * level * std::max<double>(around, g.area) ? Split
                                                                                                            : Keep;
 }

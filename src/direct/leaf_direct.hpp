@@ -29,7 +29,6 @@ struct LampSight {
 
   bool none() const { return asked == 0 && !drawnAsked; }
   bool missed(LightId id) const { return (asked & lampBit(id)) != 0 && (lampBits(id) & ~seen) != 0; }
-  bool missedDrawn() const { return drawnAsked && !drawnSeen; }
 };
 
 /// All at the nominal scales of lights.
@@ -95,9 +94,9 @@ class DirectSampler {
   void finish(double found, Points&, Asked&) const;
   std::uint32_t askAgain(double all, Points&, Asked&) const;
   void askDrawn(const LampSight& above, double& found, Points&, Drawn&, std::vector<Asked>&) const;
-  void finishDrawn(const LampSight& above, Points&, Drawn&) const;
+  void finishDrawn(Points&, Drawn&) const;
   Rgb unshadowed(const Lamp&, Points&, int wanted) const;
-  Rgb refined(const Asked&, double light, const hierarchy::ElementGeometry&, Points&) const;
+  Rgb refined(const Asked&, const hierarchy::ElementGeometry&, Points&) const;
 
   const hierarchy::Elements& elements_;
   const Scene& scene_;

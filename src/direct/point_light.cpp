@@ -43,7 +43,7 @@ PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer)
     const Light& light = scene.lights[i];
     const auto* dome = std::get_if<DomeLight>(&light.emitter);
     if (!dome || isBlack(light.scale)) continue;
-    if (dome->halfAngle < tuning::kNarrowSky) {
+    if (2 * dome->halfAngle < tuning::kNarrow) {
       whole_.push_back(narrow(LightId(i), *dome, light.scale));
       continue;
     }
@@ -70,7 +70,7 @@ PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer)
 std::vector<Source> PointSampler::lampsOver(const hierarchy::ElementGeometry& patch) const {
   std::vector<Source> out;
   const auto add = [&](std::uint32_t i, double bright) {
-    if (bright > 0) out.push_back({i, static_cast<float>(bright), tuning::kOpenLamp});
+    if (bright > 0) out.push_back({i, static_cast<float>(bright), 0.5f});  // as likely seen as not
   };
   for (const std::uint32_t i : lamps_.suns()) add(i, potential(whole_[i], patch));
   for (std::size_t i = lamps_.all().size(); i < whole_.size(); ++i)

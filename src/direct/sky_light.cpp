@@ -17,8 +17,10 @@ namespace {
 constexpr int kHeights = tuning::kSkySide, kAzimuths = tuning::kSkySide;
 constexpr std::uint64_t kSkyKey = 0x736b795f5f5full;  // [key]
 
-/// Power of two nearest to a share.
-float octave(float share) { return std::exp2(std::round(std::log2(std::clamp(share, tuning::kLeastOpen, 1.0f)))); }
+/// Power of two nearest to a share, none of less than matters.
+float octave(float share) {
+  return std::exp2(std::round(std::log2(std::clamp(share, static_cast<float>(tuning::kMatters), 1.0f))));
+}
 
 void add(std::uint64_t& key, const Rgb& x) {
   for (int c = 0; c < 3; ++c) key = combineKeys(key, std::bit_cast<std::uint32_t>(x[c]));
@@ -112,7 +114,8 @@ SkyVisibility::GuidedLeaves SkyVisibility::placeGuides(const hierarchy::Elements
   return guided;
 }
 
-/// Few lines in all guide nothing: each would tell where rays go that it is balanced with, and count for less by that.
+/// Few lines in all guide nothing: each would tell where rays go that it is balanced with, and
+/// count for less by that.
 void SkyVisibility::setShares(std::size_t guide, const Counts& counts) {
   const bool few = std::accumulate(counts.all.begin(), counts.all.end(), 0.0f) < tuning::kGuideLines;
   for (std::size_t c = 0; c < SkyCells::kCount; ++c)

@@ -98,7 +98,7 @@ Outcome diffuseLight(const Solution& s) {
   const hierarchy::Elements& elements = s.elements;
   const auto whole = [&](std::size_t e) { return double(elements.geometry[e].area); };
   Outcome all =
-      ofSentLight(elements, tuning::kLedgerRays, whole, [&](hierarchy::ElementId leaf, RgbSum flux, std::size_t i) {
+      ofSentLight(elements, tuning::kLedgerLines, whole, [&](hierarchy::ElementId leaf, RgbSum flux, std::size_t i) {
         const auto index = static_cast<std::uint32_t>(i);
         const UnitPair at = scrambledSobol(index, kKey), to = scrambledSobol(index, ~kKey);
         const hierarchy::PatchPoint x = hierarchy::samplePatch(elements, s.scene, leaf, at.x, at.y);

@@ -21,7 +21,7 @@ bool holds(const hierarchy::ElementGeometry& whole, const hierarchy::ElementGeom
 }
 
 bool sameSight(const direct::LampSight& a, const direct::LampSight& b) {
-  return a.asked == b.asked && a.seen == b.seen && a.drawnAsked == b.drawnAsked && a.drawnSeen == b.drawnSeen;
+  return a.asked == b.asked && a.seen == b.seen && a.drawnAsked == b.drawnAsked;
 }
 
 /// Values by what elements were, in the order of what they are.

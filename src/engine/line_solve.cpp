@@ -33,7 +33,7 @@ void swapCoarse(PatchSamples& samples, std::span<const hierarchy::ElementId> inp
 /// Into cells of which shadow rays to a point choose.
 void divideSkies(hierarchy::Elements& elements, const Scene& scene) {
   std::vector<hierarchy::ElementId> cells = elements.distant;
-  for (int level = 0; level < tuning::kSkyLevels; ++level) {
+  for (int level = 0; 2 * level < deltalux::tuning::kSkyHalvings; ++level) {
     std::vector<hierarchy::ElementId> parts;
     for (const hierarchy::ElementId e : cells)
       if (hierarchy::subdivide(elements, scene, e))
@@ -243,7 +243,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
     const double leaves = static_cast<double>(hierarchy::LeafTable(s.elements).size());
     const double rate = static_cast<double>(s.report.counts.raysVisibility) /
                         std::max(meshSeconds + s.report.times.visibility + s.report.times.hierarchy, 1e-3);
-    const double affordable = tuning::kLineTime * std::max(budget.left(), 0.0) * rate / std::max(leaves, 1.0);
+    const double affordable = tuning::kPlanned * std::max(budget.left(), 0.0) * rate / std::max(leaves, 1.0);
     base = static_cast<std::uint32_t>(
         std::clamp(affordable, double(deltalux::tuning::kPilots), static_cast<double>(wanted)));
   }
@@ -251,7 +251,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
   lines::TracedLines traced = traceLeaves(x, base, &KnownSolve::takeLines, progress);
   if (scales != x.nominal) x.transfer->apply(s.elements, scales);
   lightLeaves(x, std::move(traced), Dimming::of(s.scene, x.skies),
-              x.known ? lines::tuning::kConvergedAgain : lines::tuning::kConverged, progress);
+              x.known ? deltalux::tuning::kConvergedAgain : lines::tuning::kConverged, progress);
   hierarchy::pull(s.elements);
   if (s.settings.byLight) keepColumns(x, progress);
   DELTALUX_VALIDATED(validate(s.elements));

@@ -38,7 +38,7 @@ void Engine::State::paperRound(Progress* progress) {
 
   nextError = paper::nextError(oracle.error, least);
   if (budget.limited()) {
-    const double left = budget.left() - engine::tuning::kEndingTime * budget.seconds();
+    const double left = budget.left() - (1 - engine::tuning::kPlanned) * budget.seconds();
     nextError = budget.reach(paper::LinkErrors(s.links, s.elements, oracle), oracle.error, nextError, left);
   }
   finished = last || refined.stopped || !(nextError < oracle.error);
@@ -68,8 +68,7 @@ void Engine::State::prepare(Progress* progress) {
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.counts.raysVisibility += coarse.rays;
   s.report.times.hierarchy += time.seconds() - s.report.times.particles;
-  nextError = linkSettings().error * engine::tuning::kFirstError *
-              (previewed || budget.limited() ? engine::tuning::kHasty : 1.0);
+  nextError = linkSettings().error * engine::tuning::kFirstError;
   if (progress) progress->report("hierarchy", 1.0);
 }
 

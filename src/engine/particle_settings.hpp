@@ -12,8 +12,8 @@ namespace deltalux::engine {
 inline particles::ParticleSettings particleSettings(const SolveSettings& s) {
   particles::ParticleSettings settings{s.particles, s.seed};
   if (s.particles == 0)
-    settings.count = static_cast<std::uint64_t>(std::clamp(tuning::kParticlesAtUnitError / (s.error * s.error),
-                                                           tuning::kFewestParticles, tuning::kMostParticles));
+    settings.count = static_cast<std::uint64_t>(
+        std::min(tuning::kParticlesAtUnitError / (s.error * s.error), tuning::kMostParticles));
   settings.ofSurfaces = s.method == SolveMethod::Paper;
   return settings;
 }

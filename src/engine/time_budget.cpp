@@ -1,7 +1,9 @@
 #include "engine/time_budget.hpp"
-#include "engine/tuning.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "base/tuning.hpp"
 
 namespace deltalux::engine {
 
@@ -13,7 +15,7 @@ void TimeBudget::learn(double seconds, double predicted, double made) {
 double TimeBudget::reach(const paper::LinkErrors& errors, double from, double least, double seconds) const {
   double error = from;
   while (error > least) {
-    const double next = std::max(least, error * tuning::kErrorStep);
+    const double next = std::max(least, error * std::exp2(-deltalux::tuning::kOctaveStep));
     if (cost(errors.madeBy(next)) > seconds) break;
     error = next;
   }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/check.hpp"
+#include "base/tuning.hpp"
 #include "engine/particle_settings.hpp"
 #include "engine/state.hpp"
 #include "engine/tuning.hpp"
@@ -109,7 +110,7 @@ void Engine::State::relightOverLines(const engine::Dimming& dimming) {
   const hierarchy::LeafTable leaves(s.elements);
   const SolveMemory& memory = *s.memory;
   engine::relight(s, leaves, *memory.exchange, engine::lampsOf(memory.samples, memory.dim, leaves), memory.sky, dimming,
-                  lines::tuning::kConvergedAgain);
+                  deltalux::tuning::kConvergedAgain);
   hierarchy::pull(s.elements);
 }
 
@@ -164,7 +165,7 @@ bool Engine::State::gapsAreMany() const {
   const particles::Particles& p = solution->particles;
   std::size_t used = 0;
   for (const particles::PathRange& r : p.range) used += r.vertices;
-  return static_cast<double>(p.vertices.size()) > engine::tuning::kMostGaps * static_cast<double>(used);
+  return p.vertices.size() > 2 * used;
 }
 
 void Engine::State::closeGaps() {

@@ -114,7 +114,7 @@ DimCounts dimCounts(const TracedLines& traced, const hierarchy::LeafTable& leave
       counts.lines[i] = 0;
       if (place[i] != kDim) continue;
       const Room& room = all[rooms.of(i)];
-      const double wanted = std::min(share * room.wanted() * area[i] / room.area, tuning::kMostDim);
+      const double wanted = std::min(share * room.wanted() * area[i] / room.area, most);
       if (!(wanted > 2.0 * had[i])) continue;
       counts.lines[i] = std::bit_floor(static_cast<std::uint32_t>(wanted)), added += counts.lines[i];
       counts.told = counts.told && room.ways > 0;

@@ -104,11 +104,11 @@ class LightSearch {
     return tracer_.follow(x.position, x.normal, w, Rng(random.bits()), &walks.steps);
   }
 
-  /// Of kFirstSteps walks in a row, the one whose first step goes farthest.
+  /// Of kWalks walks in a row, the one whose first step goes farthest.
   int farthest(const hierarchy::LeafSequence& points, int row, LightWalks& walks, std::uint64_t& rays) const {
-    int best = row * tuning::kFirstSteps;
+    int best = row * tuning::kWalks;
     double most = -1;
-    for (int walk = best; walk < (row + 1) * tuning::kFirstSteps; ++walk) {
+    for (int walk = best; walk < (row + 1) * tuning::kWalks; ++walk) {
       Rng random = randomOf(points, walk);
       const LineEnd end = step(points.point(static_cast<std::uint32_t>(walk)), random, walks, rays);
       const double distance = end.termination == LineTermination::Escaped ? kInfinity
@@ -134,7 +134,7 @@ class LightSearch {
       if (end.termination == LineTermination::Escaped && outside_) return true;
       if (end.termination != LineTermination::Ended) return false;
       if (bounce >= counted) lengths.sum += end.turned ? 0 : end.distance, ++lengths.steps;
-      if (lengths.steps >= tuning::kFirstSteps && !(lengths.width() < hollow)) return true;
+      if (lengths.steps >= tuning::kWalks && !(lengths.width() < hollow)) return true;
       const Material& material = scene_.materialOf(end.side.primitive);
       if (sendsLight(material) && (end.side.front || material.emission->bothSides)) return true;
       const bool through = !isBlack(diffuseTransmittance(material)) && random.uniform() < 0.5;

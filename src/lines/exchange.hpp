@@ -20,6 +20,7 @@
 // that processors do eight at once; the order is the same everywhere.
 #include <array>
 
+#include "base/tuning.hpp"
 #include "lines/lines.hpp"
 #include "lines/tuning.hpp"
 
@@ -27,7 +28,7 @@ namespace deltalux::lines {
 
 /// How much the factor of a leaf's exchange may differ from what an update goes on with, relative: as much as its
 /// iteration leaves of light.
-inline constexpr auto kFollowed = static_cast<float>(tuning::kConvergedAgain);
+inline constexpr auto kFollowed = static_cast<float>(deltalux::tuning::kConvergedAgain);
 
 /// s / e times radiosity, as wide as registers.
 struct alignas(16) LeafRecord {

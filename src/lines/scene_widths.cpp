@@ -9,12 +9,11 @@ namespace deltalux::lines {
 
 SceneWidths widthsOf(const Scene& scene, const Box& box) {
   const double diagonal = box.diagonal();
-  const auto least = [&](double metres, double share) {
-    return std::min(metres / scene.metresPerUnit, share * diagonal);
+  const auto least = [&](double metres) {
+    return metres * std::min(1 / scene.metresPerUnit, diagonal / tuning::kSmallScene);
   };
-  return {diagonal > 0 ? std::exp2(0.5 * std::round(2 * std::log2(diagonal))) : 0.0,
-          least(tuning::kSlotWidth, tuning::kSlotOfScene), least(tuning::kHollow, tuning::kHollowOfScene),
-          least(tuning::kDimRoom, tuning::kSlotOfScene)};
+  return {diagonal > 0 ? std::exp2(0.5 * std::round(2 * std::log2(diagonal))) : 0.0, least(tuning::kRoom),
+          least(tuning::kHollow), least(tuning::kRoom)};
 }
 
 }  // namespace deltalux::lines

@@ -13,11 +13,10 @@ constexpr int kFewestOctaves = -2, kMostOctaves = 4;
 /// Lines that shall lead out of a room that hardly any light reaches, and its lines by which it counts as closed where
 /// none does. Fewer: rooms behind a slot of a millimetre are noise. More: time in the dark.
 constexpr double kDimWays = 400, kClosedLines = 262144;
-/// Lines of a leaf in such a room, at most; mean distance of its leaves' lines at least [m]; how many times all other
-/// lines those may be, or as many as that in scenes of few; bounces that tell how much light there is; rounds, of which
-/// the next knows how many lines lead out. Fewer, wider: as above. More, narrower: dark cupboards take most of the
-/// time.
-constexpr double kMostDim = 1 << 20, kDimRoom = 0.5, kDimShare = 1.0 / 32, kDimFree = 1 << 21;
+/// How many times all other lines those of such rooms may be, or as many as that in scenes of few; bounces that tell
+/// how much light there is; rounds, of which the next knows how many lines lead out. Fewer: as above. More: dark rooms
+/// take most of the time.
+constexpr double kDimShare = 1.0 / 32, kDimFree = 1 << 21;
 constexpr int kDimBounces = 2, kDimRounds = 2;
 /// Non-diffuse events of a line. Fewer: light between facing mirrors is lost.
 constexpr int kMostEvents = 8;
@@ -33,20 +32,24 @@ constexpr double kDimWidth = 3;
 /// Mean distance below which a patch lies in a slot, in its radii: it is not split for its width. Less: slots between
 /// boards fill with leaves that nobody sees.
 constexpr double kSlot = 0.5;
-/// Mean distance above which no place is a slot that has this many times the floor's light, however wide its surfaces
-/// [m], and the same relative to the scene's diagonal. Larger: the floor of a wide room that no lamp shines on is one
-/// leaf. Less: gaps between logs fill with leaves.
-constexpr double kSlotWidth = 1, kSlotOfScene = 0.1, kSlotDim = 10;
+/// Diagonal of a scene below which the widths here that are in metres are in proportion to it [m]. Less: models of
+/// rooms are taken for hollows. More: rooms lit through slots stay dark.
+constexpr double kSmallScene = 6;
+/// Mean distance above which a place is a room [m]: no slot, however wide its surfaces, where its light is so far above
+/// the floor's that leaves would not be wider, and worth lines of its own where hardly any reaches it. Larger: the
+/// floor of a wide room that no lamp shines on is one leaf. Less: gaps between logs fill with leaves, dark cupboards
+/// take most of the time.
+constexpr double kRoom = 1;
 /// Clusters that a surface is looked at below, to know what mean free paths are usual around it. Fewer: narrow places
 /// and corners fill with leaves.
 constexpr int kClustersUp = 3;
 
-/// Walks that look for light from an input-level side, and their bounces; the first steps tell how wide the hollow is.
+/// Walks that look for light from an input-level side, and their bounces; as many steps tell how wide the hollow is.
 /// Fewer: slots that light reaches after some bounces are taken for closed hollows.
-constexpr int kWalks = 6, kBounces = 40, kFirstSteps = 8;
-/// Mean distance below which a hollow where walks find no light counts as enclosed [m], and the same relative to the
-/// scene's diagonal. Larger: rooms that are lit through a slot stay dark.
-constexpr double kHollow = 0.2, kHollowOfScene = 0.03;
+constexpr int kWalks = 6, kBounces = 40;
+/// Mean distance below which a hollow where walks find no light counts as enclosed [m]. Larger: rooms that are lit
+/// through a slot stay dark.
+constexpr double kHollow = 0.2;
 /// Widest side that may face such a hollow as a whole, in mean distances: of wider ones a rim may look out. Wider: rims
 /// of what lies close behind something stay dark.
 constexpr double kWidestHollow = 16;
@@ -65,8 +68,6 @@ constexpr int kScalingPasses = 8;
 constexpr float kMostScale = 4;
 /// Power that changes in the last pass, relative to emitted. Larger: halls of white plaster are too dark.
 constexpr double kConverged = 1e-6;
-/// The same of an update, which starts from the light there was.
-constexpr double kConvergedAgain = 1e-5;
 /// Most that a leaf's radiosity changes in the last pass, relative. Larger: dark rooms beside bright places are not
 /// done.
 constexpr double kLeafConverged = 6e-3;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/square.hpp"
+#include "base/tuning.hpp"
 #include "hierarchy/patch.hpp"
 #include "paper/facing.hpp"
 #include "paper/rounding.hpp"
@@ -163,7 +165,7 @@ double kernelAtPoint(const hierarchy::Elements& elements, const Scene& scene, co
   const Emission* directional = directionalEmission(elements, scene, sender);
   if (elements.isPatch(sender) && elements.at(sender).flat && !isZero(n) && (!directional || isWindow(*directional))) {
     const Vec3f d = g.center - x;
-    if (glm::dot(d, d) < tuning::kNear * tuning::kNear * g.radius * g.radius) {
+    if (glm::dot(d, d) < square(deltalux::tuning::kFar * g.radius)) {
       // A point in its plane may come to lie above it by rounding, and would see half of it: the other side of a leaf.
       if (glm::dot(x - g.center, g.normal) <= roundingAlong(g.normal, x, g)) return 0;
       std::array<Vec3f, 64> outline;

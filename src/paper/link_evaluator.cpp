@@ -75,7 +75,7 @@ bool LinkEvaluator::couple(hierarchy::Link& link, const Candidates& candidates, 
 void LinkEvaluator::see(hierarchy::Link& link, int least, bool saw, const Candidates& candidates, Evaluation& v) const {
   OwnBlockers blockers(*this, link, candidates, v);
   const bool solid = solidEnds(link), unknown = link.visibility == hierarchy::Visibility::Unknown;
-  if (unknown && !(saw && (candidates.count > tuning::kShortList || !solid))) {
+  if (unknown && !(saw && (candidates.count > tuning::kFewSamples || !solid))) {
     if (blockers.list().empty() && solid)
       prove(link, hierarchy::Visibility::Clear);
     else if (!saw)
@@ -243,7 +243,7 @@ Split LinkEvaluator::prefer(const hierarchy::Link& link) const {
   if (!(e.total() > e.budget)) return Split::None;
   if (link.receiver == link.sender) return Split::Both;
   if (elements_.isDistant(link.sender)) {
-    if (!isSun(link.sender) && s.radius > tuning::kFineCell) return Split::Sender;
+    if (!isSun(link.sender) && s.radius > tuning::kFinestCell) return Split::Sender;
     return Split::Receiver;
   }
   if (elements_.isPoint(link.sender)) return Split::Receiver;

@@ -25,8 +25,7 @@ Vec3f cosineDirection(const Vec3& normal, Rng& rng) {
 SideEstimator::SideEstimator(const Scene& scene, const tracing::RayTracer& tracer, std::size_t sides)
     : scene_(scene),
       tracer_(tracer),
-      rays_(std::clamp<std::size_t>(tuning::kPathBudget / std::max<std::size_t>(sides, 1), particles::tuning::kLooks,
-                                    tuning::kMostPaths)) {}
+      rays_(std::max<std::size_t>(tuning::kPathBudget / std::max<std::size_t>(sides, 1), deltalux::tuning::kPilots)) {}
 
 double SideEstimator::diagonal() const {
   std::call_once(measured_, [&] { diagonal_ = bounds(scene_).diagonal(); });

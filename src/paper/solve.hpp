@@ -38,8 +38,9 @@ struct IterationReport {
 
 constexpr int kMaxIterations = 1024;  // halls of white plaster converge in some fifty [limit]
 constexpr double kConverged =
-    deltalux::tuning::kNegligible;                         // residual power between rounds, over what arrives of lights
-constexpr double kConvergedWell = tuning::kConvergedWell;  // the same in the end: dark corners too shall be right
+    deltalux::tuning::kNegligible;  // residual power between rounds, over what arrives of lights
+constexpr double kConvergedWell =
+    deltalux::tuning::kConvergedAgain;  // the same in the end: dark corners too shall be right
 
 /// What arrives of lights [W, with the scene's unit squared as area].
 RgbSum directPower(const hierarchy::Elements&);

@@ -10,13 +10,9 @@ namespace deltalux::paper::tuning {
 constexpr double kLinkError = 4;
 /// Error of links from round to round, relative. Smaller: refined by light that is not yet known. Larger: more rounds.
 constexpr double kRounds = 0.35;
-/// Residual power in the end, relative to what arrives of lights. Larger: dark corners are too dark.
-constexpr double kConvergedWell = 1e-5;
 /// Error of the mean over a sender's nodes, relative to their spread: a uniform sender is integrated, not sampled, and
 /// splitting it would only hide the receiver's error. More: links in the square.
 constexpr double kQuadrature = 0.1;
-/// Radii of the sender within which Lambert's formula replaces the nodes. Less: light at corners errs. More: time.
-constexpr float kNear = 5;
 /// What a link to or from a cluster leaves unknown in any case, relative to K: order-2 harmonics for clamped cosines,
 /// one visibility for surfaces of unlike brightness; and the least share of its mean that a cluster sends anywhere,
 /// since harmonics blur what faces away. Less: indirect light in blocks. More: links to all that is in them.
@@ -24,16 +20,15 @@ constexpr float kClusterSpread = 0.3f;
 /// Rays of links that bring little, or are split for their kernel; others take twice or four times as many. Fewer:
 /// blotchy shadows.
 constexpr int kFewSamples = 4;
-/// Blockers of a list that is sooner looked through than rays are traced, and those from which on clusters stay closed,
-/// and links below do not hand it on. More: time for boxes. Fewer: rays at what is proven.
-constexpr std::size_t kShortList = 8, kLongList = 48;
-/// Cells of a sky that are split before the surface they light, and those that are split at all [radians]. Larger:
-/// soft shadows of windows in steps. Smaller: links to the sky without end.
-constexpr float kFineCell = 0.2f, kFinestCell = 0.06f;
-/// Paths of all sides together that tell what light there is before any link, and those of one side at most. Fewer:
-/// refined for light that is not there.
+/// Blockers of a list from which on clusters stay closed, and links below do not hand it on. More: time for boxes.
+/// Fewer: rays at what is proven.
+constexpr std::size_t kLongList = 48;
+/// Cells of a sky that are split, before the surface they light [radians]. Larger: soft shadows of windows in steps.
+/// Smaller: links to the sky without end.
+constexpr float kFinestCell = 0.1f;
+/// Paths of all sides together that tell what light there is before any link. Fewer: refined for light that is not
+/// there.
 constexpr std::uint64_t kPathBudget = 1u << 17;
-constexpr std::size_t kMostPaths = 64;
 /// Lights that a vertex of such a path looks at. Fewer: sides below one of many lamps count as dark.
 constexpr std::size_t kPickedLights = 3;
 /// Solid angle of an occluder about the middle of what moved: less hides little. More: work in other rooms. Less: time

@@ -5,6 +5,7 @@
 
 #include "base/cosine_direction.hpp"
 #include "base/square.hpp"
+#include "base/tuning.hpp"
 #include "particles/solid_angle_rectangle.hpp"
 #include "particles/tuning.hpp"
 
@@ -19,7 +20,7 @@ bool seenBySolidAngle(const Vec3& from, const Rectangle& r) {
   const double longest = std::max(r.lengthA, r.lengthB), height = std::abs(glm::dot(toCenter, r.normal()));
   const double squared = glm::dot(toCenter, toCenter);
   // Far away area is as good; at a grazing angle the solid angle has lost its digits.
-  return squared < square(tuning::kFar * longest) && height * r.area() > 1e-7 * squared * std::sqrt(squared);
+  return squared < square(deltalux::tuning::kFar * longest) && height * r.area() > 1e-7 * squared * std::sqrt(squared);
 }
 
 /// 1 - cos of the cone that a sphere fills; 2 from inside.
@@ -48,7 +49,7 @@ void Aiming::aim(const SendingPoint& y, std::uint32_t at, double choice, const V
   const BoundingSphere& ball = receivers_.bound(at);
   if (ball.empty()) return;
   const bool flat = node.isLeaf() && receivers_.isFlat(node.begin);
-  if (flat || glm::distance(y.position, ball.center) > tuning::kFar * ball.radius)
+  if (flat || glm::distance(y.position, ball.center) > deltalux::tuning::kFar * ball.radius)
     return aimAtCell(y.position, node, choice, u, a);
   if (choice < 0.5) {
     aimAround(y, ball, u, a);

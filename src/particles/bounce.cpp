@@ -16,7 +16,7 @@ bool takesParticles(const Material& m, bool front) {
 
 EventSequence::EventSequence(std::uint64_t key, int depth)
     : own_(combineKeys(key, 16 + static_cast<std::uint64_t>(depth))),
-      stratified_(depth < deltalux::tuning::kStratifiedEvents),
+      stratified_(depth < deltalux::tuning::kPilotBounces),
       first_(own_),
       second_(~own_) {}
 

@@ -80,8 +80,8 @@ tracing::Hit look(const Scene& scene, const tracing::RayTracer& tracer, const Su
 
 /// What rays at a cell find.
 struct Found {
-  double direct = 0;                               // irradiance by lights
-  std::array<std::uint32_t, tuning::kLooks> seen;  // cells; kNone where there is none
+  double direct = 0;                                          // irradiance by lights
+  std::array<std::uint32_t, deltalux::tuning::kPilots> seen;  // cells; kNone where there is none
 };
 
 /// What few points of a cell missed may still be there: raises cells to a share of the mean around them, and of the
@@ -153,10 +153,10 @@ CoarseExitance coarseExitance(const Scene& scene, const tracing::RayTracer& trac
       const auto cell = static_cast<std::uint32_t>(first + i);
       const ScrambledSobol places(keys[cell]), directions(mix64(keys[cell]));
       Rng rng(keys[cell]);
-      for (std::uint32_t k = 0; k < tuning::kLooks; ++k) {
+      for (std::uint32_t k = 0; k < deltalux::tuning::kPilots; ++k) {
         const UnitPair place = places(k), way = directions(k);
         const SurfacePoint p = senders.point(cell, {place.x, place.y});
-        found[i].direct += direct.irradiance(p, tracer, rng, rays[begin / kBlock]) / tuning::kLooks;
+        found[i].direct += direct.irradiance(p, tracer, rng, rays[begin / kBlock]) / deltalux::tuning::kPilots;
         const tracing::Hit hit =
             look(scene, tracer, p, cosineDirection(Frame(p.normal), way.x, way.y), rng, rays[begin / kBlock]);
         found[i].seen[k] = RadixNode::kNone;
@@ -180,7 +180,7 @@ CoarseExitance coarseExitance(const Scene& scene, const tracing::RayTracer& trac
       double sum = 0;
       for (const std::uint32_t cell : found[i].seen)
         if (cell != RadixNode::kNone) sum += before[cell - first];
-      exitance[i] = source[i] + tuning::kNominalReflectance * sum / tuning::kLooks;
+      exitance[i] = source[i] + tuning::kNominalReflectance * sum / deltalux::tuning::kPilots;
     }
   }
   raise(senders, exitance);

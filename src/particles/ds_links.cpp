@@ -21,8 +21,8 @@ class Evaluator {
     const BoundingSphere &s = senders_.bound(ends.sender), &r = receivers_.bound(ends.receiver);
     const SenderKind kind = kindOf(ends.sender);
     if (kind == SenderKind::Sun) return false;
-    if (kind == SenderKind::Sky) return s.radius * tuning::kFar > 1;
-    return (s.radius + r.radius) * tuning::kFar > glm::distance(s.center, r.center);
+    if (kind == SenderKind::Sky) return s.radius * deltalux::tuning::kFar > 1;
+    return (s.radius + r.radius) * deltalux::tuning::kFar > glm::distance(s.center, r.center);
   }
 
   bool splitsSender(const LinkEnds& ends) const {
@@ -67,7 +67,7 @@ Evaluation evaluated(const LinkEnds& ends, std::uint64_t key, double threshold, 
     const double flux = pilots.flux(most);
     return divisible && flux > threshold && (near || (pilots.uneven() && flux > tuning::kMuch * threshold));
   };
-  estimate.sample(ends, key, tuning::kLooks, pilots, workspace);
+  estimate.sample(ends, key, deltalux::tuning::kPilots, pilots, workspace);
   v.split = splits();
   // Of ends close to each other few pairs of places may carry most.
   if (!v.split && near && divisible && most > threshold) {
@@ -77,9 +77,9 @@ Evaluation evaluated(const LinkEnds& ends, std::uint64_t key, double threshold, 
   // Most links of which nothing was seen to arrive are blocked: hope is worth a closer look before it gets particles.
   // The more it might carry, the closer.
   const double bound = std::min(pilots.bound(), most);
-  if (!v.split && (!pilots.arrived() || bound > tuning::kLooks * threshold)) {
+  if (!v.split && (!pilots.arrived() || bound > deltalux::tuning::kPilots * threshold)) {
     const int enough =
-        static_cast<int>(std::clamp(bound / threshold, double(tuning::kLooks), double(tuning::kMostLooks)));
+        static_cast<int>(std::clamp(bound / threshold, double(deltalux::tuning::kPilots), double(tuning::kMostLooks)));
     estimate.sample(ends, key, enough, pilots, workspace);
     v.split = splits();
   }

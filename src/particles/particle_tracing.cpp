@@ -128,7 +128,7 @@ Particles ParticleTracing::traceWithin(double seconds) {
   const Clock::time_point start = Clock::now();
   const ParticlePlan plan = planParticles(scene_, tracer_, settings_);
   const std::uint64_t wanted = settings_.count;
-  settings_.count = std::min(wanted, tuning::kFirstParticles);
+  settings_.count = std::min<std::uint64_t>(wanted, tuning::kMostLooks);
   while (true) {
     const Clock::time_point tracing = Clock::now();
     Particles p = trace(plan);

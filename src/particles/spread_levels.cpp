@@ -15,7 +15,7 @@ constexpr std::size_t kElementBlock = 64;  // [task]
 /// By which what comes back exceeds what a patch of that area may get.
 double excess(const Feedback& f, double area, const hierarchy::ElementLight& light) {
   const double byReturn = f.flux / std::max<double>(hierarchy::mostReturned(light) - 1, 1e-6);
-  return std::min(f.once, std::max(f.often / tuning::kByChance, byReturn)) / std::max(area, 1e-30);
+  return std::min(f.once, std::max(f.often, byReturn)) / std::max(area, 1e-30);
 }
 
 }  // namespace

@@ -202,7 +202,7 @@ class Tracing {
   /// Russian roulette on what the path carries relative to what it began with; colours are kept.
   bool survives(Walker& w, double u) const {
     double chance = std::min(1.0, double(maxChannel(w.throughput)) / (tuning::kWorth * w.first));
-    if (w.depth > tuning::kPatience) chance = std::min(chance, deltalux::tuning::kMostSurvival);
+    if (w.depth > deltalux::tuning::kRouletteFrom) chance = std::min(chance, deltalux::tuning::kMostSurvival);
     if (!(u < chance)) return false;
     w.throughput *= static_cast<float>(1 / chance);
     return true;

@@ -5,14 +5,9 @@
 
 namespace deltalux::particles::tuning {
 
-/// Radii beyond which something is far: drawn by its area alone, and linked without another look. Less: noise where
-/// things are close. More: work for what is alike.
-constexpr double kFar = 3;
-/// PilotSamples at a link, points of a cell, and paths of a triangle, of which there are many, that give a first idea
-/// of light. Fewer: refined by chance.
-constexpr int kLooks = 8;
 /// PilotSamples at a link that might carry much although nothing arrived, at each root for the sum of all, and along
-/// lines through a box that something has left. Fewer: light through small gaps is overlooked. More: time at walls.
+/// lines through a box that something has left; and particles that tell what each costs. Fewer: light through small
+/// gaps is overlooked, and time limits are kept by chance. More: time at walls, and late first light.
 constexpr int kMostLooks = 1024;
 /// Shares of the flux of a link that is not refined, from which unevenness counts. More: few particles where caustics
 /// are sharp. Less: many links.
@@ -30,16 +25,10 @@ constexpr double kNominalReflectance = 0.5;
 /// Cells that the area of the whole scene would make: of receivers, of diffuse senders, and of lamps. Fewer: particles
 /// that miss, and grain. More: time to plan.
 constexpr double kCellsOfScene = 4096, kSenderCells = 1024, kLampCells = 16384;
-/// Halvings of a lamp or a sky into cells, at most. Fewer, more: as above.
-constexpr int kLightHalvings = 8;
 /// Particles that find where caustics light diffuse senders. Fewer: their light is sent on by chance.
 constexpr double kPilotParticles = 1 << 15;
-/// Share of what a path began with that is still followed without a question, and the events after which no share is.
-/// More, fewer: noise. Less, more: time for little.
+/// Share of what a path began with that is still followed without a question. More: noise. Less: time for little.
 constexpr double kWorth = 0.25;
-constexpr int kPatience = 8;
-/// Particles that tell what each costs. Fewer: time limits by chance. More: late first light.
-constexpr std::uint64_t kFirstParticles = 1 << 10;
 /// Impacts in a leaf that is split for them, and of a kernel that edges are looked for with. Fewer: detail that is
 /// noise. More: blurred caustics.
 constexpr std::uint32_t kDetail = 32;
@@ -50,7 +39,5 @@ constexpr int kShownDepth = 5;
 /// Differences that are a change: share of the flux of a side, or of the target error of a texture. More: shadows of
 /// what has moved away. Less: work at every edit.
 constexpr double kChangeMatters = 0.1;
-/// Times what surfaces could send: more is no mere chance. Less: spread out light. More: single bright leaves.
-constexpr double kByChance = 2;
 
 }  // namespace deltalux::particles::tuning

@@ -7,6 +7,7 @@
 
 #include "base/check.hpp"
 #include "base/random.hpp"
+#include "base/tuning.hpp"
 #include "render/particle_paths.hpp"
 #include "render/reader_state.hpp"
 #include "render/tuning.hpp"
@@ -31,7 +32,7 @@ void measureLamps(const Sample& sample, const Vec3& normal, const ContributionSe
   RgbSum sum(0.0), squares(0.0);
   double n = 0;
   for (int estimate = 0;
-       estimate < rendering::tuning::kFewestEstimates || (estimate + 1) * direct::tuning::kBatch <= settings.maxSamples;
+       estimate < deltalux::tuning::kFewestEstimates || (estimate + 1) * direct::tuning::kBatch <= settings.maxSamples;
        ++estimate) {
     RgbSum E(0.0);
     sample(combineKeys(settings.seed, static_cast<std::uint64_t>(estimate)), [&](const auto& a) {
@@ -40,7 +41,7 @@ void measureLamps(const Sample& sample, const Vec3& normal, const ContributionSe
     });
     sum += E, squares += E * E, ++n;
     const RgbSum mean = sum / n, variance = glm::max(squares / n - mean * mean, RgbSum(0.0));
-    if (n >= rendering::tuning::kFewestEstimates && gray(glm::sqrt(variance / (n - 1))) <= settings.error * gray(mean))
+    if (n >= deltalux::tuning::kFewestEstimates && gray(glm::sqrt(variance / (n - 1))) <= settings.error * gray(mean))
       break;
   }
   result.direct = sum / n;
@@ -76,7 +77,7 @@ void gatherSurfaces(const Solution& s, const rendering::LineGather& lines, const
     result.indirect += E;
   };
   // The relative error of the sum of n alike is one over the root.
-  const auto least = static_cast<double>(rendering::tuning::kFewestEstimates * direct::tuning::kBatch);
+  const auto least = static_cast<double>(deltalux::tuning::kFewestEstimates * direct::tuning::kBatch);
   const auto count = static_cast<std::uint32_t>(
       std::clamp(1 / (settings.error * settings.error), least, std::max(least, double(settings.maxSamples))));
   lines.forEachLine(Vec3f(x.position), Vec3f(x.normal), count, settings.seed, add);

@@ -1,6 +1,7 @@
 #include "render/line_gather.hpp"
 
 #include "base/batch_mean.hpp"
+#include "base/tuning.hpp"
 #include "render/tuning.hpp"
 
 namespace deltalux::rendering {
@@ -39,13 +40,14 @@ ProbeResult LineGather::at(const Vec3f& p, const Vec3f& normal, double ambient, 
   BatchMean mean;
   lines::LineDirections directions(key);
   hierarchy::ElementId leaf;
-  while (mean.count() < tuning::kFewestEstimates || result.samples < most) {
+  while (mean.count() < deltalux::tuning::kFewestEstimates || result.samples < most) {
     RgbSum own(0.0);
     for (std::uint32_t k = 0; k < direct::tuning::kBatch; ++k)
       own += RgbSum(follow(p, normal, directions, key, static_cast<std::uint32_t>(result.samples) + k, leaf));
     mean.add(own / double(direct::tuning::kBatch));
     result.samples += direct::tuning::kBatch;
-    if (mean.count() >= tuning::kFewestEstimates && gray(mean.standardError()) <= error * (gray(mean.mean()) + ambient))
+    if (mean.count() >= deltalux::tuning::kFewestEstimates &&
+        gray(mean.standardError()) <= error * (gray(mean.mean()) + ambient))
       break;
   }
   result.irradiance = mean.mean(), result.standardError = mean.standardError();

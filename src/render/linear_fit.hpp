@@ -6,6 +6,7 @@
 #include <deltalux/math.hpp>
 #include <deltalux/units.hpp>
 
+#include "base/tuning.hpp"
 #include "render/tuning.hpp"
 
 namespace deltalux::rendering {
@@ -41,7 +42,8 @@ class LinearFit {
     const double angle = 0.5 * std::atan2(xy_, 0.5 * (xx_ - yy_));
     const double c = std::cos(angle), s = std::sin(angle);
     const RgbSum along = (c * x_ + s * y_) / large;
-    const RgbSum across = small > tuning::kDegenerate * large ? (c * y_ - s * x_) / small : RgbSum(0.0);
+    const RgbSum across =
+        small > double(deltalux::tuning::kNegligible) * large ? (c * y_ - s * x_) / small : RgbSum(0.0);
     const RgbSum gx = c * along - s * across, gy = s * along + c * across;
     for (int i = 0; i < 3; ++i) result[static_cast<std::size_t>(i)] = Rgb(t_[i] * gx + b_[i] * gy);
   }

@@ -138,7 +138,7 @@ Difference compareAll(const Solution& s, NotedSolution& noted) {
 void addPlaces(const Difference& d, SampleChanges& changes) {
   for (const Box& box : coveringBoxes(d.came, deltalux::tuning::kBoxes))
     changes.places.push_back({box, changes.version});
-  while (changes.places.size() > rendering::tuning::kPlaces) {
+  while (changes.places.size() > deltalux::tuning::kBoxes) {
     changes.places[1].box.extend(changes.places[0].box);
     changes.places.erase(changes.places.begin());
   }

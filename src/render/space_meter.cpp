@@ -2,6 +2,7 @@
 
 #include "base/batch_mean.hpp"
 #include "base/random.hpp"
+#include "base/tuning.hpp"
 #include "render/tuning.hpp"
 #include "solution/solution.hpp"
 
@@ -21,7 +22,8 @@ ProbeResult SpaceMeter::at(const ProbePoint& x, const ProbeSettings& settings, s
   ProbeResult result;
   BatchMean mean;
   std::uint64_t rays = 0;
-  while (mean.count() < tuning::kFewestEstimates || result.samples < static_cast<std::uint64_t>(settings.maxSamples)) {
+  while (mean.count() < deltalux::tuning::kFewestEstimates ||
+         result.samples < static_cast<std::uint64_t>(settings.maxSamples)) {
     RgbSum own(0.0);
     for (std::uint32_t i = 0; i < direct::tuning::kBatch; ++i) {
       PathSampler sampler(combineKeys(key, static_cast<std::uint64_t>(mean.count())), i);
@@ -29,7 +31,8 @@ ProbeResult SpaceMeter::at(const ProbePoint& x, const ProbeSettings& settings, s
     }
     mean.add(own / double(direct::tuning::kBatch));
     result.samples += direct::tuning::kBatch;
-    if (mean.count() >= tuning::kFewestEstimates && gray(mean.standardError()) <= settings.error * gray(mean.mean()))
+    if (mean.count() >= deltalux::tuning::kFewestEstimates &&
+        gray(mean.standardError()) <= settings.error * gray(mean.mean()))
       break;
   }
   result.irradiance = mean.mean(), result.standardError = mean.standardError();

@@ -7,10 +7,6 @@
 
 namespace deltalux::rendering::tuning {
 
-/// Independent estimates before any judgement by their spread. Fewer: standard errors by chance. More: time where all
-/// is simple.
-constexpr int kFewestEstimates = 32;
-
 /// Relative difference of leaves that asks whether something stands between. More: light leaks below walls. Less: rays.
 constexpr float kDisagree = 0.3f;
 /// Height above a surface at which that is looked for, in the smaller leaf's size, and in the radius that particles are
@@ -30,27 +26,24 @@ constexpr float kNoise = 2;
 constexpr float kLeeway = 2;
 /// Where the weight of a leaf in reconstruction vanishes, in its half sizes. Less: leaves show. More: blur.
 constexpr float kReach = 2.5f;
-/// Spread of points across against along, of which no slope is told. Less: wild slopes along thin walls.
-constexpr double kDegenerate = 0.01;
 
 /// Pixels a side of what learns together where light comes from. Fewer: rays to learn. More: what is learned fits none.
 constexpr int kTile = 32;
 /// Rays over those to learn from. More: grain beside windows. Fewer: time.
 constexpr int kLearningShare = 2;
 
-/// Particles that light at a point is estimated from, at most; sectors and steps of the distance that it is looked for
-/// in; passes, with what is known at the point ever closer. Fewer: grain at points, and blurred edges. More: time.
+/// Particles that light at a point is estimated from, at most; sectors that it is looked for in; passes, with what is
+/// known at the point ever closer. Fewer: grain at points, and blurred edges. More: time.
 constexpr std::size_t kMostParticles = 400;
 constexpr int kSectors = 8;
-constexpr double kStep = 1.25;
 constexpr int kPasses = 3;
 
-/// Connections of a path to lights by way of a mirror or a ball, and of two, at most; more would dilute the choice: the
-/// rest is found by scattering. Fewer: noise below many mirrors.
-constexpr std::size_t kMostSingle = 2048, kMostDouble = 48;
-/// Samples of the flux that a plane mirror sends, of which a lit patch must not be overlooked, and that others do.
-/// Fewer: connections that are missing. More: time at the start.
-constexpr int kPlaneSamples = 256, kCurvedSamples = 32;
+/// Connections of a path to lights by way of a mirror or a ball, at most, and no more pairs of them; more would dilute
+/// the choice: the rest is found by scattering. Fewer: noise below many mirrors.
+constexpr std::size_t kMostSingle = 2048;
+/// Samples of the flux that a mirror or a ball sends, of which a lit patch must not be overlooked. Fewer: connections
+/// that are missing. More: time at the start.
+constexpr int kFluxSamples = 256;
 /// Steps between which roots of paths over curved mirrors and balls are looked for. Fewer: caustics with holes.
 constexpr int kRootSteps = 64;
 /// Inner reflections of a ball that are connected through. Fewer: noise of rainbows. More: time for what is dim.
@@ -76,12 +69,8 @@ constexpr std::uint32_t kAwaited = 4;
 /// Priority of an old sample, or of a pixel filled from all around, and of a young or noisy one, where nothing there is
 /// 1. Higher: holes stay. Lower: what stands is never better.
 constexpr float kOld = 0.5f, kYoung = 0.1f;
-/// Places of what has moved that are told apart. Fewer: samples are thrown away for nothing. More: time for each.
-constexpr std::size_t kPlaces = 64;
 
-/// How far flat pieces may be off a curved surface, in the scene's size, and pieces around it at most. More, fewer:
-/// corners show. Less, more: triangles.
+/// How far flat pieces may be off a curved surface, in the scene's size. More: corners show. Less: triangles.
 constexpr double kSagitta = 3e-5;
-constexpr int kMostPieces = 128;
 
 }  // namespace deltalux::rendering::tuning

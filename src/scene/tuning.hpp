@@ -11,9 +11,8 @@ constexpr int kNominalOctaves = 4;
 /// Triangles of an emitter that is sampled by solid angle: of more, one is chosen by area. Fewer: noise near lamps of
 /// many faces. More: time for each.
 constexpr std::size_t kMostBySolidAngle = 8;
-/// Cells of a sky's table along height, and looks of each, a side. Fewer: noise under an uneven sky.
+/// Cells of a sky's table along height, and looks of each, a side; as many along height add up its irradiance. Fewer:
+/// noise under an uneven sky, and the sun's glow is off.
 constexpr int kDomeRings = 32, kDomeLooks = 3;
-/// Rings of a sky whose irradiance is added up, in twice as many parts each. Fewer: the sun's glow is off.
-constexpr int kSkyRings = 128;
 
 }  // namespace deltalux::scene::tuning

@@ -186,7 +186,7 @@ Emission EmissionPatterns::emissionOver(Product& product, const Shape& shape, co
   const auto normal = normalOfFlat(shape);
   const bool intensity = normal && product.usesCosine;
   const bool shared = product.byDirectionAlone() && (normal || !product.usesCosine);
-  const int count = normal && !product.usesPosition ? 1 : tuning::kPlaces;
+  const int count = normal && !product.usesPosition ? 1 : deltalux::tuning::kPilots;
   const std::vector<SurfacePoint> places = placesOn(shape, count);
   Sampled own;
   if (!shared) own = sample(product, places, intensity);

@@ -55,9 +55,12 @@ Daylight erbs(double global, double outside, double sineOfAltitude) {
 Daylight irradianceOf(const Daylight& illuminance, double sunZenith, double outside, double water) {
   constexpr double kFirstGuess = 93;  // [lm/W], of a sun and sky about [defined]
   Daylight result{illuminance.directNormal / kFirstGuess, illuminance.diffuse / kFirstGuess};
-  for (int i = 0; i < tuning::kEfficacyRounds; ++i) {
+  constexpr int kMost = 64;  // rounds: they come to rest within ten [limit]
+  for (int i = 0; i < kMost; ++i) {
     const Daylight K = efficacies(conditionOf(result, sunZenith, outside), water);
-    result = {K.directNormal > 0 ? illuminance.directNormal / K.directNormal : 0, illuminance.diffuse / K.diffuse};
+    const Daylight before = std::exchange(
+        result, {K.directNormal > 0 ? illuminance.directNormal / K.directNormal : 0, illuminance.diffuse / K.diffuse});
+    if (result.directNormal == before.directNormal && result.diffuse == before.diffuse) break;
   }
   return result;
 }

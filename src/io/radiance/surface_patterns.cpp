@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tuning.hpp"
 #include "io/tuning.hpp"
 
 namespace deltalux::io::radiance {
@@ -15,7 +16,7 @@ constexpr std::size_t kManyTexels = std::size_t{1} << 22;  // of a scene; polygo
 
 std::vector<SurfacePoint> spreadOver(const Shape& shape) {
   std::vector<SurfacePoint> points;
-  const int n = tuning::kPlaces;
+  const int n = deltalux::tuning::kPilots;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) points.push_back(samplePoint(shape, {(i + 0.5) / n, (j + 0.5) / n}));
   return points;

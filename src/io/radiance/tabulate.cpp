@@ -31,10 +31,11 @@ struct Range {
 /// Whether the values depend on azimuth, by a sample of irregular directions; `all` gets their range.
 bool dependsOnAzimuth(const Function& f, Range& all) {
   double widest = 0;
-  for (int i = 0; i < tuning::kPlaces; ++i) {
+  for (int i = 0; i < deltalux::tuning::kPilots; ++i) {
     Range ring;
     for (std::size_t k = 0; k < tuning::kSteps; ++k)
-      ring.extend(f(direction((i + 0.37) / tuning::kPlaces, (double(k) + 0.21 * i) / double(tuning::kSteps))));
+      ring.extend(
+          f(direction((i + 0.37) / deltalux::tuning::kPilots, (double(k) + 0.21 * i) / double(tuning::kSteps))));
     widest = std::max(widest, ring.high - ring.low);
     all.extend(ring.low), all.extend(ring.high);
   }

@@ -69,7 +69,8 @@ LightConnections::LightConnections(const ReferenceScene& scene) : scene_(scene) 
     for (LightId light : lamps) candidates.push_back(prepend(bend, {light, {}, 0}));
   }
   std::vector<Connection> singles = keep(withFlux(candidates, 0), tuning::kMostSingle);
-  if (singles.size() > tuning::kMostDouble) singles.resize(tuning::kMostDouble);
+  const auto most = static_cast<std::size_t>(std::sqrt(tuning::kMostSingle));  // so that pairs are no more than those
+  if (singles.size() > most) singles.resize(most);
   candidates.clear();
   for (const Connection& single : singles) {
     for (const Bend& bend : bends) {
@@ -77,7 +78,7 @@ LightConnections::LightConnections(const ReferenceScene& scene) : scene_(scene) 
       if (!bothCurved && bend.surface != single.chain.bends[0].surface) candidates.push_back(prepend(bend, single));
     }
   }
-  keep(withFlux(candidates, tuning::kCurvedSamples), tuning::kMostDouble);
+  keep(withFlux(candidates, tuning::kFluxSamples), most);
 }
 
 void LightConnections::add(const Connection& c) {
@@ -132,7 +133,7 @@ std::vector<Connection> LightConnections::withFlux(std::vector<Connection> candi
     Connection before{c.light, {}, 0};
     for (int k = 1; k < c.chain.count; ++k) before.chain.add(c.chain.bends[k]);
     const Bend& bend = c.chain.bends[0];
-    const int usual = bend.kind == Bend::Kind::Plane ? tuning::kPlaneSamples : tuning::kCurvedSamples;
+    const int usual = tuning::kFluxSamples;
     c.flux = fluxLeaving(bend, before, samples > 0 ? samples : usual);
   });
   std::erase_if(candidates, [](const Connection& c) { return !(c.flux > 0.0); });

@@ -23,7 +23,7 @@ class PathSampler {
 
  private:
   // Of a connection two, of a scattering two, and the roulette's.
-  static constexpr std::uint64_t kStratified = 5 * deltalux::tuning::kStratifiedEvents;  // [defined]
+  static constexpr std::uint64_t kStratified = 5 * deltalux::tuning::kPilotBounces;  // [defined]
 
   std::uint64_t key_;
   std::uint32_t index_;

@@ -10,6 +10,7 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 #include "render/reference/path_tracer.hpp"
 #include "render/tuning.hpp"
 
@@ -26,7 +27,7 @@ constexpr std::uint64_t kMaxPassBatches = 1024;  // [task]
 /// A power of two, smaller when few paths are asked for.
 std::uint32_t batchSize(std::uint64_t samples) {
   std::uint32_t size = direct::tuning::kBatch;
-  while (size > 1 && samples != 0 && samples < size * rendering::tuning::kFewestEstimates) size /= 2;
+  while (size > 1 && samples != 0 && samples < size * deltalux::tuning::kFewestEstimates) size /= 2;
   return size;
 }
 
@@ -173,7 +174,7 @@ RgbSum ReferenceIntegrator::Impl::batchMean(std::uint64_t key, std::uint32_t siz
 }
 
 bool ReferenceIntegrator::Impl::converged(const BatchMoments& m) const {
-  if (settings.targetError <= 0 || m.count < 2 * rendering::tuning::kFewestEstimates) return false;
+  if (settings.targetError <= 0 || m.count < 2 * deltalux::tuning::kFewestEstimates) return false;
   return glm::all(glm::lessThanEqual(m.standardError(), settings.targetError * m.mean));
 }
 

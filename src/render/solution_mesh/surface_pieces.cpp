@@ -101,7 +101,7 @@ int stepsRound(const Shape& shape, double sceneSize) {
   const double radius = largestRadius(shape);
   if (!(radius > 0)) return 0;
   int steps = hierarchy::tuning::kGrid;
-  while (steps < tuning::kMostPieces && radius * (1 - std::cos(kPi / steps)) > tuning::kSagitta * sceneSize) steps *= 2;
+  while (radius * (1 - std::cos(kPi / steps)) > tuning::kSagitta * sceneSize) steps *= 2;
   return steps;
 }
 

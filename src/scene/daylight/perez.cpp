@@ -136,7 +136,7 @@ std::array<double, 5> perezCoefficients(const SkyCondition& sky) {
 
 double horizontalIrradiance(const DomeLight& dome) {
   const Frame frame(dome.up);
-  const int rings = tuning::kSkyRings, sectors = 2 * rings;
+  const int rings = tuning::kDomeRings * tuning::kDomeLooks, sectors = 2 * rings;
   double sum = 0;
   for (int i = 0; i < rings; ++i) {
     const double sine = std::sqrt((i + 0.5) / rings), cosine = std::sqrt(1 - sine * sine);
