@@ -172,7 +172,7 @@ struct Draws {
 };
 
 LampTree::Cut cutOf(const LampTree& tree, const hierarchy::ElementGeometry& g, const LampSight& above) {
-  LampTree::Cut cut;
+  LampTree::Cut cut;  // no more of them than can bring such a share each
   tree.cut(g, above.none() ? tuning::kMatters : tuning::kAskedShare, static_cast<std::size_t>(1 / tuning::kAskedShare),
            above.seen, cut);
   return cut;

@@ -98,7 +98,7 @@ Outcome diffuseLight(const Solution& s) {
   const hierarchy::Elements& elements = s.elements;
   const auto whole = [&](std::size_t e) { return double(elements.geometry[e].area); };
   Outcome all =
-      ofSentLight(elements, tuning::kLedgerLines, whole, [&](hierarchy::ElementId leaf, RgbSum flux, std::size_t i) {
+      ofSentLight(elements, tuning::kLedgerSamples, whole, [&](hierarchy::ElementId leaf, RgbSum flux, std::size_t i) {
         const auto index = static_cast<std::uint32_t>(i);
         const UnitPair at = scrambledSobol(index, kKey), to = scrambledSobol(index, ~kKey);
         const hierarchy::PatchPoint x = hierarchy::samplePatch(elements, s.scene, leaf, at.x, at.y);
@@ -146,7 +146,7 @@ Outcome lineLight(const Solution& s) {
   const lines::LineTracer tracer(s.scene, *s.tracer, responses);
   const auto open = [&](std::size_t e) { return double(elements.geometry[e].litArea()); };
   return ofSentLight(
-      elements, tuning::kLedgerLines, open, [&](hierarchy::ElementId leaf, const RgbSum& flux, std::size_t i) {
+      elements, tuning::kLedgerSamples, open, [&](hierarchy::ElementId leaf, const RgbSum& flux, std::size_t i) {
         Outcome outcome;
         const std::span<const std::uint32_t> ends = s.lines.endsOf(leaf);
         const auto count = static_cast<std::uint32_t>(ends.size());

@@ -29,13 +29,13 @@ struct Samplers {
   LineSolve& x;
   lines::ScaleMeter meter;
   direct::DirectSampler direct;
-  double slot;  // see lines::tooWide()
+  double room;  // see lines::tooWide()
 
   explicit Samplers(LineSolve& solve)
       : x(solve),
         meter(x.s.elements, x.tracer, x.cover, x.enclosed),
         direct(x.s.elements, x.s.scene, *x.s.tracer, x.lamps, x.s.settings.error),
-        slot(lines::widthsOf(x.s.scene, x.s.elements.sceneBox).slot) {}
+        room(lines::widthsOf(x.s.scene, x.s.elements.sceneBox).room) {}
 
   /// Rays that were traced.
   std::uint64_t measure(hierarchy::ElementId patch) const {
@@ -155,7 +155,7 @@ bool splits(const Samplers& samplers, hierarchy::ElementId patch, std::uint64_t&
   rays += samplers.measure(patch);
   const double dim = x.floor > 0 ? gray(coarse.indirect + coarse.direct) / x.floor : 1.0;
   // Where a wall crosses a patch, light of one side would come out on the other.
-  if (lines::tooWide(g, x.samples.scale[patch.index()], error, dim, samplers.slot) || samplers.walled(patch)) {
+  if (lines::tooWide(g, x.samples.scale[patch.index()], error, dim, samplers.room) || samplers.walled(patch)) {
     samplers.leaveLight(patch);
     return true;
   }

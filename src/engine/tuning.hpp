@@ -25,7 +25,7 @@ constexpr double kPassesOfFrame = 2;
 constexpr double kNewCost = 0.5;
 
 /// Rays that measure what particles bring, and lines that measure where light ends. Fewer: the ledger closes less well.
-constexpr std::size_t kLedgerLines = 1 << 19;
+constexpr std::size_t kLedgerSamples = 1 << 19;
 
 /// Error of links in the first round, relative to the last. Larger: the first rounds tell little. Smaller: the first
 /// picture is late.

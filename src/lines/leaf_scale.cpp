@@ -96,9 +96,9 @@ void setMeanFreePaths(hierarchy::Elements& elements, const std::vector<LeafScale
   }
 }
 
-bool tooWide(const hierarchy::ElementGeometry& g, const LeafScale& scale, double error, double dim, double slot) {
+bool tooWide(const hierarchy::ElementGeometry& g, const LeafScale& scale, double error, double dim, double room) {
   if (!(scale.mean > 0)) return false;
-  const bool wide = scale.mean > slot && dim > square(tuning::kDimWidth);
+  const bool wide = scale.mean > room && dim > square(tuning::kDimWidth);
   if (scale.mean <= tuning::kSlot * g.radius && !wide) return false;
   const double wider = std::clamp(1 / std::sqrt(std::max(dim, 1e-12)), 1.0, tuning::kDimWidth);
   const double finer = wider * std::sqrt(error / deltalux::tuning::kUsualError);

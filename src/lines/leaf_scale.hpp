@@ -34,7 +34,7 @@ class ScaleMeter {
 void setMeanFreePaths(hierarchy::Elements&, const std::vector<LeafScale>&);
 
 /// Whether a patch is too wide for indirect light at such an error. `dim`: its light relative to what still matters;
-/// where that is less than 1 it may be wider. `slot`: SceneWidths::slot.
-bool tooWide(const hierarchy::ElementGeometry&, const LeafScale&, double error, double dim, double slot);
+/// where that is less than 1 it may be wider. `room`: SceneWidths::room.
+bool tooWide(const hierarchy::ElementGeometry&, const LeafScale&, double error, double dim, double room);
 
 }  // namespace deltalux::lines

@@ -7,9 +7,8 @@ namespace deltalux::lines {
 struct SceneWidths {
   double farthest = 0;  // what lines out of the scene count as: its diagonal, to the nearest half of an octave, so that
                         // they count as the same when something moves at its rim
-  double slot = 0;      // mean distance above which a lit place is no slot
   double hollow = 0;    // mean distance below which a hollow is enclosed where walks find no light
-  double room = 0;      // mean distance above which a leaf in the dark faces a room
+  double room = 0;      // mean distance above which a place is a room: no slot where it is lit, worth lines in the dark
 
   friend bool operator==(const SceneWidths&, const SceneWidths&) = default;
 };

@@ -100,8 +100,9 @@ bool isInside(const Shape& shape, bool front) {
 int stepsRound(const Shape& shape, double sceneSize) {
   const double radius = largestRadius(shape);
   if (!(radius > 0)) return 0;
+  constexpr int kMost = 1 << 12;  // [limit]
   int steps = hierarchy::tuning::kGrid;
-  while (radius * (1 - std::cos(kPi / steps)) > tuning::kSagitta * sceneSize) steps *= 2;
+  while (steps < kMost && radius * (1 - std::cos(kPi / steps)) > tuning::kSagitta * sceneSize) steps *= 2;
   return steps;
 }
 
