@@ -64,7 +64,7 @@ template <std::size_t channels>
 void HeatFlow::applyTo(Channels& E, double time) const {
   // The fewest steps that are stable, and damp even the fastest modes: at the far end of its range the polynomial is 1
   // again, and falls off from there as it does from this end.
-  const double z = 0.5 * largest_ * time + 1;
+  const double z = 0.5 * largest_ * time + tuning::kDamping;
   const auto reach = [](double steps) { return steps * (steps + 2 * kOrder) / (2 * kOrder + 1); };
   const int steps = static_cast<int>(std::ceil(std::sqrt(kOrder * kOrder + (2 * kOrder + 1) * z) - kOrder));
   const double scale = time / reach(steps);  // times L: the polynomials' argument is 1 - that [OSullivan19]

@@ -39,5 +39,7 @@ constexpr double kPart = 0.5;
 constexpr double kCoarse = 1.0 / 8;
 /// Share of a side's area that may be darker than what noise is compared with. More: grain in its shadows.
 constexpr double kDarkest = 0.1;
+/// Range of modes that are damped, as far as half of them go in a time of 1. Less: checkerboards. More: steps.
+constexpr double kDamping = 1;
 
 }  // namespace deltalux::caustics::tuning

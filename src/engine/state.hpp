@@ -28,7 +28,7 @@ namespace deltalux {
 struct Engine::State {
   std::shared_ptr<Solution> solution = std::make_shared<Solution>();
   bool finished = false;   // the last round has run
-  bool previewed = false;  // the first round is to be a coarse one
+  bool previewed = false;  // over lines, the coarse solution is to be shown first
   engine::Clock clock;
   engine::TimeBudget budget{0};
   engine::SceneUpdate pending;                           // edits since the last update or frame

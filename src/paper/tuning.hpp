@@ -17,8 +17,8 @@ constexpr double kQuadrature = 0.1;
 /// one visibility for surfaces of unlike brightness; and the least share of its mean that a cluster sends anywhere,
 /// since harmonics blur what faces away. Less: indirect light in blocks. More: links to all that is in them.
 constexpr float kClusterSpread = 0.3f;
-/// Rays of links that bring little, or are split for their kernel; others take twice or four times as many. Fewer:
-/// blotchy shadows.
+/// Rays of links that bring little, or are split for their kernel; others take twice or four times as many. A list of
+/// no more blockers is looked through before any ray. Fewer: blotchy shadows.
 constexpr int kFewSamples = 4;
 /// Blockers of a list from which on clusters stay closed, and links below do not hand it on. More: time for boxes.
 /// Fewer: rays at what is proven.

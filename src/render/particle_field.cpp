@@ -187,7 +187,8 @@ ParticleField::Rings ParticleField::ringsOf(const Query& q, const Surroundings& 
   // A quarter of the distance of sixteen holds one.
   const std::size_t few = std::min<std::size_t>(deltalux::tuning::kPilots, q.found.size());
   double radius = std::max(0.25 * std::sqrt(double(q.found[few - 1].squared)), 1e-6 * q.radius);
-  for (; radius < q.radius; radius *= std::exp2(deltalux::tuning::kOctaveStep)) rings.radii.push_back(radius);
+  const double step = std::exp2(deltalux::tuning::kOctaveStep);
+  for (; radius < q.radius; radius *= step) rings.radii.push_back(radius);
   rings.radii.push_back(q.radius);
   const std::size_t steps = rings.radii.size();
   const Frame frame(q.normal);
