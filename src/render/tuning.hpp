@@ -41,9 +41,9 @@ constexpr int kPasses = 3;
 /// Connections of a path to lights by way of a mirror or a ball, at most, and no more pairs of them; more would dilute
 /// the choice: the rest is found by scattering. Fewer: noise below many mirrors.
 constexpr std::size_t kMostSingle = 2048;
-/// Samples of the flux that a mirror or a ball sends, of which a lit patch must not be overlooked. Fewer: connections
-/// that are missing. More: time at the start.
-constexpr int kFluxSamples = 256;
+/// Samples of the flux that a plane mirror sends, of which a lit patch must not be overlooked, and that others do.
+/// Fewer: connections that are missing. More: time at the start.
+constexpr int kPlaneSamples = 256, kCurvedSamples = 32;
 /// Steps between which roots of paths over curved mirrors and balls are looked for. Fewer: caustics with holes.
 constexpr int kRootSteps = 64;
 /// Inner reflections of a ball that are connected through. Fewer: noise of rainbows. More: time for what is dim.

@@ -68,7 +68,7 @@ LightConnections::LightConnections(const ReferenceScene& scene) : scene_(scene) 
   for (const Bend& bend : bends) {
     for (LightId light : lamps) candidates.push_back(prepend(bend, {light, {}, 0}));
   }
-  std::vector<Connection> singles = keep(withFlux(candidates), tuning::kMostSingle);
+  std::vector<Connection> singles = keep(withFlux(candidates, 0), tuning::kMostSingle);
   const auto most = static_cast<std::size_t>(std::sqrt(tuning::kMostSingle));  // so that pairs are no more than those
   if (singles.size() > most) singles.resize(most);
   candidates.clear();
@@ -78,7 +78,7 @@ LightConnections::LightConnections(const ReferenceScene& scene) : scene_(scene) 
       if (!bothCurved && bend.surface != single.chain.bends[0].surface) candidates.push_back(prepend(bend, single));
     }
   }
-  keep(withFlux(candidates), most);
+  keep(withFlux(candidates, tuning::kCurvedSamples), most);
 }
 
 void LightConnections::add(const Connection& c) {
@@ -126,24 +126,26 @@ std::vector<Bend> LightConnections::findBends() const {
   return bends;
 }
 
-/// The candidates whose first bend gets light, brightest first.
-std::vector<Connection> LightConnections::withFlux(std::vector<Connection> candidates) const {
+/// The candidates whose first bend gets light, brightest first. `samples` 0: as many as the bend's kind asks for.
+std::vector<Connection> LightConnections::withFlux(std::vector<Connection> candidates, int samples) const {
   parallelFor(candidates.size(), 16, [&](std::size_t i) {
     Connection& c = candidates[i];
     Connection before{c.light, {}, 0};
     for (int k = 1; k < c.chain.count; ++k) before.chain.add(c.chain.bends[k]);
-    c.flux = fluxLeaving(c.chain.bends[0], before);
+    const Bend& bend = c.chain.bends[0];
+    const int usual = bend.kind == Bend::Kind::Plane ? tuning::kPlaneSamples : tuning::kCurvedSamples;
+    c.flux = fluxLeaving(bend, before, samples > 0 ? samples : usual);
   });
   std::erase_if(candidates, [](const Connection& c) { return !(c.flux > 0.0); });
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.flux > b.flux; });
   return candidates;
 }
 
-double LightConnections::fluxLeaving(const Bend& bend, const Connection& before) const {
+double LightConnections::fluxLeaving(const Bend& bend, const Connection& before, int samples) const {
   const Shape& shape = scene_.scene()[bend.surface].shape;
   Rng rng(combineKeys(chainKey(before.light, before.chain), bend.surface.value));
   double flux = 0;
-  for (int i = 0; i < tuning::kFluxSamples; ++i) {
+  for (int i = 0; i < samples; ++i) {
     const SurfacePoint p = deltalux::samplePoint(shape, {rng.uniform(), rng.uniform()});
     const Arrivals arrivals = sample(before, p.position, p.normal, {rng.uniform(), rng.uniform()});
     for (int k = 0; k < arrivals.count; ++k) {
@@ -163,7 +165,7 @@ double LightConnections::fluxLeaving(const Bend& bend, const Connection& before)
       flux += gray(passed * a.value) * std::abs(cosine);
     }
   }
-  return flux * area(shape) / tuning::kFluxSamples;
+  return flux * area(shape) / samples;
 }
 
 }  // namespace deltalux::rendering

@@ -96,8 +96,8 @@ class LightConnections {
 
   void add(const Connection&);
   std::vector<Bend> findBends() const;
-  std::vector<Connection> withFlux(std::vector<Connection> candidates) const;
-  double fluxLeaving(const Bend&, const Connection& before) const;
+  std::vector<Connection> withFlux(std::vector<Connection> candidates, int samples) const;
+  double fluxLeaving(const Bend&, const Connection& before, int samples) const;
   Arrivals sample(const Connection&, const Vec3& x, const Vec3& n, const Vec2& u) const;
   void samplePlanes(const Connection&, const Vec3& x, const Vec3& n, const Vec2& u, Arrivals&) const;
   void sampleCurved(const Connection&, const Vec3& x, const Vec3& n, const Vec2& u, Arrivals&) const;
