@@ -4,14 +4,12 @@
 
 namespace deltalux::tuning {
 
-/// Error that numbers of rays, lines and widths are given for: it scales them to the error that is asked for.
-constexpr double kUsualError = 0.05;
 /// Share of the mean of all, of what a path began with, or of full size, below which something is as good as nothing.
 /// Larger: dark corners are off, faint reflections end. Smaller: work for what nobody sees.
 constexpr float kNegligible = 1e-3f;
-/// Power that changes in the last pass of light over what it is exchanged by, relative to emitted, where it has begun
-/// with nearly all there is. Larger: dark corners are too dark.
-constexpr double kConvergedAgain = 1e-5;
+/// Power that is yet to come when light has been passed on for the last time, relative to emitted, as far as the passes
+/// tell. Larger: dark corners and halls of white plaster are too dark.
+constexpr double kConverged = 1e-5;
 /// Radii beyond which something is far: drawn by its area alone, linked without another look, or a few points. Less:
 /// noise and errors where things are close. More: work for what is alike.
 constexpr double kFar = 3;
@@ -28,13 +26,27 @@ constexpr int kFewestEstimates = 32;
 /// Bounces after which a first idea of light ends; of a path, whose numbers are stratified. Fewer: rooms that are lit
 /// from rooms beside them count as dark, and noise.
 constexpr int kPilotBounces = 4;
-/// Halvings of a sky, or of a lamp at most, into cells for particles and shadow rays to choose of. Fewer: noise under
-/// an uneven sky. More: time to plan.
+/// Rounds of an estimate that looks ever closer, each at where the one before found it: where light comes from, which
+/// particles are of one light. Fewer: grain beside windows and in penumbrae, edges of caustics are blurred.
+constexpr int kEverCloser = 3;
+/// Halvings of a sky, or of a lamp at most, into cells for particles and shadow rays to choose of, and that what is
+/// seen of it is known by. Fewer: noise under an uneven sky, rays beside the window. More: time to plan, cells that
+/// hardly any line tells of.
 constexpr int kSkyHalvings = 8;
-/// Events after which paths end by chance whatever they carry, and the greatest chance to go on, so that light caught
-/// between perfect surfaces ends some day. Later, more: time in halls of mirrors. Sooner, less: noise.
+/// Events after which paths end by chance whatever they carry, and lines for good; and the greatest chance to go on, so
+/// that light caught between perfect surfaces ends some day. Later, more: time in halls of mirrors. Sooner, less:
+/// noise, light between facing mirrors is lost.
 constexpr int kRouletteFrom = 8;
 constexpr double kMostSurvival = 0.9;
+/// Polar angles by which a lamp's pattern is looked at: that its beam's width is found by, and that its table begins
+/// with (2 degrees). Fewer: narrow beams and peaks are overlooked. More: time for each lamp.
+constexpr int kPolarAngles = 90;
+/// Paths that give a first idea of light, from all that send it or to all that get it together. Fewer: what is lit by
+/// the way of caustics or of others counts as dark. More: time before the first light.
+constexpr int kPilotPaths = 1 << 16;
+/// Share of the light of a surface, or of the target error, by which a difference is a change. More: shadows of what
+/// has moved away, and dark rooms beside bright places are not done. Less: work at every edit.
+constexpr double kChangeMatters = 0.1;
 /// Octaves between sizes, errors or distances that are tried one after the other, or count as one. Larger: what is cut
 /// by them is coarse, and time is left over. Smaller: what differs a little is cut otherwise.
 constexpr double kOctaveStep = 0.25;

@@ -23,16 +23,15 @@ int steady(double texels) {
       std::exp2(deltalux::tuning::kOctaveStep * std::round(std::log2(texels) / deltalux::tuning::kOctaveStep)));
 }
 
-/// Cuts the part into texels that hold `perTexel` particles where they are dense, from `least` to `most` of them.
-/// Whether they were as many as they should be. [GD01 3.2]
-bool resolve(const ChartSurface& surface, ChartPart& part, double perTexel, int least, int most) {
+/// Cuts the part into texels that hold `perTexel` particles where they are dense, no more than of a square of `most`
+/// across. [GD01 3.2]
+void resolve(const ChartSurface& surface, ChartPart& part, double perTexel, int most) {
   const double area = part.region.size().x * part.region.size().y;
-  for (int count = std::min(least, most);;) {
-    surface.recut(part, squareTexels(part.region.size(), area / count, most));
-    const int wanted = steady(std::min(area / texelArea(part, perTexel), 2.0 * most));
-    if (wanted <= count) return true;
-    if (count >= most) return false;
-    count = std::min(wanted, most);  // peaks show themselves as texels shrink
+  for (int count = squared(deltalux::tuning::kPilots);;) {
+    surface.recut(part, squareTexels(part.region.size(), area / count, squared(most)));
+    const int wanted = steady(std::min(area / texelArea(part, perTexel), 2.0 * squared(most)));
+    if (wanted <= count || count >= squared(most)) return;
+    count = std::min(wanted, squared(most));  // peaks show themselves as texels shrink
   }
 }
 
@@ -41,7 +40,8 @@ int coarsen(const ChartSurface& surface, ChartPart& part) {
   const auto count = [&] { return double(part.texels.x) * part.texels.y; };
   const auto wanted = [&] {
     const Vec2 size = part.region.size();
-    return std::max(size.x * size.y / texelArea(part, tuning::kEnough), double(squared(tuning::kFirstSide)));
+    return std::max(size.x * size.y / texelArea(part, deltalux::tuning::kPilots),
+                    double(squared(deltalux::tuning::kPilots)));
   };
   int halvings = 0;
   while (count() >= 4 * wanted() && surface.halve(part)) ++halvings;
@@ -67,15 +67,14 @@ class AdaptiveTextures {
   /// Places the particles and cuts coarse textures. What they show that a mesh would not.
   Departure place(std::span<const particles::Impact> impacts) {
     auto placed = placeImpacts(shape_, result_.charts, impacts);
-    parts_.resize(placed.size()), resolved_.assign(placed.size(), 0);
+    parts_.resize(placed.size());
     Departure total;
     std::vector<PartLight> charts(placed.size());
     for (std::uint32_t c = 0; c < placed.size(); ++c) {
       if (placed[c].empty()) continue;
       const ChartSurface surface(shape_, result_.charts, c);
       parts_[c] = surface.whole(glm::ivec2(1), std::move(placed[c]));
-      resolved_[c] =
-          resolve(surface, parts_[c], tuning::kEnough, squared(tuning::kFirstSide), squared(tuning::kChoiceSide));
+      resolve(surface, parts_[c], deltalux::tuning::kPilots, tuning::kCoarseSide);
       const CellGrid grid = surface.grid(parts_[c]);
       const CellLight light = collect(grid, parts_[c].impacts);
       total += departure(grid, light);
@@ -93,8 +92,6 @@ class AdaptiveTextures {
     for (std::uint32_t c = 0; c < parts_.size(); ++c) {
       if (parts_[c].impacts.empty()) continue;
       const ChartSurface surface(shape_, result_.charts, c);
-      if (!resolved_[c])
-        resolve(surface, parts_[c], tuning::kEnough, squared(tuning::kChoiceSide), squared(tuning::kCoarseSide));
       const std::size_t first = result_.textures.size();
       putAll(surface, parts_[c]);
       keepFlux(std::span(result_.textures).subspan(first));
@@ -150,7 +147,7 @@ class AdaptiveTextures {
     const std::vector<std::size_t> particles = particlesUnder(whole, grid, boxes);
     std::vector<ChartPart> regions;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      if (particles[i] < static_cast<std::size_t>(tuning::kRegion)) continue;
+      if (particles[i] < static_cast<std::size_t>(deltalux::tuning::kFewestEstimates)) continue;
       regions.push_back(surface.takeOut(whole, grid, boxes[i], glm::ivec2(1)));
       borders.emplace_back(grid, boxes[i], tuning::kMargin);
     }
@@ -166,7 +163,7 @@ class AdaptiveTextures {
 
   void putRegion(const ChartSurface& surface, ChartPart& region, const FadingBorder& border,
                  const LowFrequencyLayer& layer) {
-    resolve(surface, region, tuning::kStray, squared(tuning::kFirstSide), squared(tuning::kFineSide));
+    resolve(surface, region, tuning::kStray, tuning::kFineSide);
     const CellGrid grid = surface.grid(region);
     if (grid.size() == 0) return;
     const CellLight light = collect(grid, region.impacts);
@@ -190,7 +187,6 @@ class AdaptiveTextures {
   BandwidthRule rule_;
   SurfaceCaustics result_;
   std::vector<ChartPart> parts_;  // by chart
-  std::vector<char> resolved_;    // whether a part has all the texels it should
 };
 
 }  // namespace

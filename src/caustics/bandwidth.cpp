@@ -25,7 +25,7 @@ struct Overlaps {
     for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
       const double narrow = kernelOverlap(levels[k].width, levels[k].width, cell);
       const double both = kernelOverlap(levels[k].width, wide.width, meanArea);
-      asked.push_back(static_cast<float>(tuning::kLeastExpected * narrow * meanArea));
+      asked.push_back(static_cast<float>(tuning::kStray * narrow * meanArea));
       factor.push_back(static_cast<float>(tuning::kConfidence * tuning::kConfidence *
                                           (narrow + wide.overlap - 2 * both) * meanArea));
     }
@@ -98,7 +98,7 @@ class WidthSearch {
     }
     float *__restrict const width = log_.data() + begin, *__restrict const around = around_.data() + begin,
                            *__restrict const open = open_.data() + begin, *__restrict const rest = noise_.data() + begin;
-    const float own = overlaps.own, enough = static_cast<float>(tuning::kEnough) * own, allowed = allowed_,
+    const float own = overlaps.own, enough = static_cast<float>(deltalux::tuning::kPilots) * own, allowed = allowed_,
                 darkest = darkest_;
     float left = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -130,7 +130,7 @@ class WidthSearch {
 
 Bandwidths chooseBandwidths(const CellRaster& raster, const HeatFlow& even, const Channels& light,
                             const BandwidthRule& rule) {
-  ScaleSpace space(raster, even, light, tuning::kWidest, tuning::kWidthFactor);
+  ScaleSpace space(raster, even, light);
   WidthSearch search(raster, rule);
   while (space.widen() && !search.evaluate(space.levels())) {
   }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "base/tuning.hpp"
 #include "caustics/heat_flow.hpp"
 #include "caustics/tuning.hpp"
+#include "hierarchy/tuning.hpp"
 
 namespace deltalux::caustics {
 
@@ -40,7 +42,7 @@ Departure departure(const CellGrid& grid, const CellLight& light) {
   smoothed[0] = inGrains(light.gray, grain);
   smoothed[1] = inGrains(light.squares, grain * grain);
   smoothed[2] = inGrains(light.fourths, grain * grain * grain * grain);
-  const double reach = tuning::kCoarse * std::sqrt(result.area);
+  const double reach = std::sqrt(result.area) / hierarchy::tuning::kGrid;
   HeatFlow(raster, {}).apply(smoothed, 0.5 * reach * reach);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const double area = grid.area(i);
@@ -68,7 +70,7 @@ Departure departureBetween(std::span<const PartLight> parts) {
   return result;
 }
 
-bool tooFew(double flux, double squaredFlux) { return flux * flux <= tuning::kEnough * squaredFlux; }
+bool tooFew(double flux, double squaredFlux) { return flux * flux <= deltalux::tuning::kPilots * squaredFlux; }
 
 bool deservesTexture(const Departure& d, double error, double background) {
   if (!(d.area > 0) || d.excess <= tuning::kSignificance * std::sqrt(d.precision)) return false;

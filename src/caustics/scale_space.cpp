@@ -1,6 +1,7 @@
 #include "caustics/scale_space.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "caustics/tuning.hpp"
 
@@ -10,18 +11,17 @@ double kernelOverlap(double widthA, double widthB, double area) {
   return 1 / (2 * kPi * (widthA * widthA + widthB * widthB) + area);
 }
 
-ScaleSpace::ScaleSpace(const CellRaster& raster, const HeatFlow& even, Channels light, double widest, double factor)
+ScaleSpace::ScaleSpace(const CellRaster& raster, const HeatFlow& even, Channels light)
     : flow_(even),
       area_(raster.meanArea()),
-      limit_(std::min(widest * std::sqrt(area_), tuning::kWidestShare * std::sqrt(raster.totalArea()))),
-      factor_(factor),
+      limit_(std::min(tuning::kWidest * std::sqrt(area_), tuning::kWidestShare * std::sqrt(raster.totalArea()))),
       levels_(1) {
   levels_[0] = {0.0, kernelOverlap(0, 0, area_), std::move(light)};
 }
 
 bool ScaleSpace::widen() {
   const ScaleLevel& last = levels_.back();
-  const double width = last.width > 0 ? factor_ * last.width : tuning::kNarrowest * std::sqrt(area_);
+  const double width = last.width > 0 ? std::sqrt(2.0) * last.width : tuning::kNarrowest * std::sqrt(area_);
   if (width > limit_) return false;
   ScaleLevel next{width, kernelOverlap(width, width, area_), last.light};
   flow_.apply(next.light, 0.5 * (width * width - last.width * last.width));

@@ -1,6 +1,6 @@
 #pragma once
 // The same light through kernels of growing width: what reconstruction chooses from. Widths are standard deviations,
-// each by the same factor larger than the one before, which it is made of.
+// each half an octave above the one before, which it is made of.
 // Cost: the passes of HeatFlow up to the widest.
 #include <vector>
 
@@ -21,9 +21,8 @@ double kernelOverlap(double widthA, double widthB, double area);
 
 class ScaleSpace {
  public:
-  /// Level 0: the light of the cells as they are. `even` flows with a conductivity of 1. `widest`: in cells. `factor`:
-  /// between widths. All must outlive this.
-  ScaleSpace(const CellRaster&, const HeatFlow& even, Channels light, double widest, double factor);
+  /// Level 0: the light of the cells as they are. `even` flows with a conductivity of 1, and must outlive this.
+  ScaleSpace(const CellRaster&, const HeatFlow& even, Channels light);
 
   /// Adds the next level; false when there is none.
   bool widen();
@@ -31,7 +30,7 @@ class ScaleSpace {
 
  private:
   const HeatFlow& flow_;
-  double area_, limit_, factor_;
+  double area_, limit_;
   std::vector<ScaleLevel> levels_;
 };
 

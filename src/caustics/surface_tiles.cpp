@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "caustics/tuning.hpp"
+#include "base/tuning.hpp"
 #include "particles/side_index.hpp"
 
 namespace deltalux::caustics {
@@ -16,8 +16,9 @@ SurfaceTiles::SurfaceTiles(const Scene& scene, const particles::Particles& p) : 
     for (std::uint32_t i = p.firstImpact(path); i < p.endImpact(path); ++i) ++impacts[particles::sideIndex(p, i)];
   for (std::size_t side = 0; side < sides_.size(); ++side)
     if (impacts[side] > 0)
-      cut(side, std::bit_floor(static_cast<std::uint32_t>(
-                    std::clamp(std::sqrt(impacts[side] / tuning::kRegion), 1.0, double(tuning::kFirstSide)))));
+      cut(side,
+          std::bit_floor(static_cast<std::uint32_t>(std::clamp(
+              std::sqrt(impacts[side] / deltalux::tuning::kFewestEstimates), 1.0, double(deltalux::tuning::kPilots)))));
 }
 
 void SurfaceTiles::cut(std::size_t side, std::uint32_t across) {

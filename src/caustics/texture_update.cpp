@@ -5,10 +5,10 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 #include "caustics/choice.hpp"
 #include "caustics/tuning.hpp"
 #include "particles/side_index.hpp"
-#include "particles/tuning.hpp"
 
 namespace deltalux::caustics {
 
@@ -73,7 +73,7 @@ TextureUpdate::Report TextureUpdate::follow(const particles::ParticleUpdate& upd
   report.evaluated = static_cast<std::uint64_t>(std::count(sides.begin(), sides.end(), 1));
   for (SurfaceCaustics& s : caustics.surfaces)
     if (const std::size_t side = particles::sideIndex(s.primitive, s.front); !sides[side])
-      report.scaled += rescale(s, fluxOf(side), particles::tuning::kChangeMatters * error_);
+      report.scaled += rescale(s, fluxOf(side), deltalux::tuning::kChangeMatters * error_);
   report.rebuilt = remakeCaustics(caustics, parts_.scene, parts_.elements, depositsOn(sides, powers), error_, sides);
   remember(sides, background);
   return report;
@@ -162,7 +162,7 @@ bool TextureUpdate::fewParticles(const SurfaceTiles::Side& side) const {
 bool TextureUpdate::changed(std::size_t side, double background, bool textured) const {
   const SurfaceTiles::Side& s = tiles_.sides()[side];
   if (s.across == 0 || (!textured && fewParticles(s))) return false;
-  const double error = (textured ? particles::tuning::kChangeMatters : tuning::kMatters) * error_;
+  const double error = (textured ? deltalux::tuning::kChangeMatters : tuning::kMatters) * error_;
   std::vector<Tile> level(tile_.begin() + s.first, tile_.begin() + s.first + s.count());
   double area = s.area;
   for (std::uint32_t across = s.across;; across /= 2, area *= 4) {

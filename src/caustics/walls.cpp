@@ -6,7 +6,6 @@
 #include "base/tuning.hpp"
 #include "caustics/tuning.hpp"
 #include "caustics/vector_math.hpp"
-#include "particles/tuning.hpp"
 
 namespace deltalux::caustics {
 
@@ -15,7 +14,7 @@ namespace {
 constexpr float kTinyWeight = 1e-30f;    // [rounding]
 constexpr std::size_t kSlotChunk = 256;  // slots whose numbers stay close by [task]
 
-/// Of all slots, each with the kernel that holds particles::tuning::kDetail.
+/// Of all slots, each with the kernel that holds so many.
 struct Estimates {
   Slots root;     // of E
   Slots overlap;  // of the kernel, times the mean cell's area
@@ -26,7 +25,7 @@ struct Estimates {
 void estimateChunk(const std::vector<ScaleLevel>& levels, double area, std::size_t begin, std::size_t count,
                    Estimates& to) {
   constexpr float few = 0.1f;
-  const auto wanted = static_cast<float>(particles::tuning::kDetail);
+  const auto wanted = static_cast<float>(deltalux::tuning::kFewestEstimates);
   float before[kSlotChunk], estimate[kSlotChunk], level[kSlotChunk], grain[kSlotChunk], open[kSlotChunk],
       last[kSlotChunk];
   for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -115,7 +114,7 @@ Borders edgeStopping(const CellRaster& raster, double contrast, const Squared& s
 
 EdgeStopping blurredWalls(const CellRaster& raster, const Channels& light) {
   const HeatFlow even(raster, {});
-  ScaleSpace space(raster, even, light, tuning::kWidest, tuning::kWidthFactor);
+  ScaleSpace space(raster, even, light);
   while (space.widen()) {
   }
   const Estimates estimates = estimatesOf(raster, space.levels());
@@ -139,7 +138,7 @@ Borders sharpWalls(const CellRaster& raster, const Slots& E, double darkness) {
   const auto least = static_cast<float>(darkness);
   for (float& r : roots) r = std::sqrt(r + least);
   const float* const root = roots.data();
-  const auto noise = static_cast<float>(2 * std::sqrt(tuning::kEnough));
+  const auto noise = static_cast<float>(2 * std::sqrt(deltalux::tuning::kPilots));
   return edgeStopping(raster, tuning::kSharp, [=](std::size_t a, std::size_t b) {
     const float jump = noise * (1 - std::min(root[a], root[b]) / std::max(std::max(root[a], root[b]), kTinyWeight));
     return jump * jump;

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 #include "change/line_sieve.hpp"
-#include "direct/tuning.hpp"
 #include "hierarchy/leaf_sequence.hpp"
 
 namespace deltalux::change {
@@ -136,7 +136,7 @@ bool holdSkyRays(const MovedSpace& space, const hierarchy::Elements& elements, h
   using Visibility = direct::SkyRay::Visibility;
   const BoxF box = boxOf(elements.shape(patch));
   if (space.touches(box)) return false;
-  std::array<char, direct::tuning::kManyRays> near{};
+  std::array<char, deltalux::tuning::kFewestEstimates> near{};
   if (faces(space, elements, patch))
     LineSieve(space, box, lines::kDirectionError).mark(codes, std::span(near).first(codes.size()));
   bool all = true;

@@ -12,6 +12,8 @@ namespace {
 /// Of the variance within the quarters of a square, what that between them exceeds by chance in one case of twenty: the
 /// F distribution of three degrees of freedom, by many.
 constexpr double kUneven = 2.605;  // [defined]
+/// As many as there may be two in each quarter, which is what a variance within them takes.
+constexpr std::size_t kFewestLooks = 8;  // [defined]
 }  // namespace
 
 Aim::Aim(std::span<const Source> sources) {
@@ -99,8 +101,9 @@ std::size_t Aim::indexAt(float part) const {
 
 void Aim::learn(const PointSampler& light, std::span<const Receiver> places, int rays, std::uint64_t key) {
   std::vector<Look> looks;
-  for (int round = 0; round < tuning::kLearningRounds && !dark(); ++round) {
-    look(light, places, rays / tuning::kLearningRounds, combineKeys(key, static_cast<std::uint64_t>(round)), looks);
+  for (int round = 0; round < deltalux::tuning::kEverCloser && !dark(); ++round) {
+    look(light, places, rays / deltalux::tuning::kEverCloser, combineKeys(key, static_cast<std::uint64_t>(round)),
+         looks);
     evaluate(looks);
   }
 }
@@ -139,7 +142,7 @@ void Aim::evaluate(std::vector<Look>& looks) {
 
 /// Whether the quarters bring different light, by more than chance would have it (analysis of variance).
 bool Aim::uneven(const Square& square, std::span<const Look> looks) {
-  if (looks.size() < tuning::kFewestLooks) return false;
+  if (looks.size() < kFewestLooks) return false;
   const Vec2 middle = square.lower + square.size / 2;
   double n[4] = {}, sum[4] = {}, squares = 0;
   for (const Look& l : looks) {
@@ -162,8 +165,8 @@ void Aim::divide(const Square& square, std::span<Look> looks, std::vector<Square
   Square now = square;
   float sum = 0;
   for (const Look& l : looks) sum += l.E * l.E;
-  now.strength = std::sqrt((sum + tuning::kDoubt * square.guess * square.guess) /
-                           (static_cast<float>(looks.size()) + tuning::kDoubt));
+  now.strength = std::sqrt((sum + tuning::kPrior * square.guess * square.guess) /
+                           (static_cast<float>(looks.size()) + tuning::kPrior));
   if (now.share() < deltalux::tuning::kNegligible * total() || !uneven(square, looks)) {
     for (const Look& l : looks) kept.push_back({static_cast<std::uint32_t>(squares.size()), l.u, l.E});
     squares.push_back(now);
@@ -201,9 +204,9 @@ ProbeResult measure(const PointSampler& light, std::span<const Source> sources, 
                     const Rgb& ambient, double error, int maxSamples, std::uint64_t key) {
   ProbeResult result;
   Aim aim(sources);
-  aim.learn(light, {&x, 1}, tuning::kLearnAtPoint, combineKeys(key, 1));
-  aim = aim.at(sources, level / tuning::kBatch,
-               tuning::kBatch);  // no ray may outweigh a whole estimate: few of them would not know
+  aim.learn(light, {&x, 1}, kLearnAtPoint, combineKeys(key, 1));
+  aim = aim.at(sources, level / tuning::kEstimateRays,
+               tuning::kEstimateRays);  // no ray may outweigh a whole estimate: few of them would not know
   if (aim.dark()) return result;
   BatchMean mean;
   while (mean.count() < deltalux::tuning::kFewestEstimates || result.samples < static_cast<std::uint64_t>(maxSamples)) {

@@ -16,9 +16,14 @@
 #include <vector>
 
 #include "base/sobol.hpp"
+#include "base/tuning.hpp"
 #include "direct/point_light.hpp"
+#include "direct/sky_light.hpp"
 
 namespace deltalux::direct {
+
+/// Rays that a point of its own learns from: one a cell of the sphere in each round.
+inline constexpr int kLearnAtPoint = deltalux::tuning::kEverCloser * SkyCells::kCount;
 
 class Aim {
  public:

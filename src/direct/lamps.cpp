@@ -17,7 +17,7 @@ struct Beam {
 };
 
 Beam beamOf(const scene::LightSampler& sampler, LightId id, const Vec3& axis, const auto& intensity) {
-  constexpr int kRings = tuning::kBeamRings, kAround = deltalux::tuning::kPilots;
+  constexpr int kRings = deltalux::tuning::kPolarAngles, kAround = deltalux::tuning::kPilots;
   const Frame frame(axis);
   std::array<double, kRings + 1> brightest{};
   Beam beam;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/tuning.hpp"
+#include "base/usual_error.hpp"
 #include "direct/open_light.hpp"
 #include "direct/tuning.hpp"
 #include "hierarchy/leaf_sequence.hpp"
@@ -18,8 +19,7 @@ static_assert(tuning::kRays <= kMostPoints);
 
 /// In inverse proportion to the error: the area where rays disagree shrinks with the mesh as well.
 int raysFor(double error, int normal) {
-  return std::clamp(static_cast<int>(std::lround(normal * deltalux::tuning::kUsualError / error)), 1,
-                    kMostPoints - tuning::kSunPilots);
+  return std::clamp(static_cast<int>(std::lround(normal * kUsualError / error)), 1, kMostPoints - tuning::kSunPilots);
 }
 
 }  // namespace
@@ -143,7 +143,7 @@ DirectSampler::DirectSampler(const hierarchy::Elements& elements, const Scene& s
       mixedRays_(raysFor(error, tuning::kRays)),
       mixedSunRays_(std::max(tuning::kRays, raysFor(error, kMostPoints - tuning::kSunPilots))),
       openDrawn_(raysFor(error, tuning::kRays)),
-      mixedDrawn_(raysFor(error, tuning::kManyRays)) {}
+      mixedDrawn_(raysFor(error, deltalux::tuning::kFewestEstimates)) {}
 
 namespace {
 

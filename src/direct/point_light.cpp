@@ -61,8 +61,8 @@ PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer)
       looks_[c][static_cast<std::size_t>(corner)] = SkyCells::direction(cell, corner & 1, corner >> 1);
   }
   const auto place = [](int cell) {
-    return morton(static_cast<std::uint32_t>(cell % tuning::kSkySide),
-                  static_cast<std::uint32_t>(cell / tuning::kSkySide));
+    return morton(static_cast<std::uint32_t>(cell % SkyCells::kSide),
+                  static_cast<std::uint32_t>(cell / SkyCells::kSide));
   };
   std::sort(curve_.begin(), curve_.end(), [&](int a, int b) { return place(a) < place(b); });
 }

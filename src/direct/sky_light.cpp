@@ -14,7 +14,7 @@ namespace deltalux::direct {
 
 namespace {
 
-constexpr int kHeights = tuning::kSkySide, kAzimuths = tuning::kSkySide;
+constexpr int kHeights = SkyCells::kSide, kAzimuths = SkyCells::kSide;
 constexpr std::uint64_t kSkyKey = 0x736b795f5f5full;  // [key]
 
 /// Power of two nearest to a share, none of less than matters.
@@ -102,7 +102,7 @@ SkyVisibility::GuidedLeaves SkyVisibility::placeGuides(const hierarchy::Elements
   guideOf_.resize(leaves.size());
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     hierarchy::ElementId e = leaves[i];
-    while (below[e.index()] < tuning::kGuideLines && elements.at(e).parent.valid()) e = elements.at(e).parent;
+    while (below[e.index()] < kGuideLines && elements.at(e).parent.valid()) e = elements.at(e).parent;
     if (guide[e.index()] == hierarchy::LeafTable::kNone) guide[e.index()] = static_cast<std::uint32_t>(guides_++);
     guideOf_[i] = guide[e.index()];
   }
@@ -114,13 +114,14 @@ SkyVisibility::GuidedLeaves SkyVisibility::placeGuides(const hierarchy::Elements
   return guided;
 }
 
-/// Few lines in all guide nothing: each would tell where rays go that it is balanced with, and
-/// count for less by that.
+/// Few lines in all guide nothing: each would tell where rays go that it is balanced with, and count for less by that.
 void SkyVisibility::setShares(std::size_t guide, const Counts& counts) {
-  const bool few = std::accumulate(counts.all.begin(), counts.all.end(), 0.0f) < tuning::kGuideLines;
+  const bool few = std::accumulate(counts.all.begin(), counts.all.end(), 0.0f) < kGuideLines;
   for (std::size_t c = 0; c < SkyCells::kCount; ++c)
     share_[guide * SkyCells::kCount + c] =
-        few ? 1.0f : octave((counts.open[c] + tuning::kOpenPrior) / (counts.all[c] + tuning::kLinesPrior));
+        few ? 1.0f
+            : octave((counts.open[c] + deltalux::tuning::kDefensive * tuning::kPrior) /
+                     (counts.all[c] + tuning::kPrior));
   std::uint64_t key = 0;
   for (std::size_t c = 0; c < SkyCells::kCount; ++c)
     key = combineKeys(key, std::bit_cast<std::uint32_t>(share_[guide * SkyCells::kCount + c]));

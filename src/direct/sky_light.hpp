@@ -9,6 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "base/tuning.hpp"
 #include "direct/tuning.hpp"
 #include "hierarchy/leaf_table.hpp"
 #include "hierarchy/tuning.hpp"
@@ -19,7 +20,8 @@ namespace deltalux::direct {
 
 /// The sphere in cells of equal solid angle: heights times azimuths.
 struct SkyCells {
-  static constexpr int kCount = tuning::kSkySide * tuning::kSkySide;
+  static constexpr int kSide = 1 << deltalux::tuning::kSkyHalvings / 2;  // along height, and as many around [defined]
+  static constexpr int kCount = kSide * kSide;
   static int of(const Vec3f& direction);
   static Vec3f direction(int cell, double a, double b);
   static constexpr double solidAngle() { return 4 * kPi / kCount; }
@@ -33,6 +35,9 @@ struct SkyCells {
     return sum;
   }
 };
+
+/// Lines that tell visibility below one element: a first idea of each cell.
+inline constexpr int kGuideLines = deltalux::tuning::kPilots * SkyCells::kCount;
 
 /// All skies of a scene, at their nominal scales where all of them are dimmed alike.
 class Skies {

@@ -2,24 +2,20 @@
 // The tuned constants of direct light by keyed shadow rays: purpose, unit, normal value, and what breaks.
 #include <cstddef>
 
-#include "base/tuning.hpp"
-
 namespace deltalux::direct::tuning {
 
 /// Shadow rays of a leaf at the usual error: to the sun, to a lamp where rays disagree, to those that are drawn; and
 /// points that the unshadowed light of a lamp is averaged over. Fewer: shadows are grainy, and light near lamps.
 constexpr int kRays = 16;
-/// The same to a sky, and to lamps that are drawn where rays disagree. Fewer: grain beside windows, and where many
-/// faint lamps shine.
-constexpr int kManyRays = 32;
 /// Rays to the sun that tell whether others disagree: where they do, all that a patch has points for. Fewer: penumbrae
 /// and edges of sunlight are grainy.
 constexpr int kSunPilots = 8;
-/// The same to a lamp, and how many where all agree. As many as tell whether others are worth it are taken of those
-/// that are drawn, and left where none of these passes. One is enough where it hardly matters, or where all rays of the
-/// patch have missed it that this one is a part of. At a patch that is kept as none of all before has seen the lamp, as
-/// many again, and twice as many where it may bring most of what is not known. Fewer: lamps' shadows are grainy; edges
-/// of light are noticed late; specks where light comes through narrow gaps. More: rays at walls.
+/// The same to a lamp, and how many where all agree. As many as tell whether others are
+/// worth it are taken of those that are drawn, and left where none of these passes. One is enough where it hardly
+/// matters, or where all rays of the patch have missed it that this one is a part of. At a patch that is kept as none
+/// of all before has seen the lamp, as many again, and twice as many where it may bring most of what is not known.
+/// Fewer: lamps' shadows are grainy; edges of light are noticed late; specks where light comes through narrow gaps.
+/// More: rays at walls.
 constexpr int kLampPilots = 3, kLampRays = 4;
 /// A lamp matters where, unshadowed, it brings more than this share of what has been found; one that is asked first, of
 /// what all may bring; less of a sky's cell is not told from it. Higher: faint lamps' shadows are lost.
@@ -43,33 +39,18 @@ constexpr double kNarrow = 1.0;
 /// Light below which variation is not looked for, in shares of the scene's mean irradiance.
 constexpr double kFloor = 0.02;
 
-/// Cells of the sphere that visibility estimates are kept by: along height, and as many around. Fewer: rays beside the
-/// window. More: cells that hardly any line tells of.
-constexpr int kSkySide = 16;
-/// Polar angles that the width of a lamp's beam is found by. Fewer: narrow beams are taken for wide.
-constexpr int kBeamRings = 48;
-/// Lines that tell visibility below one element: a first idea of each cell. Fewer: guides of chance.
-constexpr int kGuideLines = deltalux::tuning::kPilots * kSkySide * kSkySide;
-/// Prior of a cell's visibility estimate: lines, and those of them that leave the scene. Less: what few lines have seen
-/// is believed, and slots get no rays.
-constexpr float kLinesPrior = 2, kOpenPrior = 0.1f;
+/// Lines or rays that what was thought before counts for: of what is seen of a cell of the sky, of the light of a
+/// square of a source. Fewer: a few by chance take it for dark, and slots get no rays. More: where light comes from is
+/// learned late.
+constexpr float kPrior = 2;
 
 /// Most that one shadow ray of a point may bring where its light is thought to be hidden, in shares of the light there,
 /// and how many times as many rays that may cost. Higher: white specks. Lower: rays into what is hidden.
 constexpr float kSpeck = 8;
 constexpr float kMostGrowth = 1.5f;
-/// Rounds of learning where light comes from, each looking where the one before saw it; a point of its own learns from
-/// a ray a cell of the sphere in each. Fewer: grain beside windows and in penumbrae.
-constexpr int kLearningRounds = 3;
-constexpr int kLearnAtPoint = kLearningRounds * kSkySide * kSkySide;
 /// Most of a point's rays that one square of a source gets. More: where the sun is hidden, all else is grain.
 constexpr float kMostShare = 0.25f;
-/// Rays that what was thought of a square before counts for. Fewer: a few rays by chance take it for dark.
-constexpr float kDoubt = 2;
-/// A square is divided from so many rays on; not where it gets a negligible share of all rays. Fewer: squares by
-/// chance. More: rays at the wall around the window.
-constexpr std::size_t kFewestLooks = 6;
 /// Rays of one independent estimate of a meter. Fewer: standard errors by chance.
-constexpr int kBatch = 64;
+constexpr int kEstimateRays = 64;
 
 }  // namespace deltalux::direct::tuning

@@ -1,5 +1,4 @@
 #include "engine/energy_balance.hpp"
-#include "engine/tuning.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,8 @@
 #include "base/cosine_direction.hpp"
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
+#include "base/square.hpp"
+#include "base/tuning.hpp"
 #include "hierarchy/leaf_sequence.hpp"
 #include "hierarchy/side_locator.hpp"
 #include "lines/lines.hpp"
@@ -17,9 +18,12 @@ namespace deltalux::engine {
 
 namespace {
 
-constexpr std::size_t kBlock = 1024;                   // [task]
-constexpr int kPanes = 64;                             // [limit]
-constexpr std::uint64_t kKey = 0x62616c616e63657aull;  // [key]
+constexpr std::size_t kBlock = 1024;  // [task]
+constexpr int kPanes = 64;            // [limit]
+/// Rays that measure what particles bring, and lines that measure where light ends: their noise is negligible.
+constexpr auto kLedgerSamples =
+    static_cast<std::size_t>(1 / square(double(deltalux::tuning::kNegligible)));  // [defined]
+constexpr std::uint64_t kKey = 0x62616c616e63657aull;                             // [key]
 
 struct Surfaces {
   RgbSum direct{0.0}, absorbed{0.0};  // [W]
@@ -98,7 +102,7 @@ Outcome diffuseLight(const Solution& s) {
   const hierarchy::Elements& elements = s.elements;
   const auto whole = [&](std::size_t e) { return double(elements.geometry[e].area); };
   Outcome all =
-      ofSentLight(elements, tuning::kLedgerSamples, whole, [&](hierarchy::ElementId leaf, RgbSum flux, std::size_t i) {
+      ofSentLight(elements, kLedgerSamples, whole, [&](hierarchy::ElementId leaf, RgbSum flux, std::size_t i) {
         const auto index = static_cast<std::uint32_t>(i);
         const UnitPair at = scrambledSobol(index, kKey), to = scrambledSobol(index, ~kKey);
         const hierarchy::PatchPoint x = hierarchy::samplePatch(elements, s.scene, leaf, at.x, at.y);
@@ -145,23 +149,22 @@ Outcome lineLight(const Solution& s) {
   const lines::SurfaceResponses responses(s.scene, !s.settings.diffuseOnly);
   const lines::LineTracer tracer(s.scene, *s.tracer, responses);
   const auto open = [&](std::size_t e) { return double(elements.geometry[e].litArea()); };
-  return ofSentLight(
-      elements, tuning::kLedgerSamples, open, [&](hierarchy::ElementId leaf, const RgbSum& flux, std::size_t i) {
-        Outcome outcome;
-        const std::span<const std::uint32_t> ends = s.lines.endsOf(leaf);
-        const auto count = static_cast<std::uint32_t>(ends.size());
-        if (count == 0) return outcome;
-        // The next of its lines that is there.
-        auto k = static_cast<std::uint32_t>(toUnit(combineKeys(kKey, i)) * count);
-        for (std::uint32_t tries = 0; tries < count && ends[k] == lines::kCovered; ++tries) k = (k + 1) % count;
-        const hierarchy::LeafSequence points(elements, s.scene, leaf);
-        const hierarchy::PatchPoint x = points.point(k);
-        const lines::LineEnd end = tracer.follow(x.position, x.normal, lines::LineDirections(points.key())(k, x.normal),
-                                                 lines::LineDirections::random(points.key(), k));
-        outcome.panes = flux * RgbSum(end.absorbed);
-        if (end.termination == lines::LineTermination::Escaped) outcome.escaped = flux * RgbSum(end.weight);
-        return outcome;
-      });
+  return ofSentLight(elements, kLedgerSamples, open, [&](hierarchy::ElementId leaf, const RgbSum& flux, std::size_t i) {
+    Outcome outcome;
+    const std::span<const std::uint32_t> ends = s.lines.endsOf(leaf);
+    const auto count = static_cast<std::uint32_t>(ends.size());
+    if (count == 0) return outcome;
+    // The next of its lines that is there.
+    auto k = static_cast<std::uint32_t>(toUnit(combineKeys(kKey, i)) * count);
+    for (std::uint32_t tries = 0; tries < count && ends[k] == lines::kCovered; ++tries) k = (k + 1) % count;
+    const hierarchy::LeafSequence points(elements, s.scene, leaf);
+    const hierarchy::PatchPoint x = points.point(k);
+    const lines::LineEnd end = tracer.follow(x.position, x.normal, lines::LineDirections(points.key())(k, x.normal),
+                                             lines::LineDirections::random(points.key(), k));
+    outcome.panes = flux * RgbSum(end.absorbed);
+    if (end.termination == lines::LineTermination::Escaped) outcome.escaped = flux * RgbSum(end.weight);
+    return outcome;
+  });
 }
 
 struct Specular {

@@ -5,8 +5,8 @@
 #include "base/check.hpp"
 #include "base/check_interrupted.hpp"
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 #include "hierarchy/pull.hpp"
-#include "lines/tuning.hpp"
 
 namespace deltalux::engine {
 
@@ -47,7 +47,7 @@ LightColumn columnOf(Solution& s, const LightParts& parts, const LightGroup& gro
   parallelFor(n, kColumnLeaves,
               [&](std::size_t i) { s.elements.radiometry[parts.leaves[i].index()].indirect = Rgb(0.0f); });
   relight(s, parts.leaves, parts.exchange, parts.lamps, parts.sky, dimmingOf(parts, s.scene, scales),
-          lines::tuning::kConverged);
+          deltalux::tuning::kConverged);
   hierarchy::pull(s.elements);
   column.direct.resize(n), column.indirect.resize(n), column.particle.resize(n), column.deviation = s.deviation;
   parallelFor(n, kColumnLeaves, [&](std::size_t i) {

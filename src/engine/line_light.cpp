@@ -12,7 +12,6 @@
 #include "engine/line_solve.hpp"
 #include "engine/relight.hpp"
 #include "lines/line_counts.hpp"
-#include "lines/tuning.hpp"
 #include "solution/sky_visibility.hpp"
 
 namespace deltalux::engine {
@@ -61,7 +60,7 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
     auto& [escaped, points] = scratch.local();
     points.clear();
     // Where lines are so many that they would be their own guides, what they have found by chance would count less.
-    const std::size_t rays = own.count < direct::tuning::kGuideLines ? kEach : 0;
+    const std::size_t rays = own.count < direct::kGuideLines ? kEach : 0;
     const std::span<const std::uint32_t> ends = traced.lines.endsOf(own);
     for (std::uint32_t k = 0; k < ends.size() && points.size() < rays; ++k)
       if (ends[k] != lines::kCovered) points.push_back(k);

@@ -1,16 +1,15 @@
 #include "engine/line_motion.hpp"
-#include "engine/tuning.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 #include "change/known_samples.hpp"
 #include "engine/clock.hpp"
 #include "engine/line_solve.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/pull.hpp"
-#include "lines/tuning.hpp"
 #include "scene/nominal_scale.hpp"
 
 namespace deltalux::engine {
@@ -162,21 +161,21 @@ void LineMotion::follow(Solution& s, const std::function<double()>& secondsLeft)
   bool fewest = true;
   while (waiting_ > 0) {
     const Clock lighting;
-    const double seconds = secondsLeft() - tuning::kPassesOfFrame * pass_.seconds();
+    const double seconds = secondsLeft() - pass_.seconds();
     // Not all at once, so that what a leaf takes is learned while there is time.
     const auto fit = static_cast<std::size_t>(std::max(0.0, 0.5 * seconds) / leaf_.seconds());
-    if (fit < tuning::kFewestLeaves && !fewest) break;
-    const std::vector<std::uint32_t> next = mostWorth(std::max(tuning::kFewestLeaves, fit));
+    if (fit < kLightLeaves && !fewest) break;
+    const std::vector<std::uint32_t> next = mostWorth(std::max(kLightLeaves, fit));
     light(s, lamps, next);
     leaf_.learn(lighting.seconds(), static_cast<double>(next.size()));
     fewest = false;
   }
   do {
     const Clock passing;
-    const lines::IterationReport report = lines::iterate(*s.memory->exchange, light_, lines::tuning::kConverged, 1);
+    const lines::IterationReport report = lines::iterate(*s.memory->exchange, light_, deltalux::tuning::kConverged, 1);
     pass_.learn(passing.seconds());
-    if (gray(report.residual) <= lines::tuning::kConverged * gray(report.emitted)) break;
-  } while (secondsLeft() > tuning::kPassesOfFrame * pass_.seconds());
+    if (gray(report.residual) <= deltalux::tuning::kConverged * gray(report.emitted)) break;
+  } while (secondsLeft() > pass_.seconds());
   parallelFor(leaves_.size(), kMotionLeaves, [&](std::size_t i) {
     hierarchy::ElementLight& l = s.elements.radiometry[leaves_[i].index()];
     l.indirect = light_.indirect[i], l.B = light_.B[i];

@@ -9,14 +9,13 @@
 #include "direct/lamps.hpp"
 #include "engine/relight.hpp"
 #include "engine/scene_update.hpp"
-#include "engine/tuning.hpp"
 #include "lines/iterate.hpp"
 #include "particles/transfer.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::engine {
 
-/// Seconds that a kind of work takes, by what it took before.
+/// Seconds that a kind of work takes, by what it took last.
 class LearnedCost {
  public:
   explicit LearnedCost(double guess) : seconds_(guess) {}
@@ -24,7 +23,7 @@ class LearnedCost {
   double seconds() const { return seconds_; }
   /// `count` pieces took so long.
   void learn(double seconds, double count = 1) {
-    if (count > 0) seconds_ += tuning::kNewCost * (seconds / count - seconds_);
+    if (count > 0) seconds_ = seconds / count;
   }
 
  private:

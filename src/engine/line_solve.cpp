@@ -15,7 +15,6 @@
 #include "hierarchy/patch.hpp"
 #include "hierarchy/pull.hpp"
 #include "lines/line_counts.hpp"
-#include "lines/tuning.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/particle_tracing.hpp"
 #include "scene/nominal_scale.hpp"
@@ -73,7 +72,7 @@ bool traceParticles(Solution& s, const TimeBudget& budget) {
   const particles::ParticleSettings settings = particleSettings(s.settings);
   const std::uint64_t wanted = settings.count;
   particles::ParticleTracing tracing(s.scene, *s.tracer, settings);
-  s.particles = budget.limited() ? tracing.traceWithin(tuning::kParticleTime * budget.seconds()) : tracing.trace();
+  s.particles = budget.limited() ? tracing.traceWithin(budget.share()) : tracing.trace();
   DELTALUX_VALIDATED(validate(s.particles, s.scene));
   return tracing.count() >= wanted;
 }
@@ -223,7 +222,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
   checkInterrupted(progress);
   const bool meshed = refineMesh(x, receivingInputs(s.elements), [&] {
     checkInterrupted(progress);
-    return budget.limited() && budget.left() < (1 - tuning::kMeshTime) * budget.seconds();
+    return budget.limited() && budget.left() < budget.share();
   });
   if (!budget.up()) refineForParticles(x);
   hierarchy::forgetFolded(s.elements);
@@ -250,8 +249,7 @@ bool solveFinely(LineSolve& x, const TimeBudget& budget, Progress* progress) {
   if (x.known) x.sky = x.known->takeSky(), x.exchange = x.known->takeExchange();
   lines::TracedLines traced = traceLeaves(x, base, &KnownSolve::takeLines, progress);
   if (scales != x.nominal) x.transfer->apply(s.elements, scales);
-  lightLeaves(x, std::move(traced), Dimming::of(s.scene, x.skies),
-              x.known ? deltalux::tuning::kConvergedAgain : lines::tuning::kConverged, progress);
+  lightLeaves(x, std::move(traced), Dimming::of(s.scene, x.skies), deltalux::tuning::kConverged, progress);
   hierarchy::pull(s.elements);
   if (s.settings.byLight) keepColumns(x, progress);
   DELTALUX_VALIDATED(validate(s.elements));

@@ -1,9 +1,9 @@
 #include "engine/moving_groups.hpp"
-#include "engine/tuning.hpp"
 
 #include <algorithm>
 
 #include "base/sort_unique.hpp"
+#include "base/tuning.hpp"
 
 namespace deltalux::engine {
 
@@ -19,7 +19,7 @@ void MovingGroups::separate(tracing::RayTracer& tracer, const Scene& scene, std:
 }
 
 void MovingGroups::setApart(tracing::RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> primitives) {
-  if (separated_ == tuning::kMostGroups) {
+  if (separated_ == deltalux::tuning::kBoxes) {
     tracer.rejoin();
     groups_.clear(), separated_ = 0;
   }

@@ -68,7 +68,7 @@ void Engine::State::prepare(Progress* progress) {
   DELTALUX_VALIDATED(validate(s.elements));
   s.report.counts.raysVisibility += coarse.rays;
   s.report.times.hierarchy += time.seconds() - s.report.times.particles;
-  nextError = linkSettings().error * engine::tuning::kFirstError;
+  nextError = paper::firstError(linkSettings().error);
   if (progress) progress->report("hierarchy", 1.0);
 }
 
@@ -79,8 +79,7 @@ void Engine::State::trace() {
   const particles::ParticleSettings settings = engine::particleSettings(s.settings);
   incremental.reset();
   tracing.emplace(s.scene, *s.tracer, settings);
-  s.particles =
-      budget.limited() ? tracing->traceWithin(engine::tuning::kParticleTime * budget.seconds()) : tracing->trace();
+  s.particles = budget.limited() ? tracing->traceWithin(budget.share()) : tracing->trace();
   curtailed = tracing->count() < settings.count;
   if (curtailed) s.settings.particles = tracing->count();  // updates trace as many
   DELTALUX_VALIDATED(validate(s.particles, s.scene));

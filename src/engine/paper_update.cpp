@@ -1,15 +1,16 @@
 // Updates over links (paper/update.hpp): their stages in order. [GD01 4, 5]
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/check.hpp"
 #include "engine/state.hpp"
-#include "engine/tuning.hpp"
 #include "hierarchy/build.hpp"
 #include "hierarchy/input_level.hpp"
 #include "paper/texture_update.hpp"
 #include "particles/mesh_for_particles.hpp"
 #include "particles/side_index.hpp"
+#include "scene/tuning.hpp"
 
 namespace deltalux {
 
@@ -88,7 +89,8 @@ bool Engine::State::outshines(const engine::SceneUpdate& edits) const {
   const Solution& s = *solution;
   return std::any_of(edits.dimmed.begin(), edits.dimmed.end(), [&](LightId light) {
     return light.index() >= s.sampledScale.size() ||  // it was not there
-           gray(s.scene[light].scale) > engine::tuning::kBrighter * gray(s.sampledScale[light.index()]);
+           gray(s.scene[light].scale) >
+               std::ldexp(1.0, scene::tuning::kNominalOctaves) * gray(s.sampledScale[light.index()]);
   });
 }
 

@@ -14,6 +14,8 @@ class TimeBudget {
 
   bool limited() const { return seconds_ > 0; }
   double seconds() const { return seconds_; }
+  /// What particles, the mesh, and lines or links may take each.
+  double share() const { return seconds_ / 3; }
   /// Whether the time is up: what is left to do is done in short.
   bool up() const { return limited() && left() < 0; }
   double left() const {

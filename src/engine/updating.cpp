@@ -6,10 +6,8 @@
 #include "base/tuning.hpp"
 #include "engine/particle_settings.hpp"
 #include "engine/state.hpp"
-#include "engine/tuning.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/pull.hpp"
-#include "lines/tuning.hpp"
 #include "scene/nominal_scale.hpp"
 
 namespace deltalux {
@@ -110,7 +108,7 @@ void Engine::State::relightOverLines(const engine::Dimming& dimming) {
   const hierarchy::LeafTable leaves(s.elements);
   const SolveMemory& memory = *s.memory;
   engine::relight(s, leaves, *memory.exchange, engine::lampsOf(memory.samples, memory.dim, leaves), memory.sky, dimming,
-                  deltalux::tuning::kConvergedAgain);
+                  deltalux::tuning::kConverged);
   hierarchy::pull(s.elements);
 }
 

@@ -71,7 +71,7 @@ std::uint32_t FaceOrder::middleOf(const FaceRange& r) const {
 }
 
 std::vector<FaceRange> FaceOrder::inputs() const {
-  const std::uint32_t most = std::max(faces() / tuning::kInputs, tuning::kFewestOfInput);
+  const std::uint32_t most = std::max(faces() / tuning::kInputs, tuning::kInputs);
   std::vector<FaceRange> done, open{{0, faces()}};
   while (!open.empty()) {
     const FaceRange r = open.back();
@@ -117,7 +117,7 @@ std::vector<FaceOrder> faceOrders(const Scene& scene) {
   for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
     const PrimitiveId primitive(i);
     const auto* mesh = std::get_if<Mesh>(&scene::edits::restShape(scene, primitive));
-    if (mesh && mesh->triangles.size() >= 2 * tuning::kFewestOfInput) orders.emplace_back(primitive, *mesh);
+    if (mesh && mesh->triangles.size() >= 2 * tuning::kInputs) orders.emplace_back(primitive, *mesh);
   }
   return orders;
 }

@@ -56,8 +56,7 @@ void pullIrradiance(Elements& elements, std::size_t i) {
   ElementLight& light = elements.radiometry[i];
   if (t.childCount == 0) {
     // The first estimate is free of the leaks that a coarse solution has, so it bounds what may be tolerated.
-    light.tolerance = std::clamp(gray(light.direct + light.indirect + light.particle), tuning::kDarkest * light.typical,
-                                 tuning::kBrightest * light.typical);
+    light.tolerance = std::max(gray(light.direct + light.indirect + light.particle), tuning::kDarkest * light.typical);
     return;
   }
   RgbSum direct(0.0), indirect(0.0), particle(0.0);

@@ -25,15 +25,15 @@ constexpr double kWall = 0.2;
 /// Points along each parameter of a curved patch, or of a part or a cell of the sky, that bound it and tell its mean.
 /// Fewer: loose bounds, normals that are off, and bright spots that are missed. More: time in the square.
 constexpr int kGrid = 8;
-/// Patches of the input level that one thing is worth: a mesh of no more faces may be the polygons that it is made of;
-/// one that is fine has at least as many, but for so many faces in each, and is fine where it has two. Fewer, more:
-/// coarse light on statues. More, fewer: time and memory for all that is of many triangles.
-constexpr std::uint32_t kInputs = 64, kFewestOfInput = 256;
+/// Patches of the input level that one thing is worth, and faces of one at least: a mesh of no more faces may be the
+/// polygons that it is made of; one that is fine has at least as many patches, but for as many faces in each, and is
+/// fine where it has two. Fewer: coarse light on statues. More: time and memory for all that is of many triangles.
+constexpr std::uint32_t kInputs = 128;
 /// Share of what a closed cavity of such patches would send, that one may be given back. More: light between facing
 /// patches grows without end. Less: halls of white plaster are too dark.
 constexpr float kMostReturned = 0.98f;
-/// Tolerance of a leaf relative to its surface's first estimate; and light below which changes are compared with that,
-/// relative to the mean. Lower: work in dark corners. Higher: leaks and what has changed stay.
-constexpr float kDarkest = 0.1f, kBrightest = 2.0f;
+/// Least tolerance of a leaf relative to its surface's first estimate; and light below which changes are compared with
+/// that, relative to the mean. Lower: work in dark corners. Higher: leaks and what has changed stay.
+constexpr float kDarkest = 0.1f;
 
 }  // namespace deltalux::hierarchy::tuning

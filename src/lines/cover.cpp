@@ -2,14 +2,17 @@
 
 #include <algorithm>
 
-#include "lines/tuning.hpp"
 #include "scene/stops_light.hpp"
 
 namespace deltalux::lines {
 
 namespace {
 
-float reachAt(const Vec3f& p) { return tuning::kContact * 1e-6f * std::max(tracing::largestCoordinate(p), 1e-6f); }
+/// Distance at which a surface that lies on another covers it, relative to coordinates: eight times what the origin of
+/// a ray is off by, so that rugs at floor level cover the floor.
+constexpr float kContact = 8e-6f;  // [rounding]
+
+float reachAt(const Vec3f& p) { return kContact * std::max(tracing::largestCoordinate(p), 1e-6f); }
 
 std::vector<BoxF> boxesOf(const Scene& scene) {
   std::vector<BoxF> boxes;

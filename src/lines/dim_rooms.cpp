@@ -7,6 +7,7 @@
 
 #include "base/disjoint_sets.hpp"
 #include "base/parallel.hpp"
+#include "base/usual_error.hpp"
 #include "lines/tuning.hpp"
 
 namespace deltalux::lines {
@@ -14,6 +15,8 @@ namespace deltalux::lines {
 namespace {
 
 constexpr std::size_t kRoomLeaves = 1024;  // of a task [task]
+/// Lines that shall lead out of a room: as many as have the usual error.
+constexpr double kWaysOut = 1 / (kUsualError * kUsualError);  // [defined]
 
 /// So many of the first lines of each leaf, and where those are that they end on.
 struct FirstOfLeaves {
@@ -61,7 +64,7 @@ struct Room {
   double area = 0, lines = 0, ways = 0;
 
   double wanted() const {
-    return ways > 0 ? lines * std::max(1.0, tuning::kDimWays / ways) : std::max(lines, tuning::kClosedLines);
+    return ways > 0 ? lines * std::max(1.0, kWaysOut / ways) : std::max(lines, tuning::kClosedLines);
   }
 };
 
@@ -106,7 +109,7 @@ DimCounts dimCounts(const TracedLines& traced, const hierarchy::LeafTable& leave
   }
   // In octaves, so that small changes leave nearly all leaves' lines as they are; by so many less, all of them, that
   // they are not too many.
-  const double most = std::max(tuning::kDimShare * lines, tuning::kDimFree - lines);
+  const double most = std::max(tuning::kDimShare * lines, tuning::kClosedLines - lines);
   DimCounts counts{std::vector<std::uint32_t>(n, 0)};
   for (double share = 1, added = kInfinity; added > most; share /= 2) {
     added = 0, counts.told = true;

@@ -28,7 +28,7 @@ namespace deltalux::lines {
 
 /// How much the factor of a leaf's exchange may differ from what an update goes on with, relative: as much as its
 /// iteration leaves of light.
-inline constexpr auto kFollowed = static_cast<float>(deltalux::tuning::kConvergedAgain);
+inline constexpr auto kFollowed = static_cast<float>(deltalux::tuning::kConverged);
 
 /// s / e times radiosity, as wide as registers.
 struct alignas(16) LeafRecord {

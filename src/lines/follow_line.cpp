@@ -1,6 +1,6 @@
 #include "lines/follow_line.hpp"
 
-#include "lines/tuning.hpp"
+#include "base/tuning.hpp"
 
 namespace deltalux::lines {
 
@@ -51,7 +51,7 @@ LineEnd LineTracer::follow(tracing::Ray ray, tracing::Hit hit, Rng random, std::
       end.absorbed += end.weight * (Rgb(1.0f) - surface.passage - surface.specular.reflection.reflectance -
                                     surface.specular.transmission.reflectance);
     }
-    const bool last = events >= tuning::kMostEvents;
+    const bool last = events >= deltalux::tuning::kRouletteFrom;
     const double choice = surface.ends >= 1 ? 0.0 : random.uniform();
     if (choice < surface.ends) {
       if (!end.turned) end.distance = passed + hit.t;

@@ -6,16 +6,19 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
+#include "base/usual_error.hpp"
 #include "hierarchy/below.hpp"
 #include "hierarchy/outline.hpp"
 #include "hierarchy/patch.hpp"
-#include "lines/tuning.hpp"
 
 namespace deltalux::lines {
 
 namespace {
 
 constexpr std::size_t kLeafBlock = 1024;  // [task]
+/// Most that a leaf's radiosity changes in the last pass, relative.
+constexpr double kLeafConverged = deltalux::tuning::kChangeMatters * kUsualError;
 
 /// The faces of a fine mesh that a patch holds, or is part of.
 hierarchy::FaceRange facesAround(const hierarchy::Elements& elements, hierarchy::ElementId patch,
@@ -91,6 +94,20 @@ struct Sent {
   double mean() const { return area > 0 ? power / area : 0; }
 };
 
+/// What all passes to come will change, each less than the last by the same factor.
+class PowerToCome {
+ public:
+  double after(double changed) {
+    if (changed < last_) factor_ = changed / last_;
+    last_ = changed;
+    if (!(changed > 0)) return 0;
+    return factor_ < 1 ? changed * factor_ / (1 - factor_) : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  double last_ = 0, factor_ = 1;
+};
+
 /// Radiosity of a leaf by the irradiance of either side.
 Rgb reflected(const LeafLight& light, std::uint32_t i) {
   Rgb B = light.rho[i] * (light.source[i] + light.indirect[i]);
@@ -111,7 +128,7 @@ float relativeChange(const Rgb& before, const Rgb& now, float negligible) {
 std::vector<std::uint32_t> fading(std::span<const Rgb> before, std::span<const Rgb> now) {
   std::vector<std::uint32_t> all;
   for (std::uint32_t i = 0; i < now.size(); ++i)
-    if (relativeChange(before[i], now[i], 0) > tuning::kLeafConverged) all.push_back(i);
+    if (relativeChange(before[i], now[i], 0) > kLeafConverged) all.push_back(i);
   return all;
 }
 
@@ -128,7 +145,7 @@ void iterateLate(Exchange& exchange, LeafLight& light, std::span<const std::uint
                  std::span<const float> negligible) {
   std::vector<Rgb> own(late.size());
   float most = std::numeric_limits<float>::max();
-  for (int pass = 0; pass < kMostPasses && most > tuning::kLeafConverged; ++pass) {
+  for (int pass = 0; pass < kMostPasses && most > kLeafConverged; ++pass) {
     exchange.gatherAmong(late, light.B, light.indirect);
     most = 0;
     for (std::size_t k = 0; k < late.size(); ++k) {
@@ -175,6 +192,7 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     return report;
   }
   exchange.gather(light.B, light.indirect);
+  PowerToCome toCome;
   std::vector<std::uint32_t> late;  // in the end, in the order in which they turned out to be
   std::vector<char> isLate(n, false);
   while (true) {
@@ -182,13 +200,13 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
     const Change change = parallelSum<Change>(n, kLeafBlock, [&](std::size_t i) {
       next[i] = reflected(light, static_cast<std::uint32_t>(i));
       const float relative = relativeChange(light.B[i], next[i], negligible[i]);
-      if (relative > tuning::kLeafConverged) lateOf[i / kLeafBlock].push_back(static_cast<std::uint32_t>(i));
+      if (relative > kLeafConverged) lateOf[i / kLeafBlock].push_back(static_cast<std::uint32_t>(i));
       return Change{double(exchange.area(i)) * RgbSum(glm::abs(next[i] - light.B[i])), relative};
     });
     ++report.passes;
     report.residual = change.power, report.change = change.most;
-    const bool power = gray(report.residual) <= converged * gray(report.emitted),
-               leaves = report.change <= tuning::kLeafConverged;
+    const bool power = toCome.after(gray(report.residual)) <= converged * gray(report.emitted),
+               leaves = report.change <= kLeafConverged;
     if (report.passes == most) break;
     std::vector<std::uint32_t> more;
     if (power && leaves) {

@@ -31,8 +31,8 @@ struct IterationReport {
   double change = 0;     // most of a leaf's radiosity that it changed, relative
 };
 
-/// Passes until the residual is below `converged` times the emitted and no leaf, however dim, has changed by more than
-/// kLeafConverged, or `most` are done.
+/// Passes until what is yet to come is below `converged` times the emitted, as far as they tell, and no leaf, however
+/// dim, has changed by more than a tenth of the usual error, or `most` are done.
 IterationReport iterate(Exchange&, LeafLight&, double converged, int most);
 
 }  // namespace deltalux::lines

@@ -6,6 +6,7 @@
 
 #include "base/square.hpp"
 #include "base/tuning.hpp"
+#include "base/usual_error.hpp"
 #include "hierarchy/tuning.hpp"
 #include "lines/scene_widths.hpp"
 #include "lines/tuning.hpp"
@@ -101,7 +102,7 @@ bool tooWide(const hierarchy::ElementGeometry& g, const LeafScale& scale, double
   const bool wide = scale.mean > room && dim > square(tuning::kDimWidth);
   if (scale.mean <= tuning::kSlot * g.radius && !wide) return false;
   const double wider = std::clamp(1 / std::sqrt(std::max(dim, 1e-12)), 1.0, tuning::kDimWidth);
-  const double finer = wider * std::sqrt(error / deltalux::tuning::kUsualError);
+  const double finer = wider * std::sqrt(error / kUsualError);
   return g.radius > tuning::kWidth * finer * scale.harmonic &&
          g.radius > tuning::kFinestWidth * finer * std::max(scale.mean, g.meanFreePath);
 }

@@ -5,6 +5,7 @@
 
 #include "base/random.hpp"
 #include "base/tuning.hpp"
+#include "base/usual_error.hpp"
 #include "hierarchy/patch.hpp"
 #include "lines/tuning.hpp"
 
@@ -17,7 +18,7 @@ constexpr std::uint64_t kCountKey = 0x636f756e74735f5full;  // [key]
 }  // namespace
 
 std::uint32_t baseLines(double error) {
-  const double lines = tuning::kBaseLines * std::pow(deltalux::tuning::kUsualError / error, 2);
+  const double lines = tuning::kBaseLines * std::pow(kUsualError / error, 2);
   return static_cast<std::uint32_t>(std::clamp(lines, double(deltalux::tuning::kPilots), 65536.0));
 }
 

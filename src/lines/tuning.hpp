@@ -10,16 +10,13 @@ constexpr double kBaseLines = 144;
 /// Octaves of lines below and above the base. Fewer below: narrow places take most of the time. More above: large
 /// leaves do.
 constexpr int kFewestOctaves = -2, kMostOctaves = 4;
-/// Lines that shall lead out of a room that hardly any light reaches, and its lines by which it counts as closed where
-/// none does. Fewer: rooms behind a slot of a millimetre are noise. More: time in the dark.
-constexpr double kDimWays = 400, kClosedLines = 262144;
-/// How many times all other lines those of such rooms may be, or as many as that in scenes of few; bounces that tell
-/// how much light there is; rounds, of which the next knows how many lines lead out. Fewer: as above. More: dark rooms
-/// take most of the time.
-constexpr double kDimShare = 1.0 / 32, kDimFree = 1 << 21;
+/// Lines of a room that hardly any light reaches by which it counts as closed where none leads out, and as many as all
+/// such rooms may have in scenes of few; otherwise how many times all other lines theirs may be. Fewer: rooms behind a
+/// slot of a millimetre are noise. More: dark rooms take most of the time.
+constexpr double kClosedLines = 1 << 20, kDimShare = 1.0 / 32;
+/// Bounces that tell how much light there is in such a room; rounds, of which the next knows how many lines lead out.
+/// Fewer: as above.
 constexpr int kDimBounces = 2, kDimRounds = 2;
-/// Non-diffuse events of a line. Fewer: light between facing mirrors is lost.
-constexpr int kMostEvents = 8;
 /// Least chance that a line ends on what has any diffuse part. Less: the few lines that end on metal weigh much.
 constexpr float kLeastEnding = 0.2f;
 /// Widest leaf, in harmonic mean distances of its lines, at an error of 5 %. Wider: indirect light is smeared out.
@@ -54,10 +51,6 @@ constexpr double kHollow = 0.2;
 /// of what lies close behind something stay dark.
 constexpr double kWidestHollow = 16;
 
-/// Distance at which a surface that lies on another covers it, in roundings of a ray's origin. Less: rugs at floor
-/// level leave the floor lit below them.
-constexpr float kContact = 8;
-
 /// By how much less than they should lines may end on what they meet first. More: of leaves with a handful of lines,
 /// what gloss shows is taken for all around, and runs away. Less: light of glossy rooms is lost.
 constexpr float kMostMissed = 1.25f;
@@ -66,10 +59,5 @@ constexpr float kMostMissed = 1.25f;
 constexpr int kScalingPasses = 8;
 /// Most and least that one leaf's exchange is scaled by. Wider: leaves with a handful of lines run away.
 constexpr float kMostScale = 4;
-/// Power that changes in the last pass, relative to emitted. Larger: halls of white plaster are too dark.
-constexpr double kConverged = 1e-6;
-/// Most that a leaf's radiosity changes in the last pass, relative. Larger: dark rooms beside bright places are not
-/// done.
-constexpr double kLeafConverged = 6e-3;
 
 }  // namespace deltalux::lines::tuning

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "base/tuning.hpp"
 #include "paper/rounding.hpp"
 #include "paper/separation.hpp"
-#include "paper/tuning.hpp"
 
 namespace deltalux::paper {
 
@@ -58,7 +58,7 @@ struct Ends {
 
   void collect(hierarchy::ElementId candidate, Blockers& out, std::size_t begin) const {
     if (!mayBlock(candidate)) return;
-    if (!elements.isCluster(candidate) || out.size() - begin >= tuning::kLongList) {
+    if (!elements.isCluster(candidate) || out.size() - begin >= deltalux::tuning::kPilots) {
       out.push_back(candidate);
       return;
     }

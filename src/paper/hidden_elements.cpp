@@ -154,7 +154,7 @@ class Umbras {
       if (place == Place::Across) candidates_.push_back(candidates_[i]);
     }
     const std::size_t ownEnd = candidates_.size();
-    if (ownEnd > own && !(elements_.isPatch(e) && elements_.at(e).depth >= tuning::kFinestHidden))
+    if (ownEnd > own && !elements_.isPatch(e))
       for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) find(elements_.child(e, i), own, ownEnd);
     candidates_.resize(own);
   }

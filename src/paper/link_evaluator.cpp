@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "base/tuning.hpp"
 #include "paper/kernel.hpp"
 #include "paper/tuning.hpp"
 
@@ -137,7 +138,7 @@ Evaluation LinkEvaluator::evaluateBetween(const hierarchy::Link& before, std::ui
 }
 
 Evaluation LinkEvaluator::pass(const hierarchy::Link& link, const Candidates& candidates) const {
-  if (candidates.count <= tuning::kLongList) return passUnseen(link, candidates);
+  if (candidates.count <= deltalux::tuning::kPilots) return passUnseen(link, candidates);
   Evaluation v;
   v.link = link;
   OwnBlockers(*this, link, candidates, v).list();
@@ -221,7 +222,8 @@ Split LinkEvaluator::choose(const hierarchy::Link& link) const {
 }
 
 bool LinkEvaluator::senderDivisible(hierarchy::ElementId sender) const {
-  if (elements_.isDistant(sender)) return !isSun(sender) && elements_.shape(sender).radius > tuning::kFinestCell;
+  if (elements_.isDistant(sender))
+    return !isSun(sender) && elements_.at(sender).depth < deltalux::tuning::kSkyHalvings / 2;
   return oracle_.divisible(sender);
 }
 
@@ -243,7 +245,7 @@ Split LinkEvaluator::prefer(const hierarchy::Link& link) const {
   if (!(e.total() > e.budget)) return Split::None;
   if (link.receiver == link.sender) return Split::Both;
   if (elements_.isDistant(link.sender)) {
-    if (!isSun(link.sender) && s.radius > tuning::kFinestCell) return Split::Sender;
+    if (senderDivisible(link.sender)) return Split::Sender;
     return Split::Receiver;
   }
   if (elements_.isPoint(link.sender)) return Split::Receiver;

@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "base/tuning.hpp"
-#include "paper/tuning.hpp"
-#include "particles/tuning.hpp"
 
 namespace deltalux::paper {
 
@@ -25,7 +23,8 @@ Vec3f cosineDirection(const Vec3& normal, Rng& rng) {
 SideEstimator::SideEstimator(const Scene& scene, const tracing::RayTracer& tracer, std::size_t sides)
     : scene_(scene),
       tracer_(tracer),
-      rays_(std::max<std::size_t>(tuning::kPathBudget / std::max<std::size_t>(sides, 1), deltalux::tuning::kPilots)) {}
+      rays_(std::max<std::size_t>(deltalux::tuning::kPilotPaths / std::max<std::size_t>(sides, 1),
+                                  deltalux::tuning::kPilots)) {}
 
 double SideEstimator::diagonal() const {
   std::call_once(measured_, [&] { diagonal_ = bounds(scene_).diagonal(); });
@@ -118,7 +117,7 @@ SideEstimate SideEstimator::estimate(const hierarchy::Side& side) const {
       float t = 0;
       Rgb through(1.0f);
       const tracing::Hit hit = look(o, w, rng, through, t);
-      e.rays += 1 + std::min(scene_.lights.size(), tuning::kPickedLights);
+      e.rays += 1 + std::min<std::size_t>(scene_.lights.size(), deltalux::tuning::kPilots);
       if (!hit) {
         for (const Light& light : scene_.lights)
           if (const auto* dome = std::get_if<DomeLight>(&light.emitter))
@@ -169,11 +168,11 @@ Rgb SideEstimator::directAt(const Origin& o, Rng& rng) const {
   // A few lights picked at random stand for all of them.
   const std::size_t lights = scene_.lights.size();
   Rgb sum(0.0f);
-  for (std::size_t k = 0; k < std::min(lights, tuning::kPickedLights); ++k) {
+  const std::size_t picked = std::min<std::size_t>(lights, deltalux::tuning::kPilots);
+  for (std::size_t k = 0; k < picked; ++k) {
     const std::size_t index =
-        lights <= tuning::kPickedLights ? k : static_cast<std::size_t>(rng.uniform() * static_cast<double>(lights));
-    const float weight =
-        lights <= tuning::kPickedLights ? 1.0f : static_cast<float>(lights) / float(tuning::kPickedLights);
+        lights == picked ? k : static_cast<std::size_t>(rng.uniform() * static_cast<double>(lights));
+    const float weight = static_cast<float>(lights) / static_cast<float>(picked);
     sum += weight * fromLight(o, scene_.lights[index], rng);
   }
   return sum;

@@ -1,8 +1,10 @@
 #include "paper/solve.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 #include "paper/gather.hpp"
 #include "paper/push_pull.hpp"
 #include "paper/tuning.hpp"
@@ -23,6 +25,8 @@ OracleSettings oracleSettingsFor(double error) {
   settings.error = tuning::kLinkError * error;
   return settings;
 }
+
+double firstError(double error) { return error / std::pow(tuning::kRounds, deltalux::tuning::kPilotBounces); }
 
 double nextError(double error, double least) { return std::max(least, tuning::kRounds * error); }
 

@@ -11,7 +11,6 @@
 #include "hierarchy/link.hpp"
 #include "paper/oracle.hpp"
 #include "paper/refine.hpp"
-#include "paper/tuning.hpp"
 #include "particles/transfer.hpp"
 
 namespace deltalux::paper {
@@ -27,6 +26,8 @@ struct Parts {
 /// How links are evaluated in the last round, for a relative error of irradiance.
 OracleSettings oracleSettingsFor(double error);
 /// The error of links in the round after one of `error`, of a solve that ends at `least`.
+/// Of the first round, before as many as light takes bounces to give a first idea of it.
+double firstError(double error);
 double nextError(double error, double least);
 
 struct IterationReport {
@@ -39,8 +40,7 @@ struct IterationReport {
 constexpr int kMaxIterations = 1024;  // halls of white plaster converge in some fifty [limit]
 constexpr double kConverged =
     deltalux::tuning::kNegligible;  // residual power between rounds, over what arrives of lights
-constexpr double kConvergedWell =
-    deltalux::tuning::kConvergedAgain;  // the same in the end: dark corners too shall be right
+constexpr double kConvergedWell = deltalux::tuning::kConverged;  // the same in the end: dark corners too shall be right
 
 /// What arrives of lights [W, with the scene's unit squared as area].
 RgbSum directPower(const hierarchy::Elements&);

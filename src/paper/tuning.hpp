@@ -20,21 +20,8 @@ constexpr float kClusterSpread = 0.3f;
 /// Rays of links that bring little, or are split for their kernel; others take twice or four times as many. A list of
 /// no more blockers is looked through before any ray. Fewer: blotchy shadows.
 constexpr int kFewSamples = 4;
-/// Blockers of a list from which on clusters stay closed, and links below do not hand it on. More: time for boxes.
-/// Fewer: rays at what is proven.
-constexpr std::size_t kLongList = 48;
-/// Cells of a sky that are split, before the surface they light [radians]. Larger: soft shadows of windows in steps.
-/// Smaller: links to the sky without end.
-constexpr float kFinestCell = 0.1f;
-/// Paths of all sides together that tell what light there is before any link. Fewer: refined for light that is not
-/// there.
-constexpr std::uint64_t kPathBudget = 1u << 17;
-/// Lights that a vertex of such a path looks at. Fewer: sides below one of many lamps count as dark.
-constexpr std::size_t kPickedLights = 3;
 /// Solid angle of an occluder about the middle of what moved: less hides little. More: work in other rooms. Less: time
 /// for umbrae.
 constexpr double kLeastCovered = 0.05;
-/// Subdivisions of the input level that umbrae tell apart. Fewer, more: as above.
-constexpr int kFinestHidden = 2;
 
 }  // namespace deltalux::paper::tuning

@@ -23,7 +23,7 @@ class Direct {
   Direct(const Scene& scene, const scene::LightSampler& lights) : scene_(scene), lights_(lights) {}
 
   double irradiance(const SurfacePoint& p, const tracing::RayTracer& tracer, Rng& rng, std::uint64_t& rays) {
-    const std::size_t all = scene_.lights.size(), some = std::min(all, tuning::kMostLights);
+    const std::size_t all = scene_.lights.size(), some = std::min<std::size_t>(all, deltalux::tuning::kPilots);
     if (all == 0) return 0;
     const double first = rng.uniform();
     samples_.clear();

@@ -65,7 +65,7 @@ Evaluation evaluated(const LinkEnds& ends, std::uint64_t key, double threshold, 
   PilotSamples pilots;
   const auto splits = [&] {
     const double flux = pilots.flux(most);
-    return divisible && flux > threshold && (near || (pilots.uneven() && flux > tuning::kMuch * threshold));
+    return divisible && flux > threshold && (near || (pilots.uneven() && flux > deltalux::tuning::kPilots * threshold));
   };
   estimate.sample(ends, key, deltalux::tuning::kPilots, pilots, workspace);
   v.split = splits();

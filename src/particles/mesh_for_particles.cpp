@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 #include "hierarchy/patch.hpp"
 #include "hierarchy/side_locator.hpp"
 #include "particles/side_index.hpp"
@@ -116,7 +117,7 @@ std::size_t subdivideForParticles(hierarchy::Elements& elements, const Scene& sc
         sides[sideOf(e)] = collected[sideOf(e)] = unasked = true;
     if (unasked) collect(locator, p, sides, deposits);
     for (const Tally& t : tally(elements, deposits, details))
-      if (t.count >= tuning::kDetail && showsDetail(t, elements.shape(t.leaf).area))
+      if (t.count >= deltalux::tuning::kFewestEstimates && showsDetail(t, elements.shape(t.leaf).area))
         details[t.leaf.index()] = Detail::Shown;
     std::vector<hierarchy::ElementId> parts;
     for (const hierarchy::ElementId e : leaves) {
@@ -177,7 +178,7 @@ std::vector<bool> sidesThatKeepTheirMesh(const Scene& scene, const Particles& p,
   for (const auto& part : parts)
     for (std::size_t side = 0; side < all.size(); ++side) all[side] += part[side];
   for (std::size_t side = 0; side < keep.size(); ++side)
-    keep[side] = !(fresh[side] > tuning::kChangeMatters * all[side]);
+    keep[side] = !(fresh[side] > deltalux::tuning::kChangeMatters * all[side]);
   return keep;
 }
 

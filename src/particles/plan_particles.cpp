@@ -5,7 +5,6 @@
 #include "particles/count_paths.hpp"
 #include "particles/plan_particles.hpp"
 #include "particles/trace.hpp"
-#include "particles/tuning.hpp"
 
 namespace deltalux::particles {
 
@@ -65,7 +64,7 @@ ParticlePlan plan(const Scene& scene, const tracing::RayTracer& tracer, const Pa
   nameSenders(senders, exitance, pilots);
   // Where few arrive each of them is dear.
   const double share = std::min(arrivingShare(links) / deltalux::tuning::kDefensive, 1.0);
-  countPaths(links, share * tuning::kPilotParticles, pilots);
+  countPaths(links, share * deltalux::tuning::kPilotPaths, pilots);
   tracePaths(scene, tracer, emission, settings.maxDepth, pilots);
   exitance = coarseExitance(scene, tracer, lights, senders, depositedFlux(pilots, senders));
   senders.weigh(exitance.perCell);

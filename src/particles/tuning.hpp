@@ -9,13 +9,9 @@ namespace deltalux::particles::tuning {
 /// lines through a box that something has left; and particles that tell what each costs. Fewer: light through small
 /// gaps is overlooked, and time limits are kept by chance. More: time at walls, and late first light.
 constexpr int kMostLooks = 1024;
-/// Shares of the flux of a link that is not refined, from which unevenness counts. More: few particles where caustics
-/// are sharp. Less: many links.
-constexpr double kMuch = 8;
-/// Spread of pilots, relative to their mean, that is worth a refinement. Less, more: as above.
+/// Spread of pilots, relative to their mean, that is worth a refinement. More: few particles where caustics are sharp.
+/// Less: many links.
 constexpr double kUneven = 0.5;
-/// Lights that are sampled at a point of a cell. Fewer: cells that one of many lamps lights are overlooked.
-constexpr std::size_t kMostLights = 64;
 /// Share of the mean around a cell that it is taken to send at least: what its points missed may still be there. Less:
 /// bright specks. More: particles from the dark.
 constexpr double kAround = 0.5;
@@ -25,19 +21,11 @@ constexpr double kNominalReflectance = 0.5;
 /// Cells that the area of the whole scene would make: of receivers, of diffuse senders, and of lamps. Fewer: particles
 /// that miss, and grain. More: time to plan.
 constexpr double kCellsOfScene = 4096, kSenderCells = 1024, kLampCells = 16384;
-/// Particles that find where caustics light diffuse senders. Fewer: their light is sent on by chance.
-constexpr double kPilotParticles = 1 << 15;
 /// Share of what a path began with that is still followed without a question. More: noise. Less: time for little.
 constexpr double kWorth = 0.25;
-/// Impacts in a leaf that is split for them, and of a kernel that edges are looked for with. Fewer: detail that is
-/// noise. More: blurred caustics.
-constexpr std::uint32_t kDetail = 32;
 /// Noise of a histogram counts so much more than for placing particles. Less: leaves that show grain.
 constexpr double kClearly = 1.5;
 /// Depth of sides whose particles textures show: enough to send their light on. More: elements for nothing.
 constexpr int kShownDepth = 5;
-/// Differences that are a change: share of the flux of a side, or of the target error of a texture. More: shadows of
-/// what has moved away. Less: work at every edit.
-constexpr double kChangeMatters = 0.1;
 
 }  // namespace deltalux::particles::tuning

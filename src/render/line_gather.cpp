@@ -2,7 +2,7 @@
 
 #include "base/batch_mean.hpp"
 #include "base/tuning.hpp"
-#include "render/tuning.hpp"
+#include "direct/aim.hpp"
 
 namespace deltalux::rendering {
 
@@ -42,10 +42,10 @@ ProbeResult LineGather::at(const Vec3f& p, const Vec3f& normal, double ambient, 
   hierarchy::ElementId leaf;
   while (mean.count() < deltalux::tuning::kFewestEstimates || result.samples < most) {
     RgbSum own(0.0);
-    for (std::uint32_t k = 0; k < direct::tuning::kBatch; ++k)
+    for (std::uint32_t k = 0; k < direct::tuning::kEstimateRays; ++k)
       own += RgbSum(follow(p, normal, directions, key, static_cast<std::uint32_t>(result.samples) + k, leaf));
-    mean.add(own / double(direct::tuning::kBatch));
-    result.samples += direct::tuning::kBatch;
+    mean.add(own / double(direct::tuning::kEstimateRays));
+    result.samples += direct::tuning::kEstimateRays;
     if (mean.count() >= deltalux::tuning::kFewestEstimates &&
         gray(mean.standardError()) <= error * (gray(mean.mean()) + ambient))
       break;

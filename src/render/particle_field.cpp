@@ -95,10 +95,10 @@ void ParticleField::search(std::uint32_t begin, std::uint32_t end, Query& q) con
   const Vec3f p(q.position), d = l.position - p;
   const auto nearer = [](const Neighbour& a, const Neighbour& b) { return a.squared < b.squared; };
   const float squared = glm::dot(d, d);
-  if (q.found.size() < tuning::kMostParticles || squared < q.found.front().squared) {
+  if (q.found.size() < kMostParticles || squared < q.found.front().squared) {
     q.found.push_back({squared, middle});
     std::push_heap(q.found.begin(), q.found.end(), nearer);
-    if (q.found.size() > tuning::kMostParticles) {
+    if (q.found.size() > kMostParticles) {
       std::pop_heap(q.found.begin(), q.found.end(), nearer);
       q.found.pop_back();
     }
@@ -106,9 +106,7 @@ void ParticleField::search(std::uint32_t begin, std::uint32_t end, Query& q) con
   const float across = d[static_cast<int>(l.axis)];
   const auto lower = [&] { search(begin, middle, q); };
   const auto upper = [&] { search(middle + 1, end, q); };
-  const auto reachable = [&] {
-    return q.found.size() < tuning::kMostParticles || across * across < q.found.front().squared;
-  };
+  const auto reachable = [&] { return q.found.size() < kMostParticles || across * across < q.found.front().squared; };
   if (across > 0) {
     lower();
     if (reachable()) upper();
@@ -123,11 +121,11 @@ Rgb ParticleField::at(PrimitiveId primitive, bool front, const Vec3& position, c
   if (begin_[group] == begin_[group + 1]) return Rgb(0.0f);
   Query q;
   q.primitive = primitive, q.position = position, q.normal = normal;
-  q.found.reserve(tuning::kMostParticles + 1);
+  q.found.reserve(kMostParticles + 1);
   search(begin_[group], begin_[group + 1], q);
   std::sort_heap(q.found.begin(), q.found.end(),
                  [](const Neighbour& a, const Neighbour& b) { return a.squared < b.squared; });
-  const bool all = q.found.size() < tuning::kMostParticles;
+  const bool all = q.found.size() < kMostParticles;
   // A surface with few impacts is one kernel that reaches well over it.
   const double reach = std::sqrt(double(q.found.back().squared));
   q.radius = all ? std::max(1.5 * reach, 0.5 * bounds(scene_[primitive].shape).diagonal()) : reach;
@@ -136,7 +134,7 @@ Rgb ParticleField::at(PrimitiveId primitive, bool front, const Vec3& position, c
 }
 
 bool ParticleField::inSight(const Query& q, const Vec3& to) const {
-  const double lift = tuning::kParticleLift * q.radius;
+  const double lift = hierarchy::tuning::kTouching * q.radius;
   const Vec3f from(q.position + lift * q.normal), d = Vec3f(to + lift * q.normal) - from;
   tracing::Ray ray;
   ray.origin = from;
@@ -252,7 +250,7 @@ Rgb ParticleField::estimate(Query& q, const Surroundings& around) const {
     low = std::max(low, E - noise), high = std::min(high, E + noise);
   }
   Rings::Sum kept;
-  for (int pass = 0; pass < tuning::kPasses; ++pass) {
+  for (int pass = 0; pass < deltalux::tuning::kEverCloser; ++pass) {
     kept = {};
     for (const auto& sector : rings.out) {
       std::size_t reach = 0;

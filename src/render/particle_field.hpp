@@ -9,6 +9,7 @@
 // Area is what of the disc is surface in sight of the point: edges and corners do not darken, and what stands on a
 // surface, or is behind a wall on it, is left out of account.
 // Cost: a kd-tree over the impacts; a query takes some 10 microseconds.
+#include "base/usual_error.hpp"
 #include "particles/particles.hpp"
 #include "tracing/ray_tracer.hpp"
 
@@ -19,6 +20,9 @@ struct Solution;
 }  // namespace deltalux
 
 namespace deltalux::rendering {
+
+/// Particles that light at a point is estimated from, at most: as many as have the usual error.
+inline constexpr auto kMostParticles = static_cast<std::size_t>(1 / (kUsualError * kUsualError) + 0.5);  // [defined]
 
 class ParticleField {
  public:

@@ -6,7 +6,6 @@
 
 #include "base/parallel.hpp"
 #include "particles/impact_light.hpp"
-#include "render/tuning.hpp"
 #include "scene/nominal_scale.hpp"
 #include "solution/solution.hpp"
 
@@ -29,7 +28,7 @@ std::vector<PlacedDeposits> nearestImpacts(const Solution& s, const SurfaceSpot&
     return std::tie(a.squared, a.impact) < std::tie(b.squared, b.impact);
   };
   const auto keepNearest = [&](std::vector<PlacedDeposits>& all) {
-    const std::size_t most = std::min(all.size(), tuning::kMostParticles);
+    const std::size_t most = std::min(all.size(), kMostParticles);
     std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(most), all.end(), nearer);
     all.resize(most);
   };

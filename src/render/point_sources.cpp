@@ -2,7 +2,6 @@
 
 #include "base/parallel.hpp"
 #include "base/tuning.hpp"
-#include "direct/tuning.hpp"
 #include "hierarchy/leaf_sequence.hpp"
 #include "solution/sky_visibility.hpp"
 #include "solution/solution.hpp"
@@ -47,7 +46,7 @@ direct::Aim PointSources::aimAt(hierarchy::ElementId leaf, int rays) const {
   }
   const std::vector<direct::Source> sources = at(leaf);
   direct::Aim aim(sources);
-  aim.learn(light_, places, direct::tuning::kLearnAtPoint, combineKeys(points.key(), kLeafKey));
+  aim.learn(light_, places, direct::kLearnAtPoint, combineKeys(points.key(), kLeafKey));
   return aim.at(sources, lightAt(leaf), rays);
 }
 

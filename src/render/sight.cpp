@@ -28,7 +28,7 @@ void Sights::learn(int raysOfPlace, int rays, std::uint64_t key) {
   }
   first.push_back(places.size());
   const int shared =
-      std::max(direct::tuning::kLearnAtPoint, raysOfPlace * static_cast<int>(places.size()) / tuning::kLearningShare);
+      std::max(direct::kLearnAtPoint, raysOfPlace * static_cast<int>(places.size()) / tuning::kLearningShare);
   around_ = direct::Aim(direct::joined(sources));
   around_.learn(sources_.light(), receivers, shared, key);
   for (std::size_t begin = 0, end = 0; begin < sources.size(); begin = end) {

@@ -25,12 +25,12 @@ ProbeResult SpaceMeter::at(const ProbePoint& x, const ProbeSettings& settings, s
   while (mean.count() < deltalux::tuning::kFewestEstimates ||
          result.samples < static_cast<std::uint64_t>(settings.maxSamples)) {
     RgbSum own(0.0);
-    for (std::uint32_t i = 0; i < direct::tuning::kBatch; ++i) {
+    for (std::uint32_t i = 0; i < direct::tuning::kEstimateRays; ++i) {
       PathSampler sampler(combineKeys(key, static_cast<std::uint64_t>(mean.count())), i);
       own += tracer_.irradiance(x.position, x.normal, sampler, rays);
     }
-    mean.add(own / double(direct::tuning::kBatch));
-    result.samples += direct::tuning::kBatch;
+    mean.add(own / double(direct::tuning::kEstimateRays));
+    result.samples += direct::tuning::kEstimateRays;
     if (mean.count() >= deltalux::tuning::kFewestEstimates &&
         gray(mean.standardError()) <= settings.error * gray(mean.mean()))
       break;

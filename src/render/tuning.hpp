@@ -3,16 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "direct/tuning.hpp"
-
 namespace deltalux::rendering::tuning {
 
 /// Relative difference of leaves that asks whether something stands between. More: light leaks below walls. Less: rays.
 constexpr float kDisagree = 0.3f;
-/// Height above a surface at which that is looked for, in the smaller leaf's size, and in the radius that particles are
-/// looked for in. Less: bumps hide. More: thresholds do not.
+/// Height above a surface at which that is looked for, in the smaller leaf's size. Less: bumps hide. More: thresholds
+/// do not.
 constexpr float kLift = 0.1f;
-constexpr double kParticleLift = 0.02;
 /// Joined leaves that tell what is out of the way, and the share of a leaf that tells too little of what is around it.
 /// Fewer, less: single bright or dark leaves show. More: what is small and bright is lost.
 constexpr std::uint32_t kFewestWitnesses = 4;
@@ -32,18 +29,12 @@ constexpr int kTile = 32;
 /// Rays over those to learn from. More: grain beside windows. Fewer: time.
 constexpr int kLearningShare = 2;
 
-/// Particles that light at a point is estimated from, at most; sectors that it is looked for in; passes, with what is
-/// known at the point ever closer. Fewer: grain at points, and blurred edges. More: time.
-constexpr std::size_t kMostParticles = 400;
+/// Sectors around a point that particles are looked for in. Fewer: blurred edges of caustics. More: grain.
 constexpr int kSectors = 8;
-constexpr int kPasses = 3;
 
 /// Connections of a path to lights by way of a mirror or a ball, at most, and no more pairs of them; more would dilute
 /// the choice: the rest is found by scattering. Fewer: noise below many mirrors.
 constexpr std::size_t kMostSingle = 2048;
-/// Samples of the flux that a plane mirror sends, of which a lit patch must not be overlooked, and that others do.
-/// Fewer: connections that are missing. More: time at the start.
-constexpr int kPlaneSamples = 256, kCurvedSamples = 32;
 /// Steps between which roots of paths over curved mirrors and balls are looked for. Fewer: caustics with holes.
 constexpr int kRootSteps = 64;
 /// Inner reflections of a ball that are connected through. Fewer: noise of rainbows. More: time for what is dim.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/sobol.hpp"
 #include "base/tuning.hpp"
 #include "base/unit_circle.hpp"
 
@@ -11,10 +12,11 @@ DomeTable::DomeTable(const DomeLight& dome) : frame_(dome.axis), depth_(1.0 - st
   std::vector<double> weights(kRings * kSectors);
   double sum = 0;
   for (int cell = 0; cell < kRings * kSectors; ++cell) {
-    for (int k = 0; k < tuning::kDomeLooks * tuning::kDomeLooks; ++k) {
-      const double azimuth = (cell % kSectors + (k % tuning::kDomeLooks + 0.5) / tuning::kDomeLooks) / kSectors;
-      const double height = (cell / kSectors + (k / tuning::kDomeLooks + 0.5) / tuning::kDomeLooks) / kRings;
-      weights[cell] += gray(skyRadiance(dome, direction(azimuth, height)));
+    const ScrambledSobol looks(static_cast<std::uint64_t>(cell));
+    for (std::uint32_t k = 0; k < deltalux::tuning::kPilots; ++k) {
+      const UnitPair look = looks(k);
+      weights[cell] += gray(
+          skyRadiance(dome, direction((cell % kSectors + look.x) / kSectors, (cell / kSectors + look.y) / kRings)));
     }
     sum += weights[cell];
   }

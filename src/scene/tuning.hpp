@@ -11,8 +11,7 @@ constexpr int kNominalOctaves = 4;
 /// Triangles of an emitter that is sampled by solid angle: of more, one is chosen by area. Fewer: noise near lamps of
 /// many faces. More: time for each.
 constexpr std::size_t kMostBySolidAngle = 8;
-/// Cells of a sky's table along height, and looks of each, a side; as many along height add up its irradiance. Fewer:
-/// noise under an uneven sky, and the sun's glow is off.
-constexpr int kDomeRings = 32, kDomeLooks = 3;
+/// Cells of a sky's table along height. Fewer: noise under an uneven sky, and the sun's glow is off.
+constexpr int kDomeRings = 32;
 
 }  // namespace deltalux::scene::tuning

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/tuning.hpp"
 #include "direct/dim_direct.hpp"
 #include "direct/leaf_direct.hpp"
 #include "direct/sky_light.hpp"
@@ -56,7 +57,7 @@ struct PatchSamples {
 
 /// Sky light of a leaf, undimmed, what it followed from, and its shadow rays.
 struct LeafSky {
-  static constexpr std::size_t kRays = direct::tuning::kManyRays;
+  static constexpr std::size_t kRays = deltalux::tuning::kFewestEstimates;
 
   direct::SkyKey key;
   direct::SkyAtLeaf light;

@@ -77,7 +77,7 @@ TEST_P(FlowOver, ScalesAreAsWideAsTheySay) {
     noise.push_back(static_cast<float>(rng.uniform() * grid.meanArea() / grid.area(i)));
   const Channels light{raster.laidOut(noise), raster.laidOut(std::vector<float>(grid.size(), 1.0f))};
   const HeatFlow flow(raster, {});
-  ScaleSpace space(raster, flow, light, 8, std::sqrt(2.0));
+  ScaleSpace space(raster, flow, light);
   while (space.widen()) {
   }
   ASSERT_GE(space.levels().size(), 8u);

@@ -5,7 +5,6 @@
 
 #include "base/tuning.hpp"
 #include "base/unit_circle.hpp"
-#include "io/tuning.hpp"
 
 namespace deltalux::io::radiance {
 
@@ -33,9 +32,9 @@ bool dependsOnAzimuth(const Function& f, Range& all) {
   double widest = 0;
   for (int i = 0; i < deltalux::tuning::kPilots; ++i) {
     Range ring;
-    for (std::size_t k = 0; k < tuning::kSteps; ++k)
-      ring.extend(
-          f(direction((i + 0.37) / deltalux::tuning::kPilots, (double(k) + 0.21 * i) / double(tuning::kSteps))));
+    for (std::size_t k = 0; k < std::size_t(deltalux::tuning::kPolarAngles); ++k)
+      ring.extend(f(direction((i + 0.37) / deltalux::tuning::kPilots,
+                              (double(k) + 0.21 * i) / double(deltalux::tuning::kPolarAngles))));
     widest = std::max(widest, ring.high - ring.low);
     all.extend(ring.low), all.extend(ring.high);
   }
@@ -78,7 +77,7 @@ Tabulated tabulate(const Function& raw, const std::function<void()>& notFinite, 
   };
   Range all;
   const bool alone = !dependsOnAzimuth(f, all);
-  for (std::size_t steps = tuning::kSteps;; steps *= 2) {
+  for (std::size_t steps = deltalux::tuning::kPolarAngles;; steps *= 2) {
     const std::size_t rows = steps + 1, columns = alone ? 1 : 2 * steps;
     const std::vector<double> values = sample(f, rows, columns);
     for (const double value : values) all.extend(value);

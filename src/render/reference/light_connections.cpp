@@ -15,6 +15,11 @@ namespace deltalux::rendering {
 
 namespace {
 
+/// Samples of the flux that a plane mirror sends, of which a lit patch must not be overlooked: all over it; and of
+/// others.
+constexpr int kPlaneSamples = deltalux::tuning::kPilots * deltalux::tuning::kPilots,
+              kCurvedSamples = deltalux::tuning::kFewestEstimates;
+
 std::uint64_t chainKey(LightId light, const BendChain& chain) {
   std::uint64_t key = light.value;
   for (int i = 0; i < chain.count; ++i) {
@@ -78,7 +83,7 @@ LightConnections::LightConnections(const ReferenceScene& scene) : scene_(scene) 
       if (!bothCurved && bend.surface != single.chain.bends[0].surface) candidates.push_back(prepend(bend, single));
     }
   }
-  keep(withFlux(candidates, tuning::kCurvedSamples), most);
+  keep(withFlux(candidates, kCurvedSamples), most);
 }
 
 void LightConnections::add(const Connection& c) {
@@ -133,7 +138,7 @@ std::vector<Connection> LightConnections::withFlux(std::vector<Connection> candi
     Connection before{c.light, {}, 0};
     for (int k = 1; k < c.chain.count; ++k) before.chain.add(c.chain.bends[k]);
     const Bend& bend = c.chain.bends[0];
-    const int usual = bend.kind == Bend::Kind::Plane ? tuning::kPlaneSamples : tuning::kCurvedSamples;
+    const int usual = bend.kind == Bend::Kind::Plane ? kPlaneSamples : kCurvedSamples;
     c.flux = fluxLeaving(bend, before, samples > 0 ? samples : usual);
   });
   std::erase_if(candidates, [](const Connection& c) { return !(c.flux > 0.0); });

@@ -11,6 +11,7 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "base/tuning.hpp"
+#include "direct/aim.hpp"
 #include "render/reference/path_tracer.hpp"
 #include "render/tuning.hpp"
 
@@ -26,7 +27,7 @@ constexpr std::uint64_t kMaxPassBatches = 1024;  // [task]
 
 /// A power of two, smaller when few paths are asked for.
 std::uint32_t batchSize(std::uint64_t samples) {
-  std::uint32_t size = direct::tuning::kBatch;
+  std::uint32_t size = direct::tuning::kEstimateRays;
   while (size > 1 && samples != 0 && samples < size * deltalux::tuning::kFewestEstimates) size /= 2;
   return size;
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <deltalux/math.hpp>
 
-#include "scene/tuning.hpp"
+#include "base/tuning.hpp"
 
 namespace deltalux::scene {
 
@@ -136,7 +136,7 @@ std::array<double, 5> perezCoefficients(const SkyCondition& sky) {
 
 double horizontalIrradiance(const DomeLight& dome) {
   const Frame frame(dome.up);
-  const int rings = tuning::kDomeRings * tuning::kDomeLooks, sectors = 2 * rings;
+  const int rings = deltalux::tuning::kPolarAngles, sectors = 2 * rings;
   double sum = 0;
   for (int i = 0; i < rings; ++i) {
     const double sine = std::sqrt((i + 0.5) / rings), cosine = std::sqrt(1 - sine * sine);
