@@ -20,6 +20,8 @@ constexpr float kDefensive = 0.05f;
 /// parameter, or rings of directions, by which a pattern of light is looked at. Fewer: splits and choices by chance,
 /// and what varies is taken for constant. More: time before the first light.
 constexpr int kPilots = 16;
+/// The same where all agree, or that brings little. Fewer: blotchy shadows. More: rays at what is clear.
+constexpr int kFewRays = 4;
 /// Independent estimates before any judgement by their spread. Fewer: standard errors by chance. More: time where all
 /// is simple.
 constexpr int kFewestEstimates = 32;
@@ -44,15 +46,17 @@ constexpr int kPolarAngles = 90;
 /// Paths that give a first idea of light, from all that send it or to all that get it together. Fewer: what is lit by
 /// the way of caustics or of others counts as dark. More: time before the first light.
 constexpr int kPilotPaths = 1 << 16;
-/// Share of the light of a surface, or of the target error, by which a difference is a change. More: shadows of what
-/// has moved away, and dark rooms beside bright places are not done. Less: work at every edit.
+/// Share of the light of a surface, of the target error, or of a depth, by which a difference is a change; and of a
+/// leaf that tells of what is around it. More: shadows of what has moved away, dark rooms beside bright places are not
+/// done, what is hidden shines through. Less: work at every edit, holes in slanting surfaces.
 constexpr double kChangeMatters = 0.1;
 /// Octaves between sizes, errors or distances that are tried one after the other, or count as one. Larger: what is cut
 /// by them is coarse, and time is left over. Smaller: what differs a little is cut otherwise.
 constexpr double kOctaveStep = 0.25;
 /// Boxes that stand for all that an edit moves. Fewer: more is looked at again. More: each look takes longer.
 constexpr std::size_t kBoxes = 8;
-/// Cosine between triangles that are one smooth surface. Less: edges of boxes are smoothed. More: facets of balls show.
+/// Cosine between triangles that are one smooth surface; sine of how far what stands on a surface may lean. Less: edges
+/// of boxes are smoothed. More: facets of balls show.
 constexpr float kSmooth = 0.7071f;
 
 }  // namespace deltalux::tuning

@@ -65,8 +65,7 @@ void LowFrequencyLayer::over(const CellGrid& grid, const FadingBorder& border, c
     const Rgb layer = all_.sample(st);
     const double difference = gray(layer) - gray(E), noise = std::max<double>(own.noise[i], 1e-30);
     const double allowed = rule.error * (gray(E) + rule.darkest);
-    const double asked =
-        smoothStep((noise / std::max(allowed, 1e-30) - tuning::kNoticed) / (tuning::kMatters - tuning::kNoticed));
+    const double asked = smoothStep(noise / std::max(tuning::kMatters * allowed, 1e-30));
     const double bearsOut = std::exp(-std::pow(difference / noise, 2));
     E += static_cast<float>(asked * bearsOut) * (layer - E);
     if (const double fades = border.at(st); fades > 0) E += static_cast<float>(fades) * (shown_.sample(st) - E);

@@ -21,7 +21,7 @@ constexpr std::size_t kParts = 8;             // of all impacts, summed apart [t
 float sameness(const particles::Particles& p, std::uint32_t a, std::uint32_t b) {
   if (p.primitive[a] != p.primitive[b] || p.triangleAndSide[a] != p.triangleAndSide[b]) return 0.0f;
   const glm::vec2 d = glm::abs(p.uv[a] - p.uv[b]);
-  return std::max(0.0f, 1 - float(tuning::kFineSide) * std::max(d.x, d.y));
+  return std::max(0.0f, 1 - float(2 * tuning::kCoarseSide) * std::max(d.x, d.y));
 }
 
 /// body(part, begin, end) over kParts ranges of [0, count), in parallel.
@@ -168,7 +168,7 @@ bool TextureUpdate::changed(std::size_t side, double background, bool textured) 
   for (std::uint32_t across = s.across;; across /= 2, area *= 4) {
     const auto differs = [&](const Tile& t) {
       const double now = gray(t.now), grain = now > 0 ? t.squares / now : 0.0;
-      const double noise = std::max(tuning::kNoticed * std::sqrt(t.squares), tuning::kStray * grain);
+      const double noise = std::max(tuning::kMatters * std::sqrt(t.squares), tuning::kStray * grain);
       return t.difference > std::max(error * (now + background * area), noise);
     };
     if (std::any_of(level.begin(), level.end(), differs)) return true;
@@ -180,7 +180,7 @@ bool TextureUpdate::changed(std::size_t side, double background, bool textured) 
   const double factor = gray(now) / gray(then), other = background * area;
   if (gray(glm::abs(now - factor * then)) > error * (gray(now) + other)) return true;  // another colour
   const double noisier = (gray(now) + other) / (factor * (gray(then) + looks_[side].background * area));
-  return std::max(noisier, 1 / noisier) > 1 + tuning::kNoticed;
+  return std::max(noisier, 1 / noisier) > 1 + tuning::kMatters;
 }
 
 /// By side; on each in the order of the particles.

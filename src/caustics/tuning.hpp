@@ -3,12 +3,10 @@
 
 namespace deltalux::caustics::tuning {
 
-/// Share of the target error that matters: differences that make an edge, a region, or a texture, and noise that a
-/// kernel need not grow to reduce. More: blur. Less: grain, and textures of next to nothing.
+/// Share of the target error that matters: differences that make an edge, a region, or a texture, noise that a kernel
+/// need not grow to reduce, and from which on the low-frequency layer stands for it; of the noise of a tile's flux, or
+/// of all, what is no change. More: blur; slow change is not followed. Less: grain; textures of next to nothing.
 constexpr double kMatters = 0.5;
-/// Of the target error, noise from which on the low-frequency layer is asked; of the noise of a tile's flux, or of all,
-/// what is no change. More: grain; slow change is not followed. Less: blur; textures made for nothing.
-constexpr double kNoticed = 0.25;
 /// Narrowest and widest kernel, standard deviation in cells. Wider: time. Narrower: grain where light is dim.
 constexpr double kNarrowest = 0.5, kWidest = 6;
 /// The widest in the square root of the surface's area, too. More: light is spread over all of it.
@@ -23,9 +21,9 @@ constexpr double kSignificance = 4;
 /// Particles that are stray: in a fine texel, as a change, or of a kernel that is not asked. Fewer: noise taken for
 /// light. More: blur.
 constexpr double kStray = 2;
-/// Texels across at most: of a coarse texture, by which surfaces are chosen too, and of a fine one. Fewer: blur. More:
-/// time and memory in the square.
-constexpr int kCoarseSide = 128, kFineSide = 256;
+/// Texels across at most of a coarse texture, by which surfaces are chosen too; of a fine one, twice as many. Fewer:
+/// blur. More: time and memory in the square.
+constexpr int kCoarseSide = 128;
 /// Coarse texels around a region. Fewer: its outline shows.
 constexpr int kMargin = 2;
 /// Part of a whole texel below which it joins a neighbour. Less: bright texels on outlines and at poles.

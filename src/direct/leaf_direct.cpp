@@ -139,7 +139,7 @@ DirectSampler::DirectSampler(const hierarchy::Elements& elements, const Scene& s
       scene_(scene),
       tracer_(tracer),
       lamps_(lamps),
-      lampRays_(raysFor(error, tuning::kLampRays)),
+      lampRays_(raysFor(error, deltalux::tuning::kFewRays)),
       mixedRays_(raysFor(error, tuning::kRays)),
       mixedSunRays_(std::max(tuning::kRays, raysFor(error, kMostPoints - tuning::kSunPilots))),
       openDrawn_(raysFor(error, tuning::kRays)),

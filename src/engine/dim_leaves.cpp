@@ -6,12 +6,12 @@
 #include <numeric>
 
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 #include "direct/dim_direct.hpp"
 #include "engine/line_solve.hpp"
 #include "lines/dim_rooms.hpp"
 #include "lines/own_light.hpp"
 #include "lines/scene_widths.hpp"
-#include "lines/tuning.hpp"
 #include "solution/sky_visibility.hpp"
 
 namespace deltalux::engine {
@@ -95,7 +95,7 @@ void lookIntoTheDark(LineSolve& x, const lines::LineScene& over, std::vector<std
   const std::vector<std::uint32_t> in = lines::waysInto(traced.lines, leaves, counts, places);
   const double all = std::accumulate(counts.begin(), counts.end(), 0.0);
   std::vector<char> more(leaves.size(), false);
-  for (int round = 0; round < lines::tuning::kDimRounds; ++round) {
+  for (int round = 0; round < deltalux::tuning::kEverCloser; ++round) {
     const lines::DimCounts wanted = lines::dimCounts(traced, leaves, counts, all, area, places, in, !x.skies.empty());
     if (std::ranges::all_of(wanted.lines, [](std::uint32_t count) { return count == 0; })) break;
     for (std::size_t i = 0; i < counts.size(); ++i)

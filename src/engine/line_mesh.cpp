@@ -8,7 +8,6 @@
 #include "hierarchy/patch.hpp"
 #include "hierarchy/tuning.hpp"
 #include "lines/scene_widths.hpp"
-#include "lines/tuning.hpp"
 
 namespace deltalux::engine {
 
@@ -226,7 +225,7 @@ bool refineMesh(LineSolve& x, std::vector<hierarchy::ElementId> patches, const s
       }
       x.samples.whole[chosen[i].index()].reset();
       // Corners of what sees far are no narrow places.
-      const float wide = hierarchy::tuning::kSurroundings * x.samples.scale[chosen[i].index()].mean;
+      const float wide = hierarchy::tuning::kNarrowPlace * x.samples.scale[chosen[i].index()].mean;
       for (std::size_t c = 0; c < elements.at(chosen[i]).childCount; ++c) {
         const hierarchy::ElementId part = elements.child(chosen[i], c);
         float& path = elements.geometry[part.index()].meanFreePath;

@@ -7,6 +7,7 @@
 
 #include "base/check.hpp"
 #include "base/random.hpp"
+#include "base/tuning.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/patch.hpp"
 #include "hierarchy/tuning.hpp"
@@ -77,7 +78,7 @@ std::unique_ptr<Node> cluster(std::vector<Group> groups) {
   const auto largeCount = static_cast<std::size_t>(small - groups.begin());
   std::vector<Group> rest(std::make_move_iterator(small), std::make_move_iterator(groups.end()));
   groups.erase(small, groups.end());
-  if (largeCount > 4 * tuning::kLeafGroups) {
+  if (largeCount > deltalux::tuning::kPilots) {
     // Many that are all large (a stack of boards): size does not tell them apart, so position must.
     rest.insert(rest.end(), std::make_move_iterator(groups.begin()), std::make_move_iterator(groups.end()));
     groups.clear();
@@ -89,7 +90,7 @@ std::unique_ptr<Node> cluster(std::vector<Group> groups) {
     // Two binary splits at once: four children a level halve the depth of the link tree.
     auto [a, b] = halve(std::move(rest));
     for (auto* half : {&a, &b}) {
-      if (half->size() > 4 * tuning::kLeafGroups) {
+      if (half->size() > deltalux::tuning::kPilots) {
         auto [c, d] = halve(std::move(*half));
         node->clusters.push_back(cluster(std::move(c)));
         node->clusters.push_back(cluster(std::move(d)));
@@ -216,7 +217,7 @@ class Builder {
   void widenPaths(ElementId e, float above = 0, float twiceAbove = 0) {
     ElementGeometry& g = elements_.geometry[e.index()];
     const float own = g.meanFreePath;
-    g.meanFreePath = std::max(own, tuning::kSurroundings * twiceAbove);
+    g.meanFreePath = std::max(own, tuning::kNarrowPlace * twiceAbove);
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i)
       widenPaths(elements_.child(e, i), own, std::max(above, own));
   }

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/box_tree.hpp"
+#include "base/tuning.hpp"
 #include "hierarchy/below.hpp"
 #include "hierarchy/element.hpp"
 #include "hierarchy/input_level.hpp"
@@ -123,7 +124,7 @@ class ContactLines::Search {
   /// Adds where a face meets the plane, if it rises from it to the side of `up`.
   static void addFoot(const Face& face, const PlaneFrame& plane, const PlanePoints& points, const Vec3& up,
                       std::array<std::vector<Line>, 2>& lines) {
-    if (std::abs(glm::dot(face.normal, up)) > tuning::kUpright) return;
+    if (std::abs(glm::dot(face.normal, up)) > deltalux::tuning::kSmooth) return;
     const auto heightOf = [&](const Vec3& p) { return glm::dot(p - plane.origin, up); };
     double height = 0;
     for (const Vec3& p : face.corners) height = std::max(height, heightOf(p));

@@ -9,15 +9,14 @@ namespace deltalux::hierarchy::tuning {
 /// stays in it. More, smaller: links to clusters err. Fewer, larger: deep trees.
 constexpr std::size_t kLeafGroups = 4;
 constexpr double kLarge = 0.5;
-/// Least mean free path of an element, relative to what is usual around it, and of a part, relative to the mean
-/// distance of what it is part of. Less: slots between boards, narrow places and corners fill with elements.
-constexpr float kSurroundings = 0.5f;
+/// Least mean free path of an element, relative to what is usual around it, of a part, relative to the mean distance of
+/// what it is part of, and of a patch, in its radii: such a place is narrow. Less: slots between boards, narrow places
+/// and corners fill with elements.
+constexpr float kNarrowPlace = 0.5f;
 /// Within which things touch, are aligned, or end, in the size of what they are parts of: what stands on a surface,
 /// lines along its foot, ends of patches. Larger: splits along lines where nothing stands. Smaller: walls of scanned or
 /// rounded coordinates are overlooked.
 constexpr double kTouching = 0.02;
-/// Sine of how far what stands on a surface may lean. Larger: lines below ramps. Smaller: tapered legs are overlooked.
-constexpr double kUpright = 0.3;
 /// Least share of a patch that a line has to cross, and least height of what it is the foot of, in the patch's side, to
 /// be split along. Less: crooked patches around small things. More: light leaks below walls.
 constexpr float kCrossed = 0.5f;
@@ -29,9 +28,6 @@ constexpr int kGrid = 8;
 /// polygons that it is made of; one that is fine has at least as many patches, but for as many faces in each, and is
 /// fine where it has two. Fewer: coarse light on statues. More: time and memory for all that is of many triangles.
 constexpr std::uint32_t kInputs = 128;
-/// Share of what a closed cavity of such patches would send, that one may be given back. More: light between facing
-/// patches grows without end. Less: halls of white plaster are too dark.
-constexpr float kMostReturned = 0.98f;
 /// Least tolerance of a leaf relative to its surface's first estimate; and light below which changes are compared with
 /// that, relative to the mean. Lower: work in dark corners. Higher: leaks and what has changed stay.
 constexpr float kDarkest = 0.1f;

@@ -7,6 +7,7 @@
 
 #include "base/disjoint_sets.hpp"
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 #include "base/usual_error.hpp"
 #include "lines/tuning.hpp"
 
@@ -109,7 +110,7 @@ DimCounts dimCounts(const TracedLines& traced, const hierarchy::LeafTable& leave
   }
   // In octaves, so that small changes leave nearly all leaves' lines as they are; by so many less, all of them, that
   // they are not too many.
-  const double most = std::max(tuning::kDimShare * lines, tuning::kClosedLines - lines);
+  const double most = std::max(deltalux::tuning::kDefensive * lines, tuning::kClosedLines - lines);
   DimCounts counts{std::vector<std::uint32_t>(n, 0)};
   for (double share = 1, added = kInfinity; added > most; share /= 2) {
     added = 0, counts.told = true;

@@ -4,9 +4,9 @@
 
 #include "base/cosine_direction.hpp"
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 #include "hierarchy/leaf_sequence.hpp"
 #include "lines/scene_widths.hpp"
-#include "lines/tuning.hpp"
 #include "scene/light_sampling.hpp"
 #include "scene/nominal_scale.hpp"
 #include "scene/stops_light.hpp"
@@ -82,14 +82,15 @@ class LightSearch {
   bool encloses(hierarchy::ElementId side, double hollow, LightWalks& walks, std::uint64_t& rays) const {
     const hierarchy::LeafSequence points(elements_, scene_, side);
     Lengths lengths;
-    for (int walk = 0; walk < tuning::kWalks; ++walk)
+    for (int walk = 0; walk < deltalux::tuning::kPilots; ++walk)
       if (findsLight(points, walk, 0, hollow, lengths, walks, rays)) return false;
     const double width = std::sqrt(double(elements_.shape(side).area));
-    if (lengths.steps == 0 || !(lengths.width() < hollow && width < tuning::kWidestHollow * lengths.width()))
+    // Of a wider one a rim may look out, at which no walk has begun.
+    if (lengths.steps == 0 || !(lengths.width() < hollow && width < deltalux::tuning::kPilots * lengths.width()))
       return false;
     // Most of a rounded edge or a ball may lie inside of what it rounds: walks from where something far is seen.
     Lengths far;  // first steps are chosen for going far, and tell nothing
-    for (int walk = 0; walk < tuning::kWalks; ++walk)
+    for (int walk = 0; walk < deltalux::tuning::kPilots; ++walk)
       if (findsLight(points, farthest(points, walk + 1, walks, rays), 1, hollow, far, walks, rays)) return false;
     return far.width() < hollow;
   }
@@ -104,11 +105,11 @@ class LightSearch {
     return tracer_.follow(x.position, x.normal, w, Rng(random.bits()), &walks.steps);
   }
 
-  /// Of kWalks walks in a row, the one whose first step goes farthest.
+  /// Of kFewRays walks in a row, the one whose first step goes farthest.
   int farthest(const hierarchy::LeafSequence& points, int row, LightWalks& walks, std::uint64_t& rays) const {
-    int best = row * tuning::kWalks;
+    int best = row * deltalux::tuning::kFewRays;
     double most = -1;
-    for (int walk = best; walk < (row + 1) * tuning::kWalks; ++walk) {
+    for (int walk = best; walk < (row + 1) * deltalux::tuning::kFewRays; ++walk) {
       Rng random = randomOf(points, walk);
       const LineEnd end = step(points.point(static_cast<std::uint32_t>(walk)), random, walks, rays);
       const double distance = end.termination == LineTermination::Escaped ? kInfinity
@@ -124,7 +125,7 @@ class LightSearch {
                   LightWalks& walks, std::uint64_t& rays) const {
     Rng random = randomOf(points, walk);
     hierarchy::PatchPoint x = points.point(static_cast<std::uint32_t>(walk));
-    for (int bounce = 0; bounce < tuning::kBounces; ++bounce) {
+    for (int bounce = 0; bounce < deltalux::tuning::kPilots; ++bounce) {
       const LineEnd end = step(x, random, walks, rays);
       if (!asked_.empty()) {
         const ToLight to = toLight(points.key(), walks.asked.size());
@@ -134,7 +135,7 @@ class LightSearch {
       if (end.termination == LineTermination::Escaped && outside_) return true;
       if (end.termination != LineTermination::Ended) return false;
       if (bounce >= counted) lengths.sum += end.turned ? 0 : end.distance, ++lengths.steps;
-      if (lengths.steps >= tuning::kWalks && !(lengths.width() < hollow)) return true;
+      if (lengths.steps >= deltalux::tuning::kFewRays && !(lengths.width() < hollow)) return true;
       const Material& material = scene_.materialOf(end.side.primitive);
       if (sendsLight(material) && (end.side.front || material.emission->bothSides)) return true;
       const bool through = !isBlack(diffuseTransmittance(material)) && random.uniform() < 0.5;

@@ -440,7 +440,7 @@ void Exchange::setShare(const Lines& lines, hierarchy::ElementId leaf) {
   float g = 0;
   forEachExchange(i, [&](std::uint32_t, float x) { g += x; });
   // Where hardly any of what is met ends, what others see beyond must not stand for it.
-  const float met = beyond + own_[i].met, f = (std::min(met, tuning::kMostMissed * own_[i].ended) + other) / count;
+  const float met = beyond + own_[i].met, f = (std::min(met, tuning::kMostScale * own_[i].ended) + other) / count;
   const float sure = std::min(f, 1.0f);
   share_[i] = std::min(sure * f + (1 - sure) * g / area_[i], std::max(f, 1.0f));
   closed_[i] = share_[i] + rough / count;

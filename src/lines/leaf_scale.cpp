@@ -93,14 +93,14 @@ void setMeanFreePaths(hierarchy::Elements& elements, const std::vector<LeafScale
       about = elements.at(about).parent;
     const double n = count[about.index()], usual = n > 0 ? std::exp(sum[about.index()] / n) : 0.0;
     elements.geometry[input.index()].meanFreePath =
-        std::max(scales[input.index()].mean, static_cast<float>(hierarchy::tuning::kSurroundings * usual));
+        std::max(scales[input.index()].mean, static_cast<float>(hierarchy::tuning::kNarrowPlace * usual));
   }
 }
 
 bool tooWide(const hierarchy::ElementGeometry& g, const LeafScale& scale, double error, double dim, double room) {
   if (!(scale.mean > 0)) return false;
   const bool wide = scale.mean > room && dim > square(tuning::kDimWidth);
-  if (scale.mean <= tuning::kSlot * g.radius && !wide) return false;
+  if (scale.mean <= hierarchy::tuning::kNarrowPlace * g.radius && !wide) return false;
   const double wider = std::clamp(1 / std::sqrt(std::max(dim, 1e-12)), 1.0, tuning::kDimWidth);
   const double finer = wider * std::sqrt(error / kUsualError);
   return g.radius > tuning::kWidth * finer * scale.harmonic &&

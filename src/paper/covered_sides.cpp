@@ -12,7 +12,7 @@
 #include "hierarchy/below.hpp"
 #include "hierarchy/tuning.hpp"
 #include "paper/side_estimator.hpp"
-#include "particles/tuning.hpp"
+#include "particles/flux_estimate.hpp"
 
 namespace deltalux::paper {
 
@@ -85,7 +85,7 @@ class Search {
     for (std::size_t b = 0; b < boxes.size(); ++b) {
       Rng rng(combineKeys(kLineKey, b));
       const Box box = widened(boxes[b]);
-      for (std::size_t k = 0; k < static_cast<std::size_t>(particles::tuning::kMostLooks); ++k) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(particles::kMostLooks); ++k) {
         tracing::Ray ray;
         const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
         ray.origin = Vec3f(box.lower + Vec3(x, y, z) * box.extent());

@@ -4,13 +4,15 @@
 #include <array>
 #include <cmath>
 
+#include "base/tuning.hpp"
 #include "paper/separation.hpp"
-#include "paper/tuning.hpp"
 
 namespace deltalux::paper {
 
 namespace {
 
+/// Solid angle of an occluder about the middle of what moved: less hides next to nothing.
+constexpr double kLeastCovered = 4 * kPi * deltalux::tuning::kNegligible;  // [defined]
 constexpr double kSlack = 1e-5;  // of the coordinates: what must lie between, for what rounding does [rounding]
 
 bool isConvex(std::span<const Vec3> outline, const Vec3& normal) {
@@ -60,7 +62,7 @@ class Umbras {
   void collect(hierarchy::ElementId e) {
     const hierarchy::ElementGeometry& g = elements_.shape(e);
     const Vec3 away = glm::max(glm::max(region_.lower - Vec3(g.upper), Vec3(g.lower) - region_.upper), Vec3(0.0));
-    if (kPi * g.radius * g.radius < tuning::kLeastCovered * glm::dot(away, away)) return;
+    if (kPi * g.radius * g.radius < kLeastCovered * glm::dot(away, away)) return;
     if (elements_.isPatch(e)) return collectPatch(e);
     for (std::size_t i = 0; i < elements_.at(e).childCount; ++i) collect(elements_.child(e, i));
   }
@@ -95,7 +97,7 @@ class Umbras {
     const Vec3 d = center - middle_;
     const double squared = glm::dot(d, d);
     const double covered = std::abs(glm::dot(area, d)) / (squared * std::sqrt(squared));
-    if (!(covered > tuning::kLeastCovered)) return;
+    if (!(covered > kLeastCovered)) return;
     if (glm::dot(normal, d) < 0) normal = -normal;  // beyond is where it points
     const double slack = slackAt(center);
     std::array<double, 8> depth;

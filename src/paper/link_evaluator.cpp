@@ -6,7 +6,6 @@
 
 #include "base/tuning.hpp"
 #include "paper/kernel.hpp"
-#include "paper/tuning.hpp"
 
 namespace deltalux::paper {
 
@@ -76,7 +75,7 @@ bool LinkEvaluator::couple(hierarchy::Link& link, const Candidates& candidates, 
 void LinkEvaluator::see(hierarchy::Link& link, int least, bool saw, const Candidates& candidates, Evaluation& v) const {
   OwnBlockers blockers(*this, link, candidates, v);
   const bool solid = solidEnds(link), unknown = link.visibility == hierarchy::Visibility::Unknown;
-  if (unknown && !(saw && (candidates.count > tuning::kFewSamples || !solid))) {
+  if (unknown && !(saw && (candidates.count > deltalux::tuning::kFewRays || !solid))) {
     if (blockers.list().empty() && solid)
       prove(link, hierarchy::Visibility::Clear);
     else if (!saw)
@@ -186,7 +185,7 @@ bool LinkEvaluator::sends(hierarchy::ElementId sender) const {
 int LinkEvaluator::wantedSamples(const hierarchy::Link& link, const LinkError& e) const {
   if (!open(link)) return 0;
   const double weight = e.power / std::max(e.budget, 1e-30);
-  return tuning::kFewSamples << (weight < 0.5 ? 0 : weight < 2 ? 1 : 2);
+  return deltalux::tuning::kFewRays << (weight < 0.5 ? 0 : weight < 2 ? 1 : 2);
 }
 
 /// Few rays, and more when the kernel alone does not already demand a split.
@@ -198,9 +197,9 @@ void LinkEvaluator::look(hierarchy::Link& link, int least, VisibilitySamples& sa
     link.visibility = hierarchy::Visibility::Sampled;
   };
   const int wanted = std::max(least, wantedSamples(link, oracle_.evaluate(link)));
-  take(std::min(wanted, tuning::kFewSamples));
+  take(std::min(wanted, deltalux::tuning::kFewRays));
   const LinkError e = oracle_.evaluate(link);
-  if (wanted > tuning::kFewSamples && !(e.receiver + e.sender > e.budget)) take(wanted);
+  if (wanted > deltalux::tuning::kFewRays && !(e.receiver + e.sender > e.budget)) take(wanted);
 }
 
 Split LinkEvaluator::splitOverlapping(const hierarchy::Link& link) const {

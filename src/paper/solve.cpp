@@ -26,9 +26,9 @@ OracleSettings oracleSettingsFor(double error) {
   return settings;
 }
 
-double firstError(double error) { return error / std::pow(tuning::kRounds, deltalux::tuning::kPilotBounces); }
+double firstError(double error) { return std::ldexp(error, deltalux::tuning::kPilotBounces); }
 
-double nextError(double error, double least) { return std::max(least, tuning::kRounds * error); }
+double nextError(double error, double least) { return std::max(least, error / 2); }
 
 IterationReport iterate(const Parts& parts, const particles::ParticleTransfer& onMesh, double converged,
                         const std::function<bool(const IterationReport&)>& goOn) {

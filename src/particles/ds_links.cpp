@@ -65,7 +65,7 @@ Evaluation evaluated(const LinkEnds& ends, std::uint64_t key, double threshold, 
   PilotSamples pilots;
   const auto splits = [&] {
     const double flux = pilots.flux(most);
-    return divisible && flux > threshold && (near || (pilots.uneven() && flux > deltalux::tuning::kPilots * threshold));
+    return divisible && flux > threshold && (near || (pilots.uneven() && flux > tuning::kMuch * threshold));
   };
   estimate.sample(ends, key, deltalux::tuning::kPilots, pilots, workspace);
   v.split = splits();
@@ -79,7 +79,7 @@ Evaluation evaluated(const LinkEnds& ends, std::uint64_t key, double threshold, 
   const double bound = std::min(pilots.bound(), most);
   if (!v.split && (!pilots.arrived() || bound > deltalux::tuning::kPilots * threshold)) {
     const int enough =
-        static_cast<int>(std::clamp(bound / threshold, double(deltalux::tuning::kPilots), double(tuning::kMostLooks)));
+        static_cast<int>(std::clamp(bound / threshold, double(deltalux::tuning::kPilots), double(kMostLooks)));
     estimate.sample(ends, key, enough, pilots, workspace);
     v.split = splits();
   }
@@ -105,7 +105,7 @@ DsLinks refineDsLinks(const Scene& scene, const tracing::RayTracer& tracer, cons
   parallelFor(level.size(), 1, [&](std::size_t i) {
     FluxEstimate::Workspace workspace;
     PilotSamples pilots;
-    estimate.sample(level[i], evaluator.key(level[i], settings.seed), tuning::kMostLooks, pilots, workspace);
+    estimate.sample(level[i], evaluator.key(level[i], settings.seed), kMostLooks, pilots, workspace);
     first[i] = pilots.flux(estimate.most(level[i])), rays[i] = workspace.traced;
   });
   double total = settings.otherFlux;

@@ -5,12 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tuning.hpp"
 #include "particles/bounce.hpp"
 #include "particles/coarse_exitance.hpp"
 #include "particles/emission.hpp"
 #include "particles/tuning.hpp"
 
 namespace deltalux::particles {
+
+/// Looks at a link that might carry much although nothing arrived, at each root for the sum of all, and along lines
+/// through a box that something has left; and particles that tell what each costs: as many as a standard error takes,
+/// each of as many.
+inline constexpr int kMostLooks = deltalux::tuning::kFewestEstimates * deltalux::tuning::kFewestEstimates;
 
 /// What some pilots at a link have seen.
 class PilotSamples {

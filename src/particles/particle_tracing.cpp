@@ -8,10 +8,10 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "base/sort_unique.hpp"
+#include "particles/flux_estimate.hpp"
 #include "particles/moved_shapes.hpp"
 #include "particles/plan_particles.hpp"
 #include "particles/trace.hpp"
-#include "particles/tuning.hpp"
 
 namespace deltalux::particles {
 
@@ -128,7 +128,7 @@ Particles ParticleTracing::traceWithin(double seconds) {
   const Clock::time_point start = Clock::now();
   const ParticlePlan plan = planParticles(scene_, tracer_, settings_);
   const std::uint64_t wanted = settings_.count;
-  settings_.count = std::min<std::uint64_t>(wanted, tuning::kMostLooks);
+  settings_.count = std::min<std::uint64_t>(wanted, kMostLooks);
   while (true) {
     const Clock::time_point tracing = Clock::now();
     Particles p = trace(plan);

@@ -5,12 +5,10 @@
 
 namespace deltalux::particles::tuning {
 
-/// PilotSamples at a link that might carry much although nothing arrived, at each root for the sum of all, and along
-/// lines through a box that something has left; and particles that tell what each costs. Fewer: light through small
-/// gaps is overlooked, and time limits are kept by chance. More: time at walls, and late first light.
-constexpr int kMostLooks = 1024;
-/// Spread of pilots, relative to their mean, that is worth a refinement. More: few particles where caustics are sharp.
-/// Less: many links.
+/// Shares of the flux of a link that is not refined, from which unevenness counts. More: few particles where caustics
+/// are sharp. Less: many links.
+constexpr double kMuch = 8;
+/// Spread of pilots, relative to their mean, that is worth a refinement. Less, more: as above.
 constexpr double kUneven = 0.5;
 /// Share of the mean around a cell that it is taken to send at least: what its points missed may still be there. Less:
 /// bright specks. More: particles from the dark.

@@ -4,7 +4,6 @@
 #include <bit>
 
 #include "base/parallel.hpp"
-#include "render/tuning.hpp"
 
 namespace deltalux::rendering {
 
@@ -43,10 +42,10 @@ struct Filling {
     Rgb L(0.0f);
     const auto crosswise = [](int dx, int dy) { return dx == 0 || dy == 0 ? 2.0f : 1.0f; };
     if (const float w = near ? mean(x, y, 1, crosswise, L) : 0.0f; w > 0)
-      return {L, tuning::kWithinReach + (1 - tuning::kWithinReach) * w / kAll};
+      return {L, (1 + w / kAll) / 2};  // better than any that is filled from all around
     const auto alike = [](int, int) { return 1.0f; };
     const float w = mean(x, y, HeldPixels::kReach, alike, L);
-    return {L, tuning::kWithinReach * w / kMost};
+    return {L, w / kMost / 2};
   }
 };
 

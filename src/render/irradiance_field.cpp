@@ -133,7 +133,7 @@ void IrradianceField::relate(const IrradianceField* before) {
 
 bool IrradianceField::inSight(const Vec3f& p, hierarchy::ElementId home, hierarchy::ElementId other) const {
   const hierarchy::ElementGeometry &a = elements_.shape(home), &b = elements_.shape(other);
-  const float lift = tuning::kLift * std::sqrt(std::min(a.area, b.area));
+  const float lift = float(hierarchy::tuning::kTouching) * std::sqrt(std::min(a.area, b.area));
   const Vec3f from = p + lift * a.normal, to = b.center + lift * b.normal;
   tracing::Ray ray;
   ray.origin = from;
@@ -151,7 +151,9 @@ float IrradianceField::exposed(hierarchy::ElementId leaf) const {
   return static_cast<float>(std::max(seen, 1)) / float(deltalux::tuning::kPilots);
 }
 
-bool IrradianceField::isLittleExposed(std::size_t site) const { return coverage_[site] < tuning::kLittleExposed; }
+bool IrradianceField::isLittleExposed(std::size_t site) const {
+  return coverage_[site] < deltalux::tuning::kChangeMatters;
+}
 
 template <class Value>
 void IrradianceField::fill(Stage stage, const IrradianceField* before, const Value& value) {

@@ -62,8 +62,7 @@ Sights Painter::lookAround(const Tile& t) const {
   for (int y = t.y0; y < t.y1; ++y)
     for (int x = t.x0; x < t.x1; ++x) paths_.survey(eyeRay(x, y, pixelInOrder(x, y), key), sights);
   const int rays = settings_.samplesPerPixel * settings_.shadowRays;
-  sights.learn(std::clamp(rays / tuning::kLearningShare, 1, int(tuning::kMostRays)), settings_.shadowRays,
-               combineKeys(key, pixelInOrder(t.x0, t.y0)));
+  sights.learn(static_cast<int>(std::sqrt(rays)), settings_.shadowRays, combineKeys(key, pixelInOrder(t.x0, t.y0)));
   return sights;
 }
 

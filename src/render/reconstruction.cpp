@@ -1,6 +1,5 @@
 #include "render/reconstruction.hpp"
 
-#include "render/tuning.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::rendering {
@@ -8,7 +7,7 @@ namespace deltalux::rendering {
 Reconstruction::Reconstruction(const Solution& s, const Reconstruction* before, float tolerance)
     : locator(s.elements, s.scene),
       field(s.elements, s.scene, *s.tracer, meshIrradiance(s.elements, s.caustics, s.deviation),
-            tuning::kNoise * static_cast<float>(s.settings.error), before ? &before->field : nullptr, tolerance),
+            static_cast<float>(s.settings.error), before ? &before->field : nullptr, tolerance),
       sources(s) {}
 
 }  // namespace deltalux::rendering

@@ -5,6 +5,8 @@
 
 #include "base/check.hpp"
 #include "base/prefetch.hpp"
+#include "base/tuning.hpp"
+#include "direct/tuning.hpp"
 #include "render/cache_filling.hpp"
 #include "render/error_diffusion.hpp"
 #include "render/tuning.hpp"
@@ -14,9 +16,13 @@ namespace deltalux {
 
 namespace {
 
-constexpr std::uint32_t kNobody = 0xffffffffu;  // [sentinel]
-constexpr std::size_t kAhead = 16;              // pixels whose samples are fetched ahead [task]
-constexpr std::size_t kGroup = 8;               // samples of which the oldest makes room [WDP99] [defined]
+/// Rays of a pixel that are averaged at most, and frames until a sample is old.
+constexpr std::uint16_t kMostRays = direct::tuning::kEstimateRays;
+/// Depth of a neighbour over a sample's from which it stands before it. [WDP99 4.2]
+constexpr auto kNearer = static_cast<float>(1 - deltalux::tuning::kChangeMatters);  // [defined]
+constexpr std::uint32_t kNobody = 0xffffffffu;                                      // [sentinel]
+constexpr std::size_t kAhead = 16;  // pixels whose samples are fetched ahead [task]
+constexpr std::size_t kGroup = 8;   // samples of which the oldest makes room [WDP99] [defined]
 constexpr float kOffCentre = 1.0f;  // [pixels] by which a ray's hit may miss its pixel by rounding [rounding]
 constexpr int kPredicted = 4;       // pixels a side of the cells that are looked at ahead [WDG02] [defined]
 constexpr float kEmpty = 1.0f;      // priority of a pixel where nothing is: those of others are shares of it [defined]
@@ -118,7 +124,7 @@ bool RenderCache::State::average(std::uint32_t at, const PixelSample& s) {
   PixelSample& mean = samples[at];
   if (!own(at) || !s.noisy || !p.noisy || p.surface != s.primitive.value + 1) return false;
   const float n = p.rays;
-  if (p.rays < rendering::tuning::kMostRays) ++p.rays;
+  if (p.rays < kMostRays) ++p.rays;
   p.radiance = mean.radiance = (n * p.radiance + s.radiance) / (n + 1);
   mean.version = std::min(mean.version, s.version);
   mean.complete = false;
@@ -251,7 +257,7 @@ void RenderCache::State::cull() {
         for (int dx = -1; dx <= 1; ++dx) {
           const std::size_t q = p + static_cast<std::ptrdiff_t>(dy) * frame.width + dx;
           if (q == p || shown[q].point == kNobody || surfaces[q] != surfaces[p]) continue;
-          ++around, nearer += std::abs(shown[q].depth) < rendering::tuning::kNearer * shown[p].depth;
+          ++around, nearer += std::abs(shown[q].depth) < kNearer * shown[p].depth;
         }
       if (nearer > 1 && 2 * nearer > around) hidden.push_back(p);  // most, and not one alone
     }
@@ -299,12 +305,9 @@ const CacheFrame& RenderCache::frame(const View& view, int width, int height, st
 float RenderCache::State::standingOf(const Point& point) const {
   if (point.outdated) return kEmpty;
   if (point.view == viewNumber)
-    return point.noisy && point.rays < rendering::tuning::kMostRays
-               ? rendering::tuning::kYoung / static_cast<float>(point.rays)
-               : 0.0f;
+    return point.noisy && point.rays < kMostRays ? rendering::tuning::kOld / static_cast<float>(point.rays) : 0.0f;
   const float age = static_cast<float>(frameNumber - point.born);
-  return rendering::tuning::kYoung +
-         (rendering::tuning::kOld - rendering::tuning::kYoung) * std::min(age / rendering::tuning::kMostRays, 1.0f);
+  return rendering::tuning::kOld * std::min(age / kMostRays, 1.0f);
 }
 
 float RenderCache::State::priority(std::size_t p) const {

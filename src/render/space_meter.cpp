@@ -3,7 +3,6 @@
 #include "base/batch_mean.hpp"
 #include "base/random.hpp"
 #include "base/tuning.hpp"
-#include "render/tuning.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::rendering {
@@ -15,7 +14,7 @@ SpaceMeter::SpaceMeter(const Scene& scene, bool diffuseOnly, std::shared_ptr<con
                        const EyePaths& paths)
     : scene_(scene, diffuseOnly, std::move(rays)),
       connections_(scene_),
-      table_(scene_, connections_, tuning::kMeterTests),
+      table_(scene_, connections_, deltalux::tuning::kPilotPaths),
       tracer_(scene_, connections_, table_, 0, [&paths](const tracing::Hit& hit) { return paths.diffuse(hit); }) {}
 
 ProbeResult SpaceMeter::at(const ProbePoint& x, const ProbeSettings& settings, std::uint64_t key) const {

@@ -11,7 +11,5 @@ constexpr int kNominalOctaves = 4;
 /// Triangles of an emitter that is sampled by solid angle: of more, one is chosen by area. Fewer: noise near lamps of
 /// many faces. More: time for each.
 constexpr std::size_t kMostBySolidAngle = 8;
-/// Cells of a sky's table along height. Fewer: noise under an uneven sky, and the sun's glow is off.
-constexpr int kDomeRings = 32;
 
 }  // namespace deltalux::scene::tuning

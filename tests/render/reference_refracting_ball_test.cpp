@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "render/tuning.hpp"
+#include "render/reference/light_connections.hpp"
 
 namespace deltalux {
 using namespace rendering;
@@ -42,7 +42,7 @@ std::optional<std::pair<Vec3, Vec3>> trace(const Vec3& x, const Vec3& d, int inn
 
 TEST(RefractingBall, PassagesAreRealAndFewAreMissed) {
   Rng rng(3);
-  for (int inner = 0; inner <= rendering::tuning::kMostInner; ++inner) {
+  for (int inner = 0; inner <= rendering::kMostInner; ++inner) {
     int rays = 0, missed = 0;
     for (int i = 0; i < 20000; ++i) {
       const Vec3 x = kBall.center + (0.71 + 2 * rng.uniform()) * randomDirection(rng);

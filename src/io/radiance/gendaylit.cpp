@@ -1,11 +1,11 @@
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "io/radiance/generators.hpp"
 #include "io/radiance/object_maker.hpp"
 #include "io/radiance/sky_pattern.hpp"
 #include "io/radiance/sky_time.hpp"
-#include "io/tuning.hpp"
 #include "scene/daylight/perez.hpp"
 
 namespace deltalux::io::radiance {

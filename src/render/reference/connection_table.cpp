@@ -5,7 +5,6 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/tuning.hpp"
-#include "render/tuning.hpp"
 
 namespace deltalux::rendering {
 
@@ -15,7 +14,7 @@ template <class Facings>
 void addSeenFrom(const Vec3& direction, double value, Facings& facings) {
   for (int f = 0; f < 6; ++f) {
     const double cosine = f % 2 == 0 ? direction[f / 2] : -direction[f / 2];
-    facings[f] += static_cast<float>(value * std::max(cosine + tuning::kAskew, 0.0));
+    facings[f] += static_cast<float>(value * std::max(cosine + deltalux::tuning::kDefensive, 0.0));
   }
 }
 
@@ -83,7 +82,8 @@ std::vector<ConnectionTable::Facings> ConnectionTable::learn(const ReferenceScen
       const double distance = std::max(glm::length(outside), reach);
       const Vec3 direction = glm::length(d) > reach ? glm::normalize(d) : Vec3(0);
       addSeenFrom(direction,
-                  connection.flux / (4 * kPi * distance * distance) / (direction == Vec3(0) ? tuning::kAskew : 1.0),
+                  connection.flux / (4 * kPi * distance * distance) /
+                      (direction == Vec3(0) ? deltalux::tuning::kDefensive : 1.0),
                   weights[c]);
       continue;
     }

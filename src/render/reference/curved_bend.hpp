@@ -4,14 +4,13 @@
 #include "render/reference/curved_mirror.hpp"
 #include "render/reference/light_connections.hpp"
 #include "render/reference/refracting_ball.hpp"
-#include "render/tuning.hpp"
 
 namespace deltalux::rendering {
 
 struct Turn {
   Vec3 in, inNormal;    // where the bend is met from the point
   Vec3 out, outNormal;  // where it is left towards the light; the same on a mirror
-  std::array<Vec3, tuning::kMostInner> inner;
+  std::array<Vec3, kMostInner> inner;
   int innerCount = 0;
   Vec3 onward;        // unit, from `out` to the light
   double after = 0;   // distance from there to the light

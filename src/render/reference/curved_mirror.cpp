@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/check.hpp"
-#include "render/tuning.hpp"
+#include "base/tuning.hpp"
 
 namespace deltalux::rendering {
 
@@ -79,21 +79,22 @@ struct Azimuths {
 };
 
 struct UnitCircle {
-  std::array<double, tuning::kRootSteps> c, s;
+  std::array<double, deltalux::tuning::kPolarAngles> c, s;
   UnitCircle() {
-    for (int i = 0; i < tuning::kRootSteps; ++i)
-      c[i] = std::cos(2 * kPi * i / tuning::kRootSteps), s[i] = std::sin(2 * kPi * i / tuning::kRootSteps);
+    for (int i = 0; i < deltalux::tuning::kPolarAngles; ++i)
+      c[i] = std::cos(2 * kPi * i / deltalux::tuning::kPolarAngles),
+      s[i] = std::sin(2 * kPi * i / deltalux::tuning::kPolarAngles);
   }
 };
 
 Azimuths roots(const Condition& f) {
   static const UnitCircle circle;
-  std::array<double, tuning::kRootSteps> values;
-  for (int i = 0; i < tuning::kRootSteps; ++i) values[i] = f.value(circle.c[i], circle.s[i]);
-  const auto at = [&](int i) { return values[(i + tuning::kRootSteps) % tuning::kRootSteps]; };
-  constexpr double spacing = 2 * kPi / tuning::kRootSteps;
+  std::array<double, deltalux::tuning::kPolarAngles> values;
+  for (int i = 0; i < deltalux::tuning::kPolarAngles; ++i) values[i] = f.value(circle.c[i], circle.s[i]);
+  const auto at = [&](int i) { return values[(i + deltalux::tuning::kPolarAngles) % deltalux::tuning::kPolarAngles]; };
+  constexpr double spacing = 2 * kPi / deltalux::tuning::kPolarAngles;
   Azimuths found;
-  for (int i = 0; i < tuning::kRootSteps; ++i) {
+  for (int i = 0; i < deltalux::tuning::kPolarAngles; ++i) {
     const double left = at(i), right = at(i + 1);
     if ((left > 0) != (right > 0)) {
       found.add(rootBetween(f, i * spacing, left, (i + 1) * spacing, right));

@@ -111,7 +111,7 @@ std::optional<Bend> LightConnections::mirror(PrimitiveId p, bool front) const {
 std::optional<Bend> LightConnections::ball(PrimitiveId p, int inner) const {
   const auto* sphere = std::get_if<Sphere>(&scene_.scene()[p].shape);
   const Dielectric* body = scene_.body(p);
-  if (!sphere || sphere->inward || !body || body->ior <= 1.0f || inner > tuning::kMostInner) return std::nullopt;
+  if (!sphere || sphere->inward || !body || body->ior <= 1.0f || inner > kMostInner) return std::nullopt;
   return Bend{Bend::Kind::Ball, p, inner};
 }
 

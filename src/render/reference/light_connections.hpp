@@ -16,6 +16,9 @@
 
 namespace deltalux::rendering {
 
+/// Inner reflections of a ball that are connected through: of the primary and the secondary rainbow.
+inline constexpr int kMostInner = 2;  // [defined]
+
 /// A surface that turns light in one known way.
 struct Bend {
   enum class Kind : unsigned char { Plane, Curved, Ball };

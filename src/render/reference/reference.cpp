@@ -39,7 +39,8 @@ double tableBudget(const ReferenceSettings& settings, std::size_t estimates) {
   const double fromSamples =
       settings.samples > 0 ? perSample * static_cast<double>(settings.samples) : rendering::tuning::kMostTests;
   const double fromSeconds = settings.seconds > 0 ? 1.5e5 * settings.seconds : rendering::tuning::kMostTests;
-  return std::clamp(std::min(fromSamples, fromSeconds), 5e4, rendering::tuning::kMostTests);
+  return std::clamp(std::min(fromSamples, fromSeconds), double(deltalux::tuning::kPilotPaths),
+                    rendering::tuning::kMostTests);
 }
 
 /// Mean and spread of batch means per channel. [Welford62]

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "render/tuning.hpp"
+#include "base/tuning.hpp"
 
 namespace deltalux::rendering {
 
@@ -128,12 +128,12 @@ BallPassages ballPassages(const Sphere& sphere, double ior, int inner, const Vec
   const Miss miss{course, light.infinite ? Vec2(std::atan2(flat.y, flat.x), 0.0) : flat, light.infinite};
 
   const double widest = std::asin(sphere.radius / distance) * (1.0 - 1e-12);
-  std::array<double, tuning::kRootSteps + 1> at, value;
-  for (int k = 0; k <= tuning::kRootSteps; ++k) {
+  std::array<double, deltalux::tuning::kPolarAngles + 1> at, value;
+  for (int k = 0; k <= deltalux::tuning::kPolarAngles; ++k) {
     // Finer towards the rim, where the ray turns fastest; an even number of steps puts no sample on the axis itself.
-    at[k] = widest * std::sin(0.5 * kPi * (2.0 * (k + 0.25) / (tuning::kRootSteps + 0.5) - 1.0));
+    at[k] = widest * std::sin(0.5 * kPi * (2.0 * (k + 0.25) / (deltalux::tuning::kPolarAngles + 0.5) - 1.0));
     if (k == 0) at[k] = -widest;
-    if (k == tuning::kRootSteps) at[k] = widest;
+    if (k == deltalux::tuning::kPolarAngles) at[k] = widest;
     value[k] = miss(at[k]);
   }
   const auto found = [&](double a, double fa, double b) {
@@ -146,7 +146,7 @@ BallPassages ballPassages(const Sphere& sphere, double ior, int inner, const Vec
     if (inner > 0 && (at[k] > 0) != (at[k + 1] > 0)) return false;
     return !light.infinite || std::abs(value[k + 1] - value[k]) < kPi;
   };
-  for (int k = 0; k < tuning::kRootSteps; ++k) {
+  for (int k = 0; k < deltalux::tuning::kPolarAngles; ++k) {
     if ((value[k + 1] > 0) != (value[k] > 0)) {
       if (joined(k)) found(at[k], value[k], at[k + 1]);
       continue;
