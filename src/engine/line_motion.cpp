@@ -8,6 +8,7 @@
 #include "change/known_samples.hpp"
 #include "engine/clock.hpp"
 #include "engine/line_solve.hpp"
+#include "engine/tuning.hpp"
 #include "hierarchy/input_level.hpp"
 #include "hierarchy/pull.hpp"
 #include "scene/nominal_scale.hpp"
@@ -161,7 +162,7 @@ void LineMotion::follow(Solution& s, const std::function<double()>& secondsLeft)
   bool fewest = true;
   while (waiting_ > 0) {
     const Clock lighting;
-    const double seconds = secondsLeft() - pass_.seconds();
+    const double seconds = secondsLeft() - tuning::kPassesOfFrame * pass_.seconds();
     // Not all at once, so that what a leaf takes is learned while there is time.
     const auto fit = static_cast<std::size_t>(std::max(0.0, 0.5 * seconds) / leaf_.seconds());
     if (fit < kLightLeaves && !fewest) break;
@@ -175,7 +176,7 @@ void LineMotion::follow(Solution& s, const std::function<double()>& secondsLeft)
     const lines::IterationReport report = lines::iterate(*s.memory->exchange, light_, deltalux::tuning::kConverged, 1);
     pass_.learn(passing.seconds());
     if (gray(report.residual) <= deltalux::tuning::kConverged * gray(report.emitted)) break;
-  } while (secondsLeft() > pass_.seconds());
+  } while (secondsLeft() > tuning::kPassesOfFrame * pass_.seconds());
   parallelFor(leaves_.size(), kMotionLeaves, [&](std::size_t i) {
     hierarchy::ElementLight& l = s.elements.radiometry[leaves_[i].index()];
     l.indirect = light_.indirect[i], l.B = light_.B[i];

@@ -9,5 +9,7 @@ constexpr double kParticlesAtUnitError = 1000, kMostParticles = 3e6;
 /// Of a frame, of what is left of a limited time for lines, or of all of it for links, that is planned: the rest keeps
 /// it in time where work takes longer than learned. More: late frames.
 constexpr double kPlanned = 0.8;
+/// Passes of light that a frame keeps time for. Fewer: late frames. More: leaves that follow late.
+constexpr double kPassesOfFrame = 2;
 
 }  // namespace deltalux::engine::tuning
