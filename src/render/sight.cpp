@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/tuning.hpp"
+
 namespace deltalux::rendering {
 
 /// Alike for all leaves of it.
@@ -25,7 +27,8 @@ void Sights::learn(int raysOfPlace, int rays, std::uint64_t key) {
     first.push_back(i), sources.push_back(sources_.at(places[i].leaf));
   }
   first.push_back(places.size());
-  const int shared = std::max(direct::kLearnAtPoint, raysOfPlace * static_cast<int>(places.size()));
+  const int shared =
+      std::max(direct::kLearnAtPoint, raysOfPlace * static_cast<int>(places.size()) / tuning::kLearningShare);
   around_ = direct::Aim(direct::joined(sources));
   around_.learn(sources_.light(), receivers, shared, key);
   for (std::size_t begin = 0, end = 0; begin < sources.size(); begin = end) {

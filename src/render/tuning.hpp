@@ -20,6 +20,8 @@ constexpr float kReach = 2.5f;
 
 /// Pixels a side of what learns together where light comes from. Fewer: rays to learn. More: what is learned fits none.
 constexpr int kTile = 32;
+/// Rays over those to learn from. More: grain beside windows. Fewer: time.
+constexpr int kLearningShare = 2;
 
 /// Connections of a path to lights by way of a mirror or a ball, at most, and no more pairs of them; more would dilute
 /// the choice: the rest is found by scattering. Fewer: noise below many mirrors.
