@@ -29,7 +29,7 @@ constexpr int kFewestEstimates = 32;
 /// from rooms beside them count as dark, and noise.
 constexpr int kPilotBounces = 4;
 /// Rounds of an estimate that looks ever closer, each at where the one before found it: where light comes from, which
-/// particles are of one light. Fewer: grain beside windows and in penumbrae, edges of caustics are blurred.
+/// particles are of one light. Fewer: grain beside windows and in penumbrae, edges of caustics are blurred. More: time.
 constexpr int kEverCloser = 3;
 /// Halvings of a sky, or of a lamp at most, into cells for particles and shadow rays to choose of, and that what is
 /// seen of it is known by. Fewer: noise under an uneven sky, rays beside the window. More: time to plan, cells that
@@ -56,7 +56,7 @@ constexpr double kOctaveStep = 0.25;
 /// Boxes that stand for all that an edit moves. Fewer: more is looked at again. More: each look takes longer.
 constexpr std::size_t kBoxes = 8;
 /// Cosine between triangles that are one smooth surface; sine of how far what stands on a surface may lean. Less: edges
-/// of boxes are smoothed. More: facets of balls show.
+/// of boxes are smoothed, tapered legs are overlooked. More: facets of balls show, lines below ramps.
 constexpr float kSmooth = 0.7071f;
 
 }  // namespace deltalux::tuning

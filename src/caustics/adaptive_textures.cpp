@@ -163,7 +163,7 @@ class AdaptiveTextures {
 
   void putRegion(const ChartSurface& surface, ChartPart& region, const FadingBorder& border,
                  const LowFrequencyLayer& layer) {
-    resolve(surface, region, tuning::kStray, 2 * tuning::kCoarseSide);
+    resolve(surface, region, tuning::kStray, kFineSide);
     const CellGrid grid = surface.grid(region);
     if (grid.size() == 0) return;
     const CellLight light = collect(grid, region.impacts);

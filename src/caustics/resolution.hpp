@@ -5,8 +5,12 @@
 // on hold `perTexel` particles, and no further, because nothing finer can be told from noise (bandwidth.hpp). A wall
 // with a small bright figure gets texels for the figure, and restriction (restriction.hpp) leaves the wall out.
 #include "caustics/chart_part.hpp"
+#include "caustics/tuning.hpp"
 
 namespace deltalux::caustics {
+
+/// Texels across of a fine texture, at most: twice those of a coarse one.
+inline constexpr int kFineSide = 2 * tuning::kCoarseSide;  // [defined]
 
 /// Square texels: how many across and along a region of `size` for texels of `area`, within `most`.
 glm::ivec2 squareTexels(const glm::dvec2& size, double area, int most);

@@ -21,7 +21,7 @@ ScaleSpace::ScaleSpace(const CellRaster& raster, const HeatFlow& even, Channels 
 
 bool ScaleSpace::widen() {
   const ScaleLevel& last = levels_.back();
-  const double width = last.width > 0 ? std::sqrt(2.0) * last.width : tuning::kNarrowest * std::sqrt(area_);
+  const double width = last.width > 0 ? tuning::kWidthFactor * last.width : tuning::kNarrowest * std::sqrt(area_);
   if (width > limit_) return false;
   ScaleLevel next{width, kernelOverlap(width, width, area_), last.light};
   flow_.apply(next.light, 0.5 * (width * width - last.width * last.width));

@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "base/tuning.hpp"
 #include "caustics/choice.hpp"
+#include "caustics/resolution.hpp"
 #include "caustics/tuning.hpp"
 #include "particles/side_index.hpp"
 
@@ -21,7 +22,7 @@ constexpr std::size_t kParts = 8;             // of all impacts, summed apart [t
 float sameness(const particles::Particles& p, std::uint32_t a, std::uint32_t b) {
   if (p.primitive[a] != p.primitive[b] || p.triangleAndSide[a] != p.triangleAndSide[b]) return 0.0f;
   const glm::vec2 d = glm::abs(p.uv[a] - p.uv[b]);
-  return std::max(0.0f, 1 - float(2 * tuning::kCoarseSide) * std::max(d.x, d.y));
+  return std::max(0.0f, 1 - float(kFineSide) * std::max(d.x, d.y));
 }
 
 /// body(part, begin, end) over kParts ranges of [0, count), in parallel.

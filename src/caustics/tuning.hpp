@@ -7,8 +7,9 @@ namespace deltalux::caustics::tuning {
 /// need not grow to reduce, and from which on the low-frequency layer stands for it; of the noise of a tile's flux, or
 /// of all, what is no change. More: blur; slow change is not followed. Less: grain; textures of next to nothing.
 constexpr double kMatters = 0.5;
-/// Narrowest and widest kernel, standard deviation in cells. Wider: time. Narrower: grain where light is dim.
-constexpr double kNarrowest = 0.5, kWidest = 6;
+/// Narrowest and widest kernel, standard deviation in cells, and the factor between widths. Wider: time. Narrower:
+/// grain where light is dim. Larger steps: widths that do not fit.
+constexpr double kNarrowest = 0.5, kWidest = 6, kWidthFactor = 1.4142135623730951;
 /// The widest in the square root of the surface's area, too. More: light is spread over all of it.
 constexpr double kWidestShare = 0.25;
 /// Standard errors that a difference, or a jump of a blurred edge, has to stand out by. More: blur. Less: islands of

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/morton.hpp"
+#include "direct/tuning.hpp"
 #include "hierarchy/tuning.hpp"
 #include "scene/nominal_scale.hpp"
 #include "tracing/shadow_ray.hpp"
@@ -61,8 +62,7 @@ PointSampler::PointSampler(const Scene& scene, const tracing::RayTracer& tracer)
       looks_[c][static_cast<std::size_t>(corner)] = SkyCells::direction(cell, corner & 1, corner >> 1);
   }
   const auto place = [](int cell) {
-    return morton(static_cast<std::uint32_t>(cell % SkyCells::kSide),
-                  static_cast<std::uint32_t>(cell / SkyCells::kSide));
+    return morton(static_cast<std::uint32_t>(cell % kSkySide), static_cast<std::uint32_t>(cell / kSkySide));
   };
   std::sort(curve_.begin(), curve_.end(), [&](int a, int b) { return place(a) < place(b); });
 }

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/tuning.hpp"
 #include "base/unit_circle.hpp"
+#include "direct/tuning.hpp"
 #include "hierarchy/leaf_sequence.hpp"
 #include "scene/nominal_scale.hpp"
 #include "scene/stops_light.hpp"
@@ -14,7 +16,7 @@ namespace deltalux::direct {
 
 namespace {
 
-constexpr int kHeights = SkyCells::kSide, kAzimuths = SkyCells::kSide;
+constexpr int kHeights = kSkySide, kAzimuths = kSkySide;
 constexpr std::uint64_t kSkyKey = 0x736b795f5f5full;  // [key]
 
 /// Power of two nearest to a share, none of less than matters.

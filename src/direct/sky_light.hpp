@@ -9,8 +9,8 @@
 
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "base/sky_side.hpp"
 #include "base/tuning.hpp"
-#include "direct/tuning.hpp"
 #include "hierarchy/leaf_table.hpp"
 #include "hierarchy/tuning.hpp"
 #include "scene/light_sampling.hpp"
@@ -20,8 +20,7 @@ namespace deltalux::direct {
 
 /// The sphere in cells of equal solid angle: heights times azimuths.
 struct SkyCells {
-  static constexpr int kSide = 1 << deltalux::tuning::kSkyHalvings / 2;  // along height, and as many around [defined]
-  static constexpr int kCount = kSide * kSide;
+  static constexpr int kCount = kSkySide * kSkySide;
   static int of(const Vec3f& direction);
   static Vec3f direction(int cell, double a, double b);
   static constexpr double solidAngle() { return 4 * kPi / kCount; }

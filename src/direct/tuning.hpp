@@ -10,12 +10,11 @@ constexpr int kRays = 16;
 /// Rays to the sun that tell whether others disagree: where they do, all that a patch has points for. Fewer: penumbrae
 /// and edges of sunlight are grainy.
 constexpr int kSunPilots = 8;
-/// The same to a lamp. As many as tell whether others are
-/// worth it are taken of those that are drawn, and left where none of these passes. One is enough where it hardly
-/// matters, or where all rays of the patch have missed it that this one is a part of. At a patch that is kept as none
-/// of all before has seen the lamp, as many again, and twice as many where it may bring most of what is not known.
-/// Fewer: lamps' shadows are grainy; edges of light are noticed late; specks where light comes through narrow gaps.
-/// More: rays at walls.
+/// The same to a lamp. As many as tell whether others are worth it are taken of those that are drawn, and left where
+/// none of these passes. One is enough where it hardly matters, or where all rays of the patch have missed it that this
+/// one is a part of. At a patch that is kept as none of all before has seen the lamp, as many again, and twice as many
+/// where it may bring most of what is not known. Fewer: lamps' shadows are grainy; edges of light are noticed late;
+/// specks where light comes through narrow gaps. More: rays at walls.
 constexpr int kLampPilots = 3;
 /// A lamp matters where, unshadowed, it brings more than this share of what has been found; one that is asked first, of
 /// what all may bring; less of a sky's cell is not told from it. Higher: faint lamps' shadows are lost.

@@ -165,8 +165,8 @@ void LineMotion::follow(Solution& s, const std::function<double()>& secondsLeft)
     const double seconds = secondsLeft() - tuning::kPassesOfFrame * pass_.seconds();
     // Not all at once, so that what a leaf takes is learned while there is time.
     const auto fit = static_cast<std::size_t>(std::max(0.0, 0.5 * seconds) / leaf_.seconds());
-    if (fit < kLightLeaves && !fewest) break;
-    const std::vector<std::uint32_t> next = mostWorth(std::max(kLightLeaves, fit));
+    if (fit < tuning::kFewestLeaves && !fewest) break;
+    const std::vector<std::uint32_t> next = mostWorth(std::max(tuning::kFewestLeaves, fit));
     light(s, lamps, next);
     leaf_.learn(lighting.seconds(), static_cast<double>(next.size()));
     fewest = false;

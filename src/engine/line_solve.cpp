@@ -1,4 +1,5 @@
 #include "engine/line_solve.hpp"
+#include "direct/tuning.hpp"
 #include "engine/tuning.hpp"
 
 #include <algorithm>

@@ -3,12 +3,15 @@
 #include <utility>
 
 #include "base/check.hpp"
+#include "base/usual_error.hpp"
 #include "engine/energy_balance.hpp"
 #include "engine/state.hpp"
 #include "hierarchy/fold.hpp"
 #include "paper/caustic_textures.hpp"
 
 namespace deltalux {
+
+static_assert(SolveSettings{}.error == kUsualError);
 
 SolveReport Engine::State::step(Progress* progress) {
   const engine::Clock time;

@@ -16,8 +16,6 @@ namespace deltalux::lines {
 namespace {
 
 constexpr std::size_t kRoomLeaves = 1024;  // of a task [task]
-/// Lines that shall lead out of a room: as many as have the usual error.
-constexpr double kWaysOut = 1 / (kUsualError * kUsualError);  // [defined]
 
 /// So many of the first lines of each leaf, and where those are that they end on.
 struct FirstOfLeaves {
@@ -65,7 +63,7 @@ struct Room {
   double area = 0, lines = 0, ways = 0;
 
   double wanted() const {
-    return ways > 0 ? lines * std::max(1.0, kWaysOut / ways) : std::max(lines, tuning::kClosedLines);
+    return ways > 0 ? lines * std::max(1.0, kSamplesOfUsualError / ways) : std::max(lines, tuning::kClosedLines);
   }
 };
 

@@ -11,8 +11,8 @@ constexpr double kBaseLines = 144;
 /// leaves do.
 constexpr int kFewestOctaves = -2, kMostOctaves = 4;
 /// Lines of a room that hardly any light reaches by which it counts as closed where none leads out, and as many as all
-/// such rooms may have in scenes of few. Fewer: rooms behind a
-/// slot of a millimetre are noise. More: dark rooms take most of the time.
+/// such rooms may have in scenes of few. Fewer: rooms behind a slot of a millimetre are noise. More: dark rooms take
+/// most of the time.
 constexpr double kClosedLines = 1 << 20;
 /// Bounces that tell how much light there is in such a room. Fewer: as above.
 constexpr int kDimBounces = 2;
@@ -33,7 +33,6 @@ constexpr double kSmallScene = 6;
 /// floor of a wide room that no lamp shines on is one leaf. Less: gaps between logs fill with leaves, dark cupboards
 /// take most of the time.
 constexpr double kRoom = 1;
-
 /// Clusters that a surface is looked at below, to know what mean free paths are usual around it. Fewer: narrow places
 /// and corners fill with leaves.
 constexpr int kClustersUp = 3;

@@ -11,6 +11,11 @@ namespace {
 
 constexpr int kPanes = 64;  // panes that a ray passes before it is given up [limit]
 
+/// Lights that a vertex looks at, which stand for all of them.
+std::size_t lightsPicked(const Scene& scene) {
+  return std::min<std::size_t>(scene.lights.size(), deltalux::tuning::kPilots);
+}
+
 Rgb scaleOf(const Light& light) { return isBlack(light.scale) ? Rgb(deltalux::tuning::kNegligible) : light.scale; }
 
 Vec3f cosineDirection(const Vec3& normal, Rng& rng) {
@@ -117,7 +122,7 @@ SideEstimate SideEstimator::estimate(const hierarchy::Side& side) const {
       float t = 0;
       Rgb through(1.0f);
       const tracing::Hit hit = look(o, w, rng, through, t);
-      e.rays += 1 + std::min<std::size_t>(scene_.lights.size(), deltalux::tuning::kPilots);
+      e.rays += 1 + lightsPicked(scene_);
       if (!hit) {
         for (const Light& light : scene_.lights)
           if (const auto* dome = std::get_if<DomeLight>(&light.emitter))
@@ -168,7 +173,7 @@ Rgb SideEstimator::directAt(const Origin& o, Rng& rng) const {
   // A few lights picked at random stand for all of them.
   const std::size_t lights = scene_.lights.size();
   Rgb sum(0.0f);
-  const std::size_t picked = std::min<std::size_t>(lights, deltalux::tuning::kPilots);
+  const std::size_t picked = lightsPicked(scene_);
   for (std::size_t k = 0; k < picked; ++k) {
     const std::size_t index =
         lights == picked ? k : static_cast<std::size_t>(rng.uniform() * static_cast<double>(lights));

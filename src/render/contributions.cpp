@@ -8,6 +8,7 @@
 #include "base/check.hpp"
 #include "base/random.hpp"
 #include "base/tuning.hpp"
+#include "direct/tuning.hpp"
 #include "render/particle_paths.hpp"
 #include "render/reader_state.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "base/batch_mean.hpp"
 #include "base/tuning.hpp"
-#include "direct/aim.hpp"
+#include "direct/tuning.hpp"
 
 namespace deltalux::rendering {
 

@@ -6,6 +6,7 @@
 #include "base/parallel.hpp"
 #include "base/tuning.hpp"
 #include "caustics/tuning.hpp"
+#include "hierarchy/tuning.hpp"
 #include "particles/impact_light.hpp"
 #include "particles/side_index.hpp"
 #include "solution/solution.hpp"
@@ -14,7 +15,8 @@ namespace deltalux::rendering {
 
 namespace {
 
-constexpr int kDisc = hierarchy::tuning::kGrid * deltalux::tuning::kPilots;
+constexpr int kSectors = hierarchy::tuning::kGrid;  // around a point
+constexpr int kDisc = kSectors * deltalux::tuning::kPilots;
 
 /// Points of the unit disc, even in area. [Vogel79]
 const std::array<Vec2, kDisc>& disc() {
@@ -167,7 +169,7 @@ struct ParticleField::Rings {
     double gray = 0, squares = 0, area = 0;
   };
   std::vector<double> radii;
-  std::array<std::vector<Sum>, hierarchy::tuning::kGrid> out;  // out[k][j]: sector k within radii[j]
+  std::array<std::vector<Sum>, kSectors> out;  // out[k][j]: sector k within radii[j]
 
   Sum whole(std::size_t j) const {
     Sum all;
@@ -190,8 +192,8 @@ ParticleField::Rings ParticleField::ringsOf(const Query& q, const Surroundings& 
   const std::size_t steps = rings.radii.size();
   const Frame frame(q.normal);
   const auto sectorOf = [](double x, double y) {
-    const int k = static_cast<int>(std::floor((std::atan2(y, x) / kPi + 1) * 0.5 * hierarchy::tuning::kGrid));
-    return std::clamp(k, 0, hierarchy::tuning::kGrid - 1);
+    const int k = static_cast<int>(std::floor((std::atan2(y, x) / kPi + 1) * 0.5 * kSectors));
+    return std::clamp(k, 0, kSectors - 1);
   };
   for (auto& sector : rings.out) sector.resize(steps);
   const auto stepOf = [&](double r) {
@@ -207,20 +209,20 @@ ParticleField::Rings ParticleField::ringsOf(const Query& q, const Surroundings& 
     s.flux += RgbSum(l.flux), s.gray += w, s.squares += w * w;
   }
   // Of every ring's part as much is surface as of the points in it and next to it.
-  std::array<std::vector<std::array<int, 2>>, hierarchy::tuning::kGrid> open;
+  std::array<std::vector<std::array<int, 2>>, kSectors> open;
   const bool everywhere = std::all_of(around.open.begin(), around.open.end(), [](char o) { return o; });
-  for (int k = 0; k < hierarchy::tuning::kGrid; ++k) open[k].assign(steps, {0, 0});
+  for (int k = 0; k < kSectors; ++k) open[k].assign(steps, {0, 0});
   for (int i = 0; i < kDisc && !everywhere; ++i) {
     const Vec2 at = disc()[i];
     auto& cell = open[sectorOf(at.x, at.y)][stepOf(q.radius * glm::length(at))];
     ++cell[0], cell[1] += around.open[i];
   }
-  for (int k = 0; k < hierarchy::tuning::kGrid; ++k) {
+  for (int k = 0; k < kSectors; ++k) {
     double share = 1;  // the point itself is on the surface
     for (std::size_t j = 0; j < steps; ++j) {
       if (!everywhere && open[k][j][0] > 0) share = double(open[k][j][1]) / open[k][j][0];
       const double inner = j > 0 ? rings.radii[j - 1] : 0.0, outer = rings.radii[j];
-      rings.out[k][j].area = share * kPi * (outer * outer - inner * inner) / hierarchy::tuning::kGrid;
+      rings.out[k][j].area = share * kPi * (outer * outer - inner * inner) / kSectors;
       if (j > 0) Rings::add(rings.out[k][j], rings.out[k][j - 1], 1);
     }
   }

@@ -22,7 +22,7 @@ struct Solution;
 namespace deltalux::rendering {
 
 /// Particles that light at a point is estimated from, at most: as many as have the usual error.
-inline constexpr auto kMostParticles = static_cast<std::size_t>(1 / (kUsualError * kUsualError) + 0.5);  // [defined]
+inline constexpr auto kMostParticles = static_cast<std::size_t>(kSamplesOfUsualError + 0.5);  // [defined]
 
 class ParticleField {
  public:

@@ -3,6 +3,7 @@
 #include "base/batch_mean.hpp"
 #include "base/random.hpp"
 #include "base/tuning.hpp"
+#include "direct/tuning.hpp"
 #include "solution/solution.hpp"
 
 namespace deltalux::rendering {

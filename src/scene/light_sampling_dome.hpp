@@ -4,7 +4,7 @@
 #include <deltalux/light.hpp>
 #include <vector>
 
-#include "base/tuning.hpp"
+#include "base/sky_side.hpp"
 
 namespace deltalux::scene {
 
@@ -22,8 +22,8 @@ class DomeTable {
   double pdf(const Vec3& towards) const;
 
  private:
-  static constexpr int kRings = 1 << deltalux::tuning::kSkyHalvings / 2;  // [defined]
-  static constexpr int kSectors = 2 * kRings;                             // around: twice as many [defined]
+  static constexpr int kRings = kSkySide;
+  static constexpr int kSectors = 2 * kRings;  // around: twice as many [defined]
 
   Vec3 direction(double azimuth, double height) const;
 

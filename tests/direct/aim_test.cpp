@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "direct/room_with_window.hpp"
+#include "direct/tuning.hpp"
 
 namespace deltalux {
 namespace {

@@ -10,6 +10,9 @@ namespace deltalux::rendering {
 
 namespace {
 
+/// Between which roots are looked for.
+constexpr int kRootSteps = deltalux::tuning::kPolarAngles;
+
 /// A surface of revolution with straight generatrices: radius + slope z at height z over p0, 0 <= z <= height.
 struct Revolution {
   Vec3 p0, axis;
@@ -79,22 +82,21 @@ struct Azimuths {
 };
 
 struct UnitCircle {
-  std::array<double, deltalux::tuning::kPolarAngles> c, s;
+  std::array<double, kRootSteps> c, s;
   UnitCircle() {
-    for (int i = 0; i < deltalux::tuning::kPolarAngles; ++i)
-      c[i] = std::cos(2 * kPi * i / deltalux::tuning::kPolarAngles),
-      s[i] = std::sin(2 * kPi * i / deltalux::tuning::kPolarAngles);
+    for (int i = 0; i < kRootSteps; ++i)
+      c[i] = std::cos(2 * kPi * i / kRootSteps), s[i] = std::sin(2 * kPi * i / kRootSteps);
   }
 };
 
 Azimuths roots(const Condition& f) {
   static const UnitCircle circle;
-  std::array<double, deltalux::tuning::kPolarAngles> values;
-  for (int i = 0; i < deltalux::tuning::kPolarAngles; ++i) values[i] = f.value(circle.c[i], circle.s[i]);
-  const auto at = [&](int i) { return values[(i + deltalux::tuning::kPolarAngles) % deltalux::tuning::kPolarAngles]; };
-  constexpr double spacing = 2 * kPi / deltalux::tuning::kPolarAngles;
+  std::array<double, kRootSteps> values;
+  for (int i = 0; i < kRootSteps; ++i) values[i] = f.value(circle.c[i], circle.s[i]);
+  const auto at = [&](int i) { return values[(i + kRootSteps) % kRootSteps]; };
+  constexpr double spacing = 2 * kPi / kRootSteps;
   Azimuths found;
-  for (int i = 0; i < deltalux::tuning::kPolarAngles; ++i) {
+  for (int i = 0; i < kRootSteps; ++i) {
     const double left = at(i), right = at(i + 1);
     if ((left > 0) != (right > 0)) {
       found.add(rootBetween(f, i * spacing, left, (i + 1) * spacing, right));

@@ -11,7 +11,7 @@
 #include "base/check.hpp"
 #include "base/parallel.hpp"
 #include "base/tuning.hpp"
-#include "direct/aim.hpp"
+#include "direct/tuning.hpp"
 #include "render/reference/path_tracer.hpp"
 #include "render/tuning.hpp"
 

@@ -10,6 +10,9 @@ namespace deltalux::rendering {
 
 namespace {
 
+/// Between which roots are looked for.
+constexpr int kRootSteps = deltalux::tuning::kPolarAngles;
+
 /// The ray from x at angle alpha to the centre, in the plane of the passage.
 struct Bending {
   double sinI, cosI, sinT, cosT;
@@ -128,12 +131,12 @@ BallPassages ballPassages(const Sphere& sphere, double ior, int inner, const Vec
   const Miss miss{course, light.infinite ? Vec2(std::atan2(flat.y, flat.x), 0.0) : flat, light.infinite};
 
   const double widest = std::asin(sphere.radius / distance) * (1.0 - 1e-12);
-  std::array<double, deltalux::tuning::kPolarAngles + 1> at, value;
-  for (int k = 0; k <= deltalux::tuning::kPolarAngles; ++k) {
+  std::array<double, kRootSteps + 1> at, value;
+  for (int k = 0; k <= kRootSteps; ++k) {
     // Finer towards the rim, where the ray turns fastest; an even number of steps puts no sample on the axis itself.
-    at[k] = widest * std::sin(0.5 * kPi * (2.0 * (k + 0.25) / (deltalux::tuning::kPolarAngles + 0.5) - 1.0));
+    at[k] = widest * std::sin(0.5 * kPi * (2.0 * (k + 0.25) / (kRootSteps + 0.5) - 1.0));
     if (k == 0) at[k] = -widest;
-    if (k == deltalux::tuning::kPolarAngles) at[k] = widest;
+    if (k == kRootSteps) at[k] = widest;
     value[k] = miss(at[k]);
   }
   const auto found = [&](double a, double fa, double b) {
@@ -146,7 +149,7 @@ BallPassages ballPassages(const Sphere& sphere, double ior, int inner, const Vec
     if (inner > 0 && (at[k] > 0) != (at[k + 1] > 0)) return false;
     return !light.infinite || std::abs(value[k + 1] - value[k]) < kPi;
   };
-  for (int k = 0; k < deltalux::tuning::kPolarAngles; ++k) {
+  for (int k = 0; k < kRootSteps; ++k) {
     if ((value[k + 1] > 0) != (value[k] > 0)) {
       if (joined(k)) found(at[k], value[k], at[k + 1]);
       continue;
