@@ -1,6 +1,5 @@
 #pragma once
 // Tuned constants that several layers share: purpose, unit, normal value, and what breaks.
-#include <cstddef>
 
 namespace deltalux::tuning {
 
@@ -43,9 +42,6 @@ constexpr double kMostSurvival = 0.9;
 /// Polar angles by which a lamp's pattern is looked at: that its beam's width is found by, and that its table begins
 /// with (2 degrees). Fewer: narrow beams and peaks are overlooked. More: time for each lamp.
 constexpr int kPolarAngles = 90;
-/// Paths that give a first idea of light, from all that send it or to all that get it together. Fewer: what is lit by
-/// the way of caustics or of others counts as dark. More: time before the first light.
-constexpr int kPilotPaths = 1 << 16;
 /// Share of the light of a surface, of the target error, or of a depth, by which a difference is a change; and of a
 /// leaf that tells of what is around it. More: shadows of what has moved away, dark rooms beside bright places are not
 /// done, what is hidden shines through. Less: work at every edit, holes in slanting surfaces.
@@ -53,10 +49,5 @@ constexpr double kChangeMatters = 0.1;
 /// Octaves between sizes, errors or distances that are tried one after the other, or count as one. Larger: what is cut
 /// by them is coarse, and time is left over. Smaller: what differs a little is cut otherwise.
 constexpr double kOctaveStep = 0.25;
-/// Boxes that stand for all that an edit moves. Fewer: more is looked at again. More: each look takes longer.
-constexpr std::size_t kBoxes = 8;
-/// Cosine between triangles that are one smooth surface; sine of how far what stands on a surface may lean. Less: edges
-/// of boxes are smoothed, tapered legs are overlooked. More: facets of balls show, lines below ramps.
-constexpr float kSmooth = 0.7071f;
 
 }  // namespace deltalux::tuning

@@ -6,6 +6,7 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 #include "caustics/adaptive_textures.hpp"
 #include "caustics/tuning.hpp"
 #include "particles/side_index.hpp"
@@ -92,7 +93,7 @@ OtherLight otherLight(const Scene& scene, const hierarchy::Elements& elements, c
     double area = 0, below = 0;
     for (end = begin; end < parts.size() && parts[end].side == parts[begin].side; ++end) area += parts[end].area;
     std::size_t k = begin;
-    while (k + 1 < end && (below += parts[k].area) < tuning::kDarkest * area) ++k;
+    while (k + 1 < end && (below += parts[k].area) < deltalux::tuning::kChangeMatters * area) ++k;
     result.darkest[parts[begin].side] = parts[k].E;
   }
   return result;

@@ -38,7 +38,7 @@ int CellGrid::groupAt(int row) const {
   const Vec2 texel = texelSize();
   const double across = texel.x * chart_.stretch(region_.lower.y + (row + 0.5) * texel.y);
   int group = 1;
-  while (group < width_ && group * across < tuning::kPart * texel.y) group *= 2;
+  while (group < width_ && 2 * group * across < texel.y) group *= 2;
   return group;
 }
 
@@ -67,7 +67,7 @@ void CellGrid::joinSlivers() {
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
       const std::size_t i = texelAt(x, y);
-      if (!(areas[i] > 0) || areas[i] >= tuning::kPart * whole) continue;
+      if (!(areas[i] > 0) || 2 * areas[i] >= whole) continue;
       std::size_t best = i;
       const auto consider = [&](int nx, int ny) {
         if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) return;

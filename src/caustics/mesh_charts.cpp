@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/smooth.hpp"
 #include "base/tuning.hpp"
 
 namespace deltalux::caustics {
@@ -95,7 +96,7 @@ Charts meshCharts(const Mesh& m) {
     charts.ofTriangle[seed] = chart;
     for (std::size_t i = 0; i < members.size(); ++i)
       for (const std::uint32_t next : neighbours[members[i]])
-        if (charts.ofTriangle[next] == none && glm::dot(normals[next], normals[seed]) > deltalux::tuning::kSmooth) {
+        if (charts.ofTriangle[next] == none && glm::dot(normals[next], normals[seed]) > kSmooth) {
           charts.ofTriangle[next] = chart;
           members.push_back(next);
         }

@@ -7,11 +7,8 @@ namespace deltalux::caustics::tuning {
 /// need not grow to reduce, and from which on the low-frequency layer stands for it; of the noise of a tile's flux, or
 /// of all, what is no change. More: blur; slow change is not followed. Less: grain; textures of next to nothing.
 constexpr double kMatters = 0.5;
-/// Narrowest and widest kernel, standard deviation in cells, and the factor between widths. Wider: time. Narrower:
-/// grain where light is dim. Larger steps: widths that do not fit.
-constexpr double kNarrowest = 0.5, kWidest = 6, kWidthFactor = 1.4142135623730951;
-/// The widest in the square root of the surface's area, too. More: light is spread over all of it.
-constexpr double kWidestShare = 0.25;
+/// Narrowest and widest kernel, standard deviation in cells. Wider: time. Narrower: grain where light is dim.
+constexpr double kNarrowest = 0.5, kWidest = 6;
 /// Standard errors that a difference, or a jump of a blurred edge, has to stand out by. More: blur. Less: islands of
 /// grain.
 constexpr double kConfidence = 2.25;
@@ -27,10 +24,6 @@ constexpr double kStray = 2;
 constexpr int kCoarseSide = 128;
 /// Coarse texels around a region. Fewer: its outline shows.
 constexpr int kMargin = 2;
-/// Part of a whole texel below which it joins a neighbour. Less: bright texels on outlines and at poles.
-constexpr double kPart = 0.5;
-/// Share of a side's area that may be darker than what noise is compared with. More: grain in its shadows.
-constexpr double kDarkest = 0.1;
 /// Range of modes that are damped, as far as half of them go in a time of 1. Less: checkerboards. More: steps.
 constexpr double kDamping = 1;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/few_boxes.hpp"
 #include "base/tuning.hpp"
 #include "change/separating_axes.hpp"
 
@@ -56,7 +57,7 @@ std::vector<BoxF> fewBoxes(std::vector<BoxF> boxes) {
   };
   if (boxes.empty()) return {};
   std::vector<Group> groups{groupOf(0, boxes.size())};
-  while (groups.size() < tuning::kBoxes) {
+  while (groups.size() < kFewBoxes) {
     const auto largest = std::ranges::max_element(
         groups, {}, [](const Group& g) { return g.end - g.begin > 1 ? surface(g.box) : -1.0f; });
     const Group g = *largest;

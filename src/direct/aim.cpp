@@ -65,7 +65,7 @@ void Aim::keepFromSpecks(float light, int rays) {
   };
   float lack = 0;
   for (const Square& q : squares_) lack += q.area() * lacks(q);
-  const float given = std::min(1.0f, (tuning::kMostGrowth - 1) * before / std::max(lack, 1e-20f));
+  const float given = std::min(1.0f, before / std::max(lack, 1e-20f));
   for (Square& q : squares_) q.weight += given * lacks(q);
   sumWeights();
   rays_ = static_cast<int>(std::lround(total() / each + 0.499f));
@@ -81,8 +81,8 @@ void Aim::share() {
     if (!brightest || s.share() > brightest->share()) brightest = &s;
   }
   if (brightest) {
-    const float own = brightest->share(), most = tuning::kMostShare / (1 - tuning::kMostShare) * (all - own);
-    if (most > 0 && own > most) brightest->weight *= most / own;
+    const float own = brightest->share(), others = all - own;
+    if (others > 0 && own > others) brightest->weight *= others / own;
   }
   sumWeights();
 }
@@ -205,8 +205,8 @@ ProbeResult measure(const PointSampler& light, std::span<const Source> sources, 
   ProbeResult result;
   Aim aim(sources);
   aim.learn(light, {&x, 1}, kLearnAtPoint, combineKeys(key, 1));
-  aim = aim.at(sources, level / tuning::kEstimateRays,
-               tuning::kEstimateRays);  // no ray may outweigh a whole estimate: few of them would not know
+  aim = aim.at(sources, level / kEstimateRays,
+               kEstimateRays);  // no ray may outweigh a whole estimate: few of them would not know
   if (aim.dark()) return result;
   BatchMean mean;
   while (mean.count() < deltalux::tuning::kFewestEstimates || result.samples < static_cast<std::uint64_t>(maxSamples)) {

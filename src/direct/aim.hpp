@@ -24,6 +24,8 @@ namespace deltalux::direct {
 
 /// Rays that a point of its own learns from: one a cell of the sphere in each round.
 inline constexpr int kLearnAtPoint = deltalux::tuning::kEverCloser * SkyCells::kCount;
+/// Rays of one independent estimate of a meter: a first idea of a few.
+inline constexpr int kEstimateRays = deltalux::tuning::kFewRays * deltalux::tuning::kPilots;
 
 class Aim {
  public:

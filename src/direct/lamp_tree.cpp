@@ -117,7 +117,7 @@ void LampTree::cut(const hierarchy::ElementGeometry& g, double share, std::size_
   const auto add = [&](std::uint32_t node, double atMost) {
     const double bounded = std::min(bound(node, g), atMost);
     if (!(bounded > 0)) return;
-    open.push_back({node, bounded, bounded * (maySee(nodes_[node]) ? tuning::kSeenRank : 1.0)});
+    open.push_back({node, bounded, bounded * (maySee(nodes_[node]) ? share / tuning::kMatters : 1.0)});
     out.restMost += bounded;
     std::push_heap(open.begin(), open.end(), less);
   };

@@ -15,11 +15,19 @@ namespace {
 
 constexpr int kMostPoints = 64;                                                          // [layout]
 constexpr std::uint64_t kLampKey = 0x6c616d70735f5full, kDrawKey = 0x647261775f5f5full;  // [key]
-static_assert(tuning::kRays <= kMostPoints);
+/// Shadow rays of a leaf at the usual error: to the sun, to a lamp where rays disagree, to those that are drawn; and
+/// points that the unshadowed light of a lamp is averaged over.
+constexpr int kRays = deltalux::tuning::kPilots;
+/// Rays to the sun that tell whether others disagree: where they do, all that a patch has points for.
+constexpr int kSunPilots = kRays / 2;  // [defined]
+static_assert(kRays <= kMostPoints);
+/// Share of what all lamps may bring above which one is asked on its own: as much as each ray stands for of the most
+/// that are drawn for the rest.
+constexpr double kAskedShare = 1.0 / deltalux::tuning::kFewestEstimates;  // [defined]
 
 /// In inverse proportion to the error: the area where rays disagree shrinks with the mesh as well.
 int raysFor(double error, int normal) {
-  return std::clamp(static_cast<int>(std::lround(normal * kUsualError / error)), 1, kMostPoints - tuning::kSunPilots);
+  return std::clamp(static_cast<int>(std::lround(normal * kUsualError / error)), 1, kMostPoints - kSunPilots);
 }
 
 }  // namespace
@@ -140,9 +148,9 @@ DirectSampler::DirectSampler(const hierarchy::Elements& elements, const Scene& s
       tracer_(tracer),
       lamps_(lamps),
       lampRays_(raysFor(error, deltalux::tuning::kFewRays)),
-      mixedRays_(raysFor(error, tuning::kRays)),
-      mixedSunRays_(std::max(tuning::kRays, raysFor(error, kMostPoints - tuning::kSunPilots))),
-      openDrawn_(raysFor(error, tuning::kRays)),
+      mixedRays_(raysFor(error, kRays)),
+      mixedSunRays_(std::max(kRays, raysFor(error, kMostPoints - kSunPilots))),
+      openDrawn_(raysFor(error, kRays)),
       mixedDrawn_(raysFor(error, deltalux::tuning::kFewestEstimates)) {}
 
 namespace {
@@ -173,8 +181,7 @@ struct Draws {
 
 LampTree::Cut cutOf(const LampTree& tree, const hierarchy::ElementGeometry& g, const LampSight& above) {
   LampTree::Cut cut;  // no more of them than can bring such a share each
-  tree.cut(g, above.none() ? tuning::kMatters : tuning::kAskedShare, static_cast<std::size_t>(1 / tuning::kAskedShare),
-           above.seen, cut);
+  tree.cut(g, above.none() ? tuning::kMatters : kAskedShare, deltalux::tuning::kFewestEstimates, above.seen, cut);
   return cut;
 }
 
@@ -310,7 +317,7 @@ Rgb DirectSampler::unshadowed(const Lamp& lamp, Points& points, int wanted) cons
 void DirectSampler::ask(const Lamp& lamp, double potential, const LampSight& above, Points& points,
                         std::vector<Asked>& asked) const {
   Asked& a = asked.emplace_back(Asked{&lamp, potential, !lamp.sun && above.missed(lamp.id), {}, {}, {}});
-  shoot(lamp, points, lamp.sun ? tuning::kSunPilots : a.missed ? 1 : tuning::kLampPilots, a.shadows, a.pilot);
+  shoot(lamp, points, lamp.sun ? kSunPilots : a.missed ? 1 : tuning::kLampPilots, a.shadows, a.pilot);
 }
 
 /// The samples that count, where about as much light as `found` was found.
@@ -319,7 +326,7 @@ void DirectSampler::finish(double found, Points& points, Asked& a) const {
   const Tally& pilot = a.pilot;
   const double open = pilot.shot > 0 ? gray(pilot.open) / pilot.samples : a.potential;
   const bool mixed = pilot.mixed() || (a.missed && pilot.passed > 0);
-  int wanted = lamp.sun ? (mixed ? mixedSunRays_ : tuning::kRays) : mixed ? mixedRays_ : lampRays_;
+  int wanted = lamp.sun ? (mixed ? mixedSunRays_ : kRays) : mixed ? mixedRays_ : lampRays_;
   if (!lamp.sun && !(open > tuning::kMatters * found)) wanted = 1;
   a.missed = a.missed && pilot.passed == 0 && wanted > 1;
   if (a.missed) wanted = 1;
@@ -359,7 +366,7 @@ Rgb DirectSampler::refined(const Asked& a, const hierarchy::ElementGeometry& g, 
   Rgb E = t.light();
   if (a.lamp->sun || a.missed) return E;  // a ratio of so few would favour what is seen where it is faint
   const bool varied = t.shot < t.samples || nearBy(*a.lamp, g);
-  const Rgb open = t.measured ? t.unshadowed : unshadowed(*a.lamp, points, varied ? kMostPoints : tuning::kRays);
+  const Rgb open = t.measured ? t.unshadowed : unshadowed(*a.lamp, points, varied ? kMostPoints : kRays);
   for (int c = 0; c < 3; ++c) E[c] = t.open[c] > 0 ? open[c] * static_cast<float>(t.lit[c] / t.open[c]) : 0.0f;
   return E;
 }
@@ -467,8 +474,7 @@ DirectSampler::Choice choiceOf(const LeafDirect& direct, const hierarchy::Elemen
   if (direct.tooWideForBeam) return Split;
   const double side = tuning::kScale * meanDistance, around = side * side;
   if (g.area < error * around) return Whole;
-  return direct.variation * g.area > tuning::kVariation * error * level * std::max<double>(around, g.area) ? Split
-                                                                                                           : Keep;
+  return direct.variation * g.area > error * level * std::max<double>(around, g.area) ? Split : Keep;
 }
 
 }  // namespace deltalux::direct

@@ -158,6 +158,7 @@ void LineMotion::light(Solution& s, const direct::Lamps& lamps, std::span<const 
 }
 
 void LineMotion::follow(Solution& s, const std::function<double()>& secondsLeft) {
+  constexpr auto kFewest = std::size_t{deltalux::tuning::kPilots};  // in any frame, so that it gets on
   const direct::Lamps lamps(s.scene, scene::nominalScales(s.scene));
   bool fewest = true;
   while (waiting_ > 0) {
@@ -165,8 +166,8 @@ void LineMotion::follow(Solution& s, const std::function<double()>& secondsLeft)
     const double seconds = secondsLeft() - tuning::kPassesOfFrame * pass_.seconds();
     // Not all at once, so that what a leaf takes is learned while there is time.
     const auto fit = static_cast<std::size_t>(std::max(0.0, 0.5 * seconds) / leaf_.seconds());
-    if (fit < tuning::kFewestLeaves && !fewest) break;
-    const std::vector<std::uint32_t> next = mostWorth(std::max(tuning::kFewestLeaves, fit));
+    if (fit < kFewest && !fewest) break;
+    const std::vector<std::uint32_t> next = mostWorth(std::max(kFewest, fit));
     light(s, lamps, next);
     leaf_.learn(lighting.seconds(), static_cast<double>(next.size()));
     fewest = false;

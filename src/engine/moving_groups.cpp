@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/few_boxes.hpp"
 #include "base/sort_unique.hpp"
 #include "base/tuning.hpp"
 
@@ -19,7 +20,7 @@ void MovingGroups::separate(tracing::RayTracer& tracer, const Scene& scene, std:
 }
 
 void MovingGroups::setApart(tracing::RayTracer& tracer, const Scene& scene, std::span<const PrimitiveId> primitives) {
-  if (separated_ == deltalux::tuning::kBoxes) {
+  if (separated_ == kFewBoxes) {
     tracer.rejoin();
     groups_.clear(), separated_ = 0;
   }

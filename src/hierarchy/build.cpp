@@ -72,7 +72,7 @@ std::unique_ptr<Node> cluster(std::vector<Group> groups) {
     node->groups = std::move(groups);
     return node;
   }
-  const double limit = tuning::kLarge * node->box.diagonal();
+  const double limit = node->box.diagonal() / 2;  // what is larger fits into neither half
   const auto small =
       std::stable_partition(groups.begin(), groups.end(), [&](const Group& g) { return g.box.diagonal() > limit; });
   const auto largeCount = static_cast<std::size_t>(small - groups.begin());

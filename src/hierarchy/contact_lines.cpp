@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/box_tree.hpp"
+#include "base/smooth.hpp"
 #include "base/tuning.hpp"
 #include "hierarchy/below.hpp"
 #include "hierarchy/element.hpp"
@@ -124,7 +125,7 @@ class ContactLines::Search {
   /// Adds where a face meets the plane, if it rises from it to the side of `up`.
   static void addFoot(const Face& face, const PlaneFrame& plane, const PlanePoints& points, const Vec3& up,
                       std::array<std::vector<Line>, 2>& lines) {
-    if (std::abs(glm::dot(face.normal, up)) > deltalux::tuning::kSmooth) return;
+    if (std::abs(glm::dot(face.normal, up)) > kSmooth) return;
     const auto heightOf = [&](const Vec3& p) { return glm::dot(p - plane.origin, up); };
     double height = 0;
     for (const Vec3& p : face.corners) height = std::max(height, heightOf(p));
@@ -203,7 +204,7 @@ std::optional<float> ContactLines::across(const Range& r, float height) const {
     float crossed = 0;
     for (; line != last && line->at == at; ++line)
       if (line->height >= height) crossed += std::max(0.0f, std::min(line->to, r.high) - std::max(line->from, r.low));
-    if (crossed < tuning::kCrossed * (r.high - r.low)) continue;
+    if (2 * crossed < r.high - r.low) continue;
     if (!nearest || std::abs(at - middle) < std::abs(*nearest - middle)) nearest = at;
   }
   return nearest;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tuning.hpp"
 #include "hierarchy/patch.hpp"
 #include "hierarchy/tuning.hpp"
 
@@ -56,7 +57,8 @@ void pullIrradiance(Elements& elements, std::size_t i) {
   ElementLight& light = elements.radiometry[i];
   if (t.childCount == 0) {
     // The first estimate is free of the leaks that a coarse solution has, so it bounds what may be tolerated.
-    light.tolerance = std::max(gray(light.direct + light.indirect + light.particle), tuning::kDarkest * light.typical);
+    light.tolerance = std::max(gray(light.direct + light.indirect + light.particle),
+                               static_cast<float>(deltalux::tuning::kChangeMatters) * light.typical);
     return;
   }
   RgbSum direct(0.0), indirect(0.0), particle(0.0);

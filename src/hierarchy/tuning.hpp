@@ -5,10 +5,8 @@
 
 namespace deltalux::hierarchy::tuning {
 
-/// Surfaces that a cluster may hold without looking at their sizes, and the size against its cluster from which one
-/// stays in it. More, smaller: links to clusters err. Fewer, larger: deep trees.
+/// Surfaces that a cluster may hold without looking at their sizes. More: links to clusters err. Fewer: deep trees.
 constexpr std::size_t kLeafGroups = 4;
-constexpr double kLarge = 0.5;
 /// Least mean free path of an element, relative to what is usual around it, of a part, relative to the mean distance of
 /// what it is part of, and of a patch, in its radii: such a place is narrow. Less: slots between boards, narrow places
 /// and corners fill with elements.
@@ -17,9 +15,8 @@ constexpr float kNarrowPlace = 0.5f;
 /// lines along its foot, ends of patches. Larger: splits along lines where nothing stands. Smaller: walls of scanned or
 /// rounded coordinates are overlooked.
 constexpr double kTouching = 0.02;
-/// Least share of a patch that a line has to cross, and least height of what it is the foot of, in the patch's side, to
-/// be split along. Less: crooked patches around small things. More: light leaks below walls.
-constexpr float kCrossed = 0.5f;
+/// Least height of what a line is the foot of, in the side of a patch that it crosses most of, for the patch to be
+/// split along it. Less: crooked patches around small things. More: light leaks below walls.
 constexpr double kWall = 0.2;
 /// Points along each parameter of a curved patch, or of a part or a cell of the sky, that bound it and tell its mean.
 /// Fewer: loose bounds, normals that are off, and bright spots that are missed. More: time in the square.
@@ -28,8 +25,5 @@ constexpr int kGrid = 8;
 /// polygons that it is made of; one that is fine has at least as many patches, but for as many faces in each, and is
 /// fine where it has two. Fewer: coarse light on statues. More: time and memory for all that is of many triangles.
 constexpr std::uint32_t kInputs = 128;
-/// Least tolerance of a leaf relative to its surface's first estimate; and light below which changes are compared with
-/// that, relative to the mean. Lower: work in dark corners. Higher: leaks and what has changed stay.
-constexpr float kDarkest = 0.1f;
 
 }  // namespace deltalux::hierarchy::tuning

@@ -58,12 +58,16 @@ DisjointSets roomsOf(const FirstOfLeaves& first, std::span<const Place> place) {
   return rooms;
 }
 
+/// Lines of a room that hardly any light reaches by which it counts as closed where none leads out, and as many as all
+/// such rooms may have in scenes of few: what next to nothing of next to nothing would come by is not found.
+constexpr double kClosedLines = 1.0 / deltalux::tuning::kNegligible / deltalux::tuning::kNegligible;  // [defined]
+
 /// Of a room.
 struct Room {
   double area = 0, lines = 0, ways = 0;
 
   double wanted() const {
-    return ways > 0 ? lines * std::max(1.0, kSamplesOfUsualError / ways) : std::max(lines, tuning::kClosedLines);
+    return ways > 0 ? lines * std::max(1.0, kSamplesOfUsualError / ways) : std::max(lines, kClosedLines);
   }
 };
 
@@ -108,7 +112,7 @@ DimCounts dimCounts(const TracedLines& traced, const hierarchy::LeafTable& leave
   }
   // In octaves, so that small changes leave nearly all leaves' lines as they are; by so many less, all of them, that
   // they are not too many.
-  const double most = std::max(deltalux::tuning::kDefensive * lines, tuning::kClosedLines - lines);
+  const double most = std::max(deltalux::tuning::kDefensive * lines, kClosedLines - lines);
   DimCounts counts{std::vector<std::uint32_t>(n, 0)};
   for (double share = 1, added = kInfinity; added > most; share /= 2) {
     added = 0, counts.told = true;

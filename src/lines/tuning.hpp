@@ -10,11 +10,8 @@ constexpr double kBaseLines = 144;
 /// Octaves of lines below and above the base. Fewer below: narrow places take most of the time. More above: large
 /// leaves do.
 constexpr int kFewestOctaves = -2, kMostOctaves = 4;
-/// Lines of a room that hardly any light reaches by which it counts as closed where none leads out, and as many as all
-/// such rooms may have in scenes of few. Fewer: rooms behind a slot of a millimetre are noise. More: dark rooms take
-/// most of the time.
-constexpr double kClosedLines = 1 << 20;
-/// Bounces that tell how much light there is in such a room. Fewer: as above.
+/// Bounces that tell how much light there is in a room that hardly any light reaches. Fewer: rooms behind a slot of a
+/// millimetre are noise.
 constexpr int kDimBounces = 2;
 /// Least chance that a line ends on what has any diffuse part. Less: the few lines that end on metal weigh much.
 constexpr float kLeastEnding = 0.2f;

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "base/few_boxes.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/sort_unique.hpp"
@@ -41,7 +42,7 @@ std::vector<Box> joined(std::span<const Box> boxes) {
     }
     result.push_back(box);
   }
-  if (result.size() <= deltalux::tuning::kBoxes) return result;
+  if (result.size() <= kFewBoxes) return result;
   Box all;
   for (const Box& box : result) all.extend(box);
   return {all};

@@ -291,7 +291,10 @@ Kernel kernel(const hierarchy::Elements& elements, const Scene& scene, hierarchy
     if (st.kind == hierarchy::ElementKind::Patch || st.kind == hierarchy::ElementKind::Distant) k *= s.area;
     low = std::min(low, k), high = std::max(high, k);
   }
-  if (high > 0) result.senderSpread = static_cast<float>(tuning::kQuadrature * std::min(high - low, 2 * mean));
+  // Of that the mean over nodes is hardly off: a uniform sender is integrated, not sampled, and splitting it would only
+  // hide the receiver's error.
+  if (high > 0)
+    result.senderSpread = static_cast<float>(deltalux::tuning::kChangeMatters * std::min(high - low, 2 * mean));
   // The inverse square counts from centres, and the harmonics from one direction.
   const float d = distant ? 1e30f : glm::length(r.center - s.center);
   if (clusterSender) {

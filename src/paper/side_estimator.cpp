@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pilot_paths.hpp"
 #include "base/tuning.hpp"
 
 namespace deltalux::paper {
@@ -28,8 +29,7 @@ Vec3f cosineDirection(const Vec3& normal, Rng& rng) {
 SideEstimator::SideEstimator(const Scene& scene, const tracing::RayTracer& tracer, std::size_t sides)
     : scene_(scene),
       tracer_(tracer),
-      rays_(std::max<std::size_t>(deltalux::tuning::kPilotPaths / std::max<std::size_t>(sides, 1),
-                                  deltalux::tuning::kPilots)) {}
+      rays_(std::max<std::size_t>(kPilotPaths / std::max<std::size_t>(sides, 1), deltalux::tuning::kPilots)) {}
 
 double SideEstimator::diagonal() const {
   std::call_once(measured_, [&] { diagonal_ = bounds(scene_).diagonal(); });

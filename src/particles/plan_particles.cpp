@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "base/check.hpp"
+#include "base/pilot_paths.hpp"
 #include "base/tuning.hpp"
 #include "particles/count_paths.hpp"
 #include "particles/plan_particles.hpp"
@@ -64,7 +65,7 @@ ParticlePlan plan(const Scene& scene, const tracing::RayTracer& tracer, const Pa
   nameSenders(senders, exitance, pilots);
   // Where few arrive each of them is dear.
   const double share = std::min(arrivingShare(links) / deltalux::tuning::kDefensive, 1.0);
-  countPaths(links, share * deltalux::tuning::kPilotPaths, pilots);
+  countPaths(links, share * kPilotPaths, pilots);
   tracePaths(scene, tracer, emission, settings.maxDepth, pilots);
   exitance = coarseExitance(scene, tracer, lights, senders, depositedFlux(pilots, senders));
   senders.weigh(exitance.perCell);

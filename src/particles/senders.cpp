@@ -28,10 +28,11 @@ Senders::Senders(const Scene& scene, const scene::LightSampler& lights) : scene_
   for (std::size_t i = 0; i < scene.primitives.size(); ++i)
     total += area(scene::edits::restShape(scene, PrimitiveId(i)));
   for (std::size_t i = 0; i < scene.lights.size(); ++i) beams_.push_back(beamOf(LightId(i)));
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) addLight(LightId(i), coarse(total) / tuning::kLampCells);
+  const double limit = coarse(total) / tuning::kCellsOfScene;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) addLight(LightId(i), limit / tuning::kFinerLamps);
   lightTrees_ = roots_.size();
   surfaceCells_ = static_cast<std::uint32_t>(cells_.size());
-  addSurfaces(coarse(total) / tuning::kSenderCells);
+  addSurfaces(limit * tuning::kFinerLamps);
   bounds_.resize(nodes_.size());
   normals_.resize(nodes_.size());
   leaf_.resize(cells_.size());

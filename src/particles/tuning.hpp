@@ -16,9 +16,9 @@ constexpr double kAround = 0.5;
 /// Reflectance of every diffuse surface where particles are planned, so that repainting leaves them as they are.
 /// Higher, lower: more, fewer particles from what is lit by others.
 constexpr double kNominalReflectance = 0.5;
-/// Cells that the area of the whole scene would make: of receivers, of diffuse senders, and of lamps. Fewer: particles
-/// that miss, and grain. More: time to plan.
-constexpr double kCellsOfScene = 4096, kSenderCells = 1024, kLampCells = 16384;
+/// Cells of receivers that the area of the whole scene would make, and how many times more of lamps, fewer of diffuse
+/// senders. Fewer: particles that miss, and grain. More: time to plan.
+constexpr double kCellsOfScene = 4096, kFinerLamps = 4;
 /// Share of what a path began with that is still followed without a question. More: noise. Less: time for little.
 constexpr double kWorth = 0.25;
 /// Noise of a histogram counts so much more than for placing particles. Less: leaves that show grain.

@@ -8,6 +8,7 @@
 #include "base/check.hpp"
 #include "base/random.hpp"
 #include "base/tuning.hpp"
+#include "direct/aim.hpp"
 #include "direct/tuning.hpp"
 #include "render/particle_paths.hpp"
 #include "render/reader_state.hpp"
@@ -31,8 +32,8 @@ void measureLamps(const Sample& sample, const Vec3& normal, const ContributionSe
   std::map<LightId, RgbSum> lamps;
   RgbSum sum(0.0), squares(0.0);
   double n = 0;
-  for (int estimate = 0; estimate < deltalux::tuning::kFewestEstimates ||
-                         (estimate + 1) * direct::tuning::kEstimateRays <= settings.maxSamples;
+  for (int estimate = 0;
+       estimate < deltalux::tuning::kFewestEstimates || (estimate + 1) * direct::kEstimateRays <= settings.maxSamples;
        ++estimate) {
     RgbSum E(0.0);
     sample(combineKeys(settings.seed, static_cast<std::uint64_t>(estimate)), [&](const auto& a) {
@@ -55,7 +56,7 @@ void measureAt(const rendering::PointSources& points, std::optional<hierarchy::E
   const std::vector<direct::Source> sources = leaf ? points.at(*leaf, x) : points.light().sources(x);
   direct::Aim aim(sources);
   aim.learn(points.light(), {&x, 1}, direct::kLearnAtPoint, combineKeys(settings.seed, 1));
-  aim = aim.at(sources, leaf ? points.lightAt(*leaf) : 0.0f, direct::tuning::kEstimateRays);
+  aim = aim.at(sources, leaf ? points.lightAt(*leaf) : 0.0f, direct::kEstimateRays);
   if (aim.dark()) return;
   measureLamps([&](std::uint64_t key, const auto& visit) { aim.sample(points.light(), x, 0, key, visit); }, x.normal,
                settings, result);
@@ -77,7 +78,7 @@ void gatherSurfaces(const Solution& s, const rendering::LineGather& lines, const
     result.indirect += E;
   };
   // The relative error of the sum of n alike is one over the root.
-  const auto least = static_cast<double>(deltalux::tuning::kFewestEstimates * direct::tuning::kEstimateRays);
+  const auto least = static_cast<double>(deltalux::tuning::kFewestEstimates * direct::kEstimateRays);
   const auto count = static_cast<std::uint32_t>(
       std::clamp(1 / (settings.error * settings.error), least, std::max(least, double(settings.maxSamples))));
   lines.forEachLine(Vec3f(x.position), Vec3f(x.normal), count, settings.seed, add);

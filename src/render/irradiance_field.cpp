@@ -208,7 +208,7 @@ LeafIrradiance IrradianceField::mended(std::size_t i) {
 
 LeafIrradiance IrradianceField::withoutOutliers(std::size_t i) const {
   const std::vector<LeafIrradiance>& values = stages_[Mended];
-  if (torn_[i] - begin_[i] < 1 + tuning::kFewestWitnesses) return values[i];
+  if (torn_[i] - begin_[i] < 1 + deltalux::tuning::kFewRays) return values[i];
   Rgb least(std::numeric_limits<float>::infinity()), most(0.0f);
   for (std::uint32_t k = begin_[i] + 1; k < torn_[i]; ++k) {
     const Rgb& E = values[neighbours_[k]].indirect;

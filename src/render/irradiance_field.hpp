@@ -28,6 +28,7 @@
 #include <array>
 #include <span>
 
+#include "base/tuning.hpp"
 #include "hierarchy/side_locator.hpp"
 #include "hierarchy/tuning.hpp"
 #include "render/leaf_irradiance.hpp"
@@ -77,7 +78,7 @@ class IrradianceField {
       const double lit = elements_.shape(leafOf(i)).litArea();
       sum += lit * double(light(i)), area += lit;
     }
-    return area > 0 ? hierarchy::tuning::kDarkest * static_cast<float>(sum / area) : 0.0f;
+    return area > 0 ? static_cast<float>(deltalux::tuning::kChangeMatters * sum / area) : 0.0f;
   }
   hierarchy::ElementId leafOf(std::size_t site) const { return sites_[site].leaf; }
   /// Irradiance as a site has it, to first order: at its centre, and by unit of length along the axes.

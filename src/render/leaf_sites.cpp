@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/smooth.hpp"
 #include "base/tuning.hpp"
 #include "particles/side_index.hpp"
 
@@ -20,10 +21,9 @@ bool areParallel(const Vec3f& a, const Vec3f& b) {
 
 bool sameSurface(const LeafSite& a, const LeafSite& b) {
   const bool samePrimitive = a.primitive == b.primitive;
-  if (samePrimitive && (a.faces || b.faces))
-    return a.front == b.front && glm::dot(a.normal, b.normal) > deltalux::tuning::kSmooth;
+  if (samePrimitive && (a.faces || b.faces)) return a.front == b.front && glm::dot(a.normal, b.normal) > kSmooth;
   if (!a.flat || !b.flat) return samePrimitive && a.front == b.front;
-  if (samePrimitive) return glm::dot(a.normal, b.normal) > deltalux::tuning::kSmooth;
+  if (samePrimitive) return glm::dot(a.normal, b.normal) > kSmooth;
   const float size = 1 / std::sqrt(std::max(a.fineness, b.fineness));
   return areParallel(a.normal, b.normal) &&
          std::abs(glm::dot(b.center - a.center, a.normal)) < deltalux::tuning::kNegligible * size;

@@ -2,6 +2,7 @@
 
 #include "base/batch_mean.hpp"
 #include "base/tuning.hpp"
+#include "direct/aim.hpp"
 #include "direct/tuning.hpp"
 
 namespace deltalux::rendering {
@@ -42,10 +43,10 @@ ProbeResult LineGather::at(const Vec3f& p, const Vec3f& normal, double ambient, 
   hierarchy::ElementId leaf;
   while (mean.count() < deltalux::tuning::kFewestEstimates || result.samples < most) {
     RgbSum own(0.0);
-    for (std::uint32_t k = 0; k < direct::tuning::kEstimateRays; ++k)
+    for (std::uint32_t k = 0; k < direct::kEstimateRays; ++k)
       own += RgbSum(follow(p, normal, directions, key, static_cast<std::uint32_t>(result.samples) + k, leaf));
-    mean.add(own / double(direct::tuning::kEstimateRays));
-    result.samples += direct::tuning::kEstimateRays;
+    mean.add(own / double(direct::kEstimateRays));
+    result.samples += direct::kEstimateRays;
     if (mean.count() >= deltalux::tuning::kFewestEstimates &&
         gray(mean.standardError()) <= error * (gray(mean.mean()) + ambient))
       break;

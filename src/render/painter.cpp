@@ -6,6 +6,7 @@
 #include "base/morton.hpp"
 #include "base/parallel.hpp"
 #include "base/sobol.hpp"
+#include "direct/aim.hpp"
 #include "direct/tuning.hpp"
 #include "render/tuning.hpp"
 #include "render/work_progress.hpp"
@@ -63,7 +64,7 @@ Sights Painter::lookAround(const Tile& t) const {
   for (int y = t.y0; y < t.y1; ++y)
     for (int x = t.x0; x < t.x1; ++x) paths_.survey(eyeRay(x, y, pixelInOrder(x, y), key), sights);
   const int rays = settings_.samplesPerPixel * settings_.shadowRays;
-  sights.learn(std::clamp(rays / tuning::kLearningShare, 1, direct::tuning::kEstimateRays), settings_.shadowRays,
+  sights.learn(std::clamp(rays / tuning::kLearningShare, 1, direct::kEstimateRays), settings_.shadowRays,
                combineKeys(key, pixelInOrder(t.x0, t.y0)));
   return sights;
 }

@@ -6,6 +6,7 @@
 #include "base/check.hpp"
 #include "base/prefetch.hpp"
 #include "base/tuning.hpp"
+#include "direct/aim.hpp"
 #include "direct/tuning.hpp"
 #include "render/cache_filling.hpp"
 #include "render/error_diffusion.hpp"
@@ -17,7 +18,7 @@ namespace deltalux {
 namespace {
 
 /// Rays of a pixel that are averaged at most, and frames until a sample is old.
-constexpr std::uint16_t kMostRays = direct::tuning::kEstimateRays;
+constexpr std::uint16_t kMostRays = direct::kEstimateRays;
 /// Depth of a neighbour over a sample's from which it stands before it. [WDP99 4.2]
 constexpr auto kNearer = static_cast<float>(1 - deltalux::tuning::kChangeMatters);  // [defined]
 constexpr std::uint32_t kNobody = 0xffffffffu;                                      // [sentinel]

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/few_boxes.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/tuning.hpp"
@@ -136,9 +137,8 @@ Difference compareAll(const Solution& s, NotedSolution& noted) {
 
 /// Marks what moved as having come to be where it is now.
 void addPlaces(const Difference& d, SampleChanges& changes) {
-  for (const Box& box : coveringBoxes(d.came, deltalux::tuning::kBoxes))
-    changes.places.push_back({box, changes.version});
-  while (changes.places.size() > deltalux::tuning::kBoxes) {
+  for (const Box& box : coveringBoxes(d.came, kFewBoxes)) changes.places.push_back({box, changes.version});
+  while (changes.places.size() > kFewBoxes) {
     changes.places[1].box.extend(changes.places[0].box);
     changes.places.erase(changes.places.begin());
   }

@@ -7,9 +7,6 @@ namespace deltalux::rendering::tuning {
 
 /// Relative difference of leaves that asks whether something stands between. More: light leaks below walls. Less: rays.
 constexpr float kDisagree = 0.3f;
-/// Joined leaves that tell what is out of the way. Fewer: single bright or dark leaves show. More: what is small and
-/// bright is lost.
-constexpr std::uint32_t kFewestWitnesses = 4;
 /// Passes that average leaves within their noise: they reach about as many leaves. Fewer: grain. More: blur.
 constexpr int kQuietPasses = 4;
 /// Predictions stay within so many times what the neighbours differ. Less: edges of rooms are flat. More: wild ones

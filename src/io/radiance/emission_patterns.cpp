@@ -7,7 +7,6 @@
 #include "base/unit_circle.hpp"
 #include "io/radiance/sky_pattern.hpp"
 #include "io/radiance/tabulate.hpp"
-#include "io/tuning.hpp"
 
 namespace deltalux::io::radiance {
 

@@ -1,10 +1,15 @@
 #include "io/radiance/rad_sources.hpp"
 
-#include "io/tuning.hpp"
+#include <cmath>
+
+#include "base/sky_side.hpp"
 
 namespace deltalux::io::radiance {
 
 namespace {
+
+/// Of the radius of the largest source that is a sun, and no part of the sky: one cell of all around.
+constexpr double kCosineOfSun = 1 - 2.0 / (kSkySide * kSkySide);  // [defined]
 
 DomeLight dome(const Vec3& axis, double degrees, const Rgb& colour) {
   DomeLight light;
@@ -31,7 +36,7 @@ std::optional<Light> makeSource(const RadObject& object, const Modifier& modifie
   const Vec3 axis = glm::normalize(direction);
   Light light{object.name, {}, Rgb(1.0f)};
   const bool isGlow = modifier.materialType == Type::Glow;
-  if (!isGlow && degrees <= tuning::kLargestSun) {
+  if (!isGlow && degrees <= 2 * glm::degrees(std::acos(kCosineOfSun))) {
     light.emitter = SunLight{axis, glm::radians(degrees / 2), material.emission->radiance};
   } else {
     light.emitter = dome(axis, degrees, material.emission->radiance);

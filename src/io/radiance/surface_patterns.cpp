@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/tuning.hpp"
-#include "io/tuning.hpp"
 
 namespace deltalux::io::radiance {
 

@@ -10,7 +10,9 @@
 
 #include "base/check.hpp"
 #include "base/parallel.hpp"
+#include "base/pilot_paths.hpp"
 #include "base/tuning.hpp"
+#include "direct/aim.hpp"
 #include "direct/tuning.hpp"
 #include "render/reference/path_tracer.hpp"
 #include "render/tuning.hpp"
@@ -27,7 +29,7 @@ constexpr std::uint64_t kMaxPassBatches = 1024;  // [task]
 
 /// A power of two, smaller when few paths are asked for.
 std::uint32_t batchSize(std::uint64_t samples) {
-  std::uint32_t size = direct::tuning::kEstimateRays;
+  std::uint32_t size = direct::kEstimateRays;
   while (size > 1 && samples != 0 && samples < size * deltalux::tuning::kFewestEstimates) size /= 2;
   return size;
 }
@@ -39,8 +41,7 @@ double tableBudget(const ReferenceSettings& settings, std::size_t estimates) {
   const double fromSamples =
       settings.samples > 0 ? perSample * static_cast<double>(settings.samples) : rendering::tuning::kMostTests;
   const double fromSeconds = settings.seconds > 0 ? 1.5e5 * settings.seconds : rendering::tuning::kMostTests;
-  return std::clamp(std::min(fromSamples, fromSeconds), double(deltalux::tuning::kPilotPaths),
-                    rendering::tuning::kMostTests);
+  return std::clamp(std::min(fromSamples, fromSeconds), double(kPilotPaths), rendering::tuning::kMostTests);
 }
 
 /// Mean and spread of batch means per channel. [Welford62]
