@@ -30,10 +30,6 @@ constexpr int kPilotBounces = 4;
 /// Rounds of an estimate that looks ever closer, each at where the one before found it: where light comes from, which
 /// particles are of one light. Fewer: grain beside windows and in penumbrae, edges of caustics are blurred. More: time.
 constexpr int kEverCloser = 3;
-/// Halvings of a sky, or of a lamp at most, into cells for particles and shadow rays to choose of, and that what is
-/// seen of it is known by. Fewer: noise under an uneven sky, rays beside the window. More: time to plan, cells that
-/// hardly any line tells of.
-constexpr int kSkyHalvings = 8;
 /// Events after which paths end by chance whatever they carry, and lines for good; and the greatest chance to go on, so
 /// that light caught between perfect surfaces ends some day. Later, more: time in halls of mirrors. Sooner, less:
 /// noise, light between facing mirrors is lost.

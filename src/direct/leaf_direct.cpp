@@ -474,7 +474,8 @@ DirectSampler::Choice choiceOf(const LeafDirect& direct, const hierarchy::Elemen
   if (direct.tooWideForBeam) return Split;
   const double side = tuning::kScale * meanDistance, around = side * side;
   if (g.area < error * around) return Whole;
-  return direct.variation * g.area > error * level * std::max<double>(around, g.area) ? Split : Keep;
+  return direct.variation * g.area > tuning::kVariation * error * level * std::max<double>(around, g.area) ? Split
+                                                                                                           : Keep;
 }
 
 }  // namespace deltalux::direct

@@ -12,10 +12,12 @@ constexpr int kLampPilots = 3;
 /// A lamp matters where, unshadowed, it brings more than this share of what has been found; one that is asked first, of
 /// what all may bring; less of a sky's cell is not told from it. Higher: faint lamps' shadows are lost.
 constexpr double kMatters = 0.01;
-/// A leaf is split where direct light varies over quadrants, times area, by more than the error of the light there;
-/// side of the area that it is weighed against, in mean distances of the leaf's lines; times the error, the area of the
-/// finest leaf that is split. Larger: small bright spots are averaged away.
-constexpr double kScale = 0.25;
+/// Split where direct light varies over quadrants, times area, by more than this many errors of the light there.
+/// Higher: shadows' edges are blurred.
+constexpr double kVariation = 2;
+/// Side of the area that variation is weighed against, in mean distances of the leaf's lines; times the error, the area
+/// of the finest leaf that is split. Larger: small bright spots are averaged away.
+constexpr double kScale = 0.15;
 /// Widest leaf in a narrow beam, in the beam's widths. Wider: the beam falls between samples.
 constexpr double kBeam = 0.75;
 /// Full angle below which a beam is narrow, and a sky is taken whole [radians]. Wider: rays of a low sun's glow go
@@ -28,9 +30,5 @@ constexpr double kFloor = 0.02;
 /// square of a source. Fewer: a few by chance take it for dark, and slots get no rays. More: where light comes from is
 /// learned late.
 constexpr float kPrior = 2;
-
-/// Most that one shadow ray of a point may bring where its light is thought to be hidden, in shares of the light there:
-/// for that there are up to as many rays again. Higher: white specks. Lower: rays into what is hidden.
-constexpr float kSpeck = 8;
 
 }  // namespace deltalux::direct::tuning

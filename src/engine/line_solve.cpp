@@ -1,4 +1,5 @@
 #include "engine/line_solve.hpp"
+#include "base/sky_side.hpp"
 #include "direct/tuning.hpp"
 #include "engine/tuning.hpp"
 
@@ -33,7 +34,7 @@ void swapCoarse(PatchSamples& samples, std::span<const hierarchy::ElementId> inp
 /// Into cells of which shadow rays to a point choose.
 void divideSkies(hierarchy::Elements& elements, const Scene& scene) {
   std::vector<hierarchy::ElementId> cells = elements.distant;
-  for (int level = 0; 2 * level < deltalux::tuning::kSkyHalvings; ++level) {
+  for (int level = 0; 2 * level < kSkyHalvings; ++level) {
     std::vector<hierarchy::ElementId> parts;
     for (const hierarchy::ElementId e : cells)
       if (hierarchy::subdivide(elements, scene, e))

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "base/sky_side.hpp"
 #include "base/tuning.hpp"
 #include "paper/kernel.hpp"
 
@@ -221,8 +222,7 @@ Split LinkEvaluator::choose(const hierarchy::Link& link) const {
 }
 
 bool LinkEvaluator::senderDivisible(hierarchy::ElementId sender) const {
-  if (elements_.isDistant(sender))
-    return !isSun(sender) && elements_.at(sender).depth < deltalux::tuning::kSkyHalvings / 2;
+  if (elements_.isDistant(sender)) return !isSun(sender) && elements_.at(sender).depth < kSkyHalvings / 2;
   return oracle_.divisible(sender);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/random.hpp"
+#include "base/sky_side.hpp"
 #include "base/tuning.hpp"
 #include "base/unit_circle.hpp"
 #include "hierarchy/tuning.hpp"
@@ -83,7 +84,7 @@ void Senders::addLight(LightId id, double limit) {
     if (!material.emission || !(whole > 0)) return;
     c.kind = SenderKind::Lamp;
     c.primitive = areaLight->primitive;
-    const int halves = std::min(halvings(whole, limit), deltalux::tuning::kSkyHalvings);
+    const int halves = std::min(halvings(whole, limit), kSkyHalvings);
     for (const bool front : {true, false}) {
       if (!front && !material.emission->bothSides) continue;
       c.front = front;
@@ -100,7 +101,7 @@ void Senders::addLight(LightId id, double limit) {
   } else if (const auto* dome = std::get_if<DomeLight>(&emitter)) {
     c.kind = SenderKind::Sky;
     const double cap = 1 - std::cos(dome->halfAngle);
-    for (const UnitCell& cell : cellsOf({2 * kPi, std::sqrt(cap) * 1.5}, deltalux::tuning::kSkyHalvings)) {
+    for (const UnitCell& cell : cellsOf({2 * kPi, std::sqrt(cap) * 1.5}, kSkyHalvings)) {
       c.rect = cell.rect;
       c.measure = static_cast<float>(2 * kPi * cap * cell.rect.measure());
       cells.push_back({Code{0, cell.code, 0, 0}, c});

@@ -28,7 +28,7 @@ float difference(const LeafIrradiance& a, const LeafIrradiance& b) {
 
 bool disagree(const Rgb& a, const Rgb& b) {
   const float x = gray(a), y = gray(b);
-  return std::abs(x - y) > tuning::kDisagree * std::max(x, y);
+  return std::abs(x - y) > deltalux::tuning::kChangeMatters * std::max(x, y);
 }
 
 }  // namespace

@@ -5,8 +5,6 @@
 
 namespace deltalux::rendering::tuning {
 
-/// Relative difference of leaves that asks whether something stands between. More: light leaks below walls. Less: rays.
-constexpr float kDisagree = 0.3f;
 /// Passes that average leaves within their noise: they reach about as many leaves. Fewer: grain. More: blur.
 constexpr int kQuietPasses = 4;
 /// Predictions stay within so many times what the neighbours differ. Less: edges of rooms are flat. More: wild ones
