@@ -56,8 +56,7 @@ bool Aim::holds(std::span<const Source> sources) const {
   return true;
 }
 
-/// More rays, of about `rays` now and up to as many again, so that what is thought to be hidden gets such a share of
-/// them that none brings much more than `light`.
+/// More rays, of about `rays` now and up to as many again, so that none brings more than a few times `light`.
 void Aim::keepFromSpecks(float light, int rays) {
   const float before = total(), each = before / static_cast<float>(rays);
   const float least = each / (deltalux::tuning::kFewRays * std::max(light, 1e-20f));

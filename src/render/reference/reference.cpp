@@ -116,7 +116,7 @@ struct ReferenceIntegrator::Impl {
   double fractionAfter(const Schedule&, std::uint64_t batches, double fractionBefore) const;
 
   template <class Estimate>
-  RgbSum batchMean(std::uint64_t key, std::uint32_t size, const Estimate& estimate);
+  RgbSum batchMean(std::uint64_t key, std::uint32_t first, std::uint32_t size, const Estimate& estimate);
   bool converged(const BatchMoments&) const;
 
   ReferenceSettings settings;
@@ -164,10 +164,11 @@ double ReferenceIntegrator::Impl::fractionAfter(const Schedule& s, std::uint64_t
 }
 
 template <class Estimate>
-RgbSum ReferenceIntegrator::Impl::batchMean(std::uint64_t key, std::uint32_t size, const Estimate& estimate) {
+RgbSum ReferenceIntegrator::Impl::batchMean(std::uint64_t key, std::uint32_t first, std::uint32_t size,
+                                            const Estimate& estimate) {
   RgbSum sum(0);
   std::uint64_t traced = 0;
-  for (std::uint32_t i = 0; i < size; ++i) {
+  for (std::uint32_t i = first; i < first + size; ++i) {
     rendering::PathSampler sampler(key, i);
     sum += estimate(sampler, traced);
   }
@@ -208,7 +209,7 @@ std::vector<ProbeResult> ReferenceIntegrator::probe(std::span<const ProbePoint> 
       const std::size_t point = active[task / batches];
       const std::uint64_t batch = schedule.done + task % batches;
       const std::uint64_t key = combineKeys(combineKeys(impl.settings.seed, point), batch);
-      means[task] = impl.batchMean(key, size, [&](rendering::PathSampler& sampler, std::uint64_t& rays) {
+      means[task] = impl.batchMean(key, 0, size, [&](rendering::PathSampler& sampler, std::uint64_t& rays) {
         return impl.tracer->irradiance(points[point].position, glm::normalize(points[point].normal), sampler, rays);
       });
       reporter.taskDone();
@@ -228,8 +229,10 @@ Image ReferenceIntegrator::render(const View& view, int width, int height, Progr
   Impl& impl = *impl_;
   impl.prepare(static_cast<std::size_t>(width) * height);
   const auto start = Clock::now();
-  const std::uint32_t size =
-      std::min<std::uint32_t>(impl.settings.seconds > 0 ? 4 : 16, batchSize(impl.settings.samples));
+  // A second may be over after a path a pixel; batches that follow each other share their stratified numbers then.
+  const std::uint32_t most = impl.settings.seconds > 0 ? 1 : deltalux::tuning::kPilots,
+                      size = std::min(most, batchSize(impl.settings.samples)),
+                      shared = deltalux::tuning::kFewRays / std::min<std::uint32_t>(deltalux::tuning::kFewRays, size);
   Impl::Schedule schedule{(impl.settings.samples + size - 1) / size};
   const std::size_t pixels = static_cast<std::size_t>(width) * height;
   std::vector<BatchMoments> moments(pixels);
@@ -247,12 +250,14 @@ Image ReferenceIntegrator::render(const View& view, int width, int height, Progr
         if (impl.converged(moments[pixel])) continue;
         const double x = static_cast<double>(pixel % width), y = static_cast<double>(pixel / width);
         for (std::uint64_t b = schedule.done; b < schedule.done + batches; ++b) {
-          const std::uint64_t key = combineKeys(combineKeys(~impl.settings.seed, pixel), b);
-          moments[pixel].add(impl.batchMean(key, size, [&](rendering::PathSampler& sampler, std::uint64_t& rays) {
-            const Vec2 in = sampler.next2();
-            const ViewRay ray = viewRay(view, (x + in.x) / width, (y + in.y) / height);
-            return impl.tracer->radiance(ray.origin, ray.direction, sampler, rays);
-          }));
+          const std::uint64_t key = combineKeys(combineKeys(~impl.settings.seed, pixel), b / shared);
+          moments[pixel].add(impl.batchMean(key, static_cast<std::uint32_t>(b % shared) * size, size,
+                                            [&](rendering::PathSampler& sampler, std::uint64_t& rays) {
+                                              const Vec2 in = sampler.next2();
+                                              const ViewRay ray =
+                                                  viewRay(view, (x + in.x) / width, (y + in.y) / height);
+                                              return impl.tracer->radiance(ray.origin, ray.direction, sampler, rays);
+                                            }));
         }
       }
       reporter.taskDone();
