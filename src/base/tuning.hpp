@@ -15,13 +15,17 @@ constexpr double kFar = 3;
 /// Share of the chances that goes to what an estimate takes for nothing. Less: white specks where it was wrong. More:
 /// samples where there is nothing.
 constexpr float kDefensive = 0.05f;
-/// Rays or points that give a first idea of a place, where more follow or little depends on it; points along each
-/// parameter, or rings of directions, by which a pattern of light is looked at. Fewer: splits and choices by chance,
-/// and what varies is taken for constant. More: time before the first light.
+/// Rays or points that give a first idea of a place, where more follow or little depends on it, or it is one of many
+/// leaves; leaves that give one of what a leaf takes; points along each parameter, rings of directions, or cells along
+/// the side of a sky, by which a pattern of light is looked at. Fewer: splits and choices by chance, grainy shadows,
+/// and what varies is taken for constant. More: time before the first light, and for each lamp.
 constexpr int kPilots = 16;
-/// The same where all agree, or that brings little. Fewer: blotchy shadows. More: rays at what is clear.
+/// The same where all agree, or that brings little; how much more than there is at a point one ray of it may bring; and
+/// leaves that tell what is out of the way. Fewer: blotchy shadows, rays into what is hidden, single leaves show. More:
+/// rays at what is clear, white specks.
 constexpr int kFewRays = 4;
-/// Independent estimates before any judgement by their spread. Fewer: standard errors by chance. More: time where all
+/// Independent estimates before any judgement by their spread; rays to lamps that are drawn, so many of which may be
+/// asked one by one. Fewer: standard errors by chance, noise where many lamps are equally bright. More: time where all
 /// is simple.
 constexpr int kFewestEstimates = 32;
 /// Bounces after which a first idea of light ends; of a path, whose numbers are stratified. Fewer: rooms that are lit
@@ -38,9 +42,10 @@ constexpr double kMostSurvival = 0.9;
 /// Polar angles by which a lamp's pattern is looked at: that its beam's width is found by, and that its table begins
 /// with (2 degrees). Fewer: narrow beams and peaks are overlooked. More: time for each lamp.
 constexpr int kPolarAngles = 90;
-/// Share of the light of a surface, of the target error, or of a depth, by which a difference is a change; and of a
-/// leaf that tells of what is around it. More: shadows of what has moved away, dark rooms beside bright places are not
-/// done, what is hidden shines through. Less: work at every edit, holes in slanting surfaces.
+/// Share of the light of a surface or of a leaf beside it, of the target error, or of a depth, by which a difference is
+/// a change; of a side's area that may be darker than what noise is compared with; and of a leaf that tells of what is
+/// around it. More: shadows of what has moved away, dark rooms beside bright places are not done, what is hidden shines
+/// through, light leaks below walls. Less: work at every edit and in dark corners, holes in slanting surfaces.
 constexpr double kChangeMatters = 0.1;
 /// Octaves between sizes, errors or distances that are tried one after the other, or count as one. Larger: what is cut
 /// by them is coarse, and time is left over. Smaller: what differs a little is cut otherwise.
