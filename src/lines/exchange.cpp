@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "base/parallel.hpp"
+#include "base/tuning.hpp"
 
 namespace deltalux::lines {
 
@@ -471,6 +472,7 @@ void Exchange::scale(std::vector<char>& changed) {
   const std::size_t blocks = (slot_.size() + kLeaves - 1) / kLeaves;
   for (std::vector<float>& factors : passes_) factors.resize(row_.size());
   for (std::vector<float>& owed : owedFactor_) owed.resize(row_.size(), 0);
+  bound_.resize(row_.size(), Rgb(1.0f));
   std::vector<Other> others;  // whose factor of the last pass is another
   std::vector<char> marked;
   std::size_t pass = 0;
@@ -543,7 +545,24 @@ Rgb Exchange::irradianceOf(std::uint32_t i, std::span<const Rgb> B) const {
     else
       sum += s.x * scaleOf(s.other) * B[numberOf_[s.other]];
   }
-  return (target_[i] * scaleOf(i) * sum + oneWay) / area_[i];
+  return bound_[i] * (target_[i] * scaleOf(i) * sum + oneWay) / area_[i];
+}
+
+void Exchange::bound(std::span<const Rgb> returned) {
+  constexpr auto most = static_cast<float>(deltalux::tuning::kMostSurvival);
+  parallelFor(leaves(), kLeaves, [&](std::size_t n) {
+    const std::uint32_t i = slot_[n];
+    bound_[i] = Rgb(1.0f);
+    if (!(area_[i] > 0)) return;
+    // All gray exchange is no more than the leaf's share; that over mirrors has colours.
+    Rgb sum(share_[i]);
+    for (std::uint32_t k = specialBegin_[i]; k < specialBegin_[i + 1]; ++k) {
+      const Special& s = specials_[k];
+      sum += s.rough ? s.x / area_[i] : (s.x - gray(s.x)) * (target_[i] * scaleOf(i) * scaleOf(s.other) / area_[i]);
+    }
+    for (int c = 0; c < 3; ++c)
+      if (sum[c] > 1 && sum[c] * returned[n][c] > most) bound_[i][c] = std::max(1.0f, most / returned[n][c]) / sum[c];
+  });
 }
 
 void Exchange::send(std::span<const Rgb> B) {
@@ -617,8 +636,8 @@ void Exchange::arriving(std::span<double> share) const {
 }
 
 std::size_t Exchange::memoryBytes() const {
-  return row_.size() * (7 * sizeof(float) + sizeof(LeafRecord) + sizeof(Row) + sizeof(OwnLines)) + id_.capacity() * 4 +
-         count_.capacity() * 2 + weight_.capacity() * 4 + specialBegin_.capacity() * 4 +
+  return row_.size() * (7 * sizeof(float) + sizeof(Rgb) + sizeof(LeafRecord) + sizeof(Row) + sizeof(OwnLines)) +
+         id_.capacity() * 4 + count_.capacity() * 2 + weight_.capacity() * 4 + specialBegin_.capacity() * 4 +
          specials_.capacity() * sizeof(Special);
 }
 

@@ -50,6 +50,10 @@ class Exchange {
   float area(std::size_t leaf) const { return area_[slot_[leaf]]; }
   float closed(std::size_t leaf) const { return closed_[slot_[leaf]]; }
 
+  /// Keeps light between leaves and mirrors from growing: by what leaves reflect and let through, those that get more
+  /// than all around them send, in a channel, get no more than returns to it with kMostSurvival. Sums of a few coloured
+  /// lines, scaled by gray ones, may say so. Holds until rows are others.
+  void bound(std::span<const Rgb> returned);
   /// Irradiance of every leaf from the radiosities of all [W/m2]. Sizes must agree.
   void gather(std::span<const Rgb> B, std::span<Rgb> E);
   /// Takes in radiosities, and gathers nothing by them.
@@ -140,6 +144,7 @@ class Exchange {
   std::vector<std::uint32_t> numberOf_;       // by slot: of its leaf in the order, kNone of free ones
   std::vector<std::uint32_t> free_;
   std::vector<float> area_, m_, e_, closed_, target_, share_;  // by slot; m: n / e
+  std::vector<Rgb> bound_;                                     // by slot: of irradiance
   std::vector<OwnLines> own_;
   std::vector<Row> row_;
   std::array<std::vector<float>, tuning::kScalingPasses + 1> passes_;      // s / e after each pass

@@ -176,6 +176,8 @@ IterationReport iterate(Exchange& exchange, LeafLight& light, double converged, 
   const std::size_t n = exchange.leaves();
   IterationReport report;
   std::vector<Rgb> next(n);
+  parallelFor(n, kLeafBlock, [&](std::size_t i) { next[i] = light.rho[i] + light.tau[i]; });
+  exchange.bound(next);
   parallelFor(n, kLeafBlock, [&](std::size_t i) { light.B[i] = reflected(light, static_cast<std::uint32_t>(i)); });
   const Sent sent = parallelSum<Sent>(n, kLeafBlock, [&](std::size_t i) {
     return Sent{double(exchange.area(i)) * gray(light.B[i]), double(exchange.area(i))};

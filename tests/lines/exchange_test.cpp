@@ -102,6 +102,36 @@ TEST(Iterate, ReachesTheSumOfTheGeometricSeries) {
   EXPECT_NEAR(sum / area, 1, 2e-3);  // rho / (1 - rho)
 }
 
+/// A room full of copper, whose few lines that end on it say less of the light there than those that it reflects.
+Scene copperRoom() {
+  Scene scene;
+  Opaque copper = lambert(0.02f);
+  copper.specular = SpecularLobe{Rgb(0.95f, 0.5f, 0.3f), 0.0f};
+  const MaterialId metal = addMaterial(scene, "copper", copper);
+  addBox(scene, metal, Vec3(0), {2, 2, 1}, true);
+  addBox(scene, addMaterial(scene, "paint", lambert(0.8f)), {0.8, 0.7, 0}, {1.3, 1.2, 0.5}, false);
+  addLight(scene, PointLight{{0.4, 0.5, 0.8}, Rgb(1.0f)});
+  return scene;
+}
+
+TEST(Exchange, ReturnsNoMoreThanItGetsToWhatStandsAmongMirrors) {
+  Exchanged x(copperRoom());
+  const std::size_t n = x.leaves.size();
+  const std::vector<Rgb> one(n, Rgb(1.0f)), returned(n, Rgb(0.8f));
+  std::vector<Rgb> free(n), bounded(n);
+  x.exchange->gather(one, free);
+  x.exchange->bound(returned);
+  x.exchange->gather(one, bounded);
+  std::size_t exceeding = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    exceeding += 0.8f * maxChannel(free[i]) > 0.9f;
+    EXPECT_LE(0.8f * maxChannel(bounded[i]), 0.9f + 1e-4f) << i;
+    for (int c = 0; c < 3; ++c) EXPECT_LE(bounded[i][c], free[i][c]) << i;
+    EXPECT_GE(bounded[i].b, std::min(free[i].b, 1.0f)) << "blue is hardly reflected: " << i;
+  }
+  EXPECT_GT(exceeding, n / 50);
+}
+
 /// Of leaves, by chance [W/m2].
 std::vector<Rgb> randomLight(std::size_t leaves, std::uint64_t seed) {
   std::vector<Rgb> B;
