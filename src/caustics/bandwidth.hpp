@@ -1,12 +1,12 @@
 #pragma once
-// How wide must the kernel be at each cell? As wide as the particles allow: kernels grow by factors of 1.6 until the
-// estimate with the next one contradicts one with a narrower kernel by more than noise explains (Lepski's method, as
-// the intersection of confidence intervals [Katkovnik99]), or until its own noise is within half the target error.
-// Smooth light is averaged over many particles, the figure of a caustic over few; nothing is set by hand.
+// How wide must the kernel be at each cell? Kernels grow by half an octave, and the one is taken whose mean squared
+// error is least: its variance, and the square of its bias, told by what differs from a kernel half as wide, less the
+// variance of that difference (the comparison of estimates of [GL11], averaged over the kernel between the two); or the
+// first whose own noise is within half the target error. Smooth light is averaged over many particles, the figure of a
+// caustic over few; nothing is set by hand.
 //
 // The noise of a difference is that which the wider kernel's own estimate predicts, as a chi-square test does: where no
-// particle fell, narrow kernels know no noise at all. Narrow kernels that expect fewer particles than kLeastParticles
-// are not asked.
+// particle fell, narrow kernels know no noise at all.
 #include <vector>
 
 #include "caustics/scale_space.hpp"

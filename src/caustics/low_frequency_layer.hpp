@@ -7,7 +7,7 @@
 // region is
 //   - that of the whole chart within the region's margin, where the layer is all that there is: entirely at the border;
 //   - wherever the region's widest kernels leave more noise than a quarter of the target error and the layer, which has
-//     wider ones, does not contradict them: the next step of Lepski's method (bandwidth.hpp).
+//     wider ones, does not contradict them: as Lepski's method would go on.
 // This moves flux between regions, of which the chart's whole is kept.
 #include "caustics/adaptive_kernel.hpp"
 #include "caustics/chart_part.hpp"

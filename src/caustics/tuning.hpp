@@ -9,15 +9,13 @@ namespace deltalux::caustics::tuning {
 constexpr double kMatters = 0.5;
 /// Narrowest and widest kernel, standard deviation in cells. Wider: time. Narrower: grain where light is dim.
 constexpr double kNarrowest = 0.5, kWidest = 6;
-/// Standard errors that a difference, or a jump of a blurred edge, has to stand out by. More: blur. Less: islands of
-/// grain.
+/// Standard errors that a jump of a blurred edge has to stand out by. More: blur. Less: islands of grain.
 constexpr double kConfidence = 2.25;
 /// The same of a sharp edge, and of means within a distance of a point [GN97, 2.3: about 2 for Gaussian noise].
 constexpr double kSharp = 1.5;
 /// Standard errors by which a surface has to depart from even light to get a texture. Less: textures of noise.
 constexpr double kSignificance = 4;
-/// Particles that are stray: in a fine texel, as a change, or of a kernel that is not asked. Fewer: noise taken for
-/// light. More: blur.
+/// Particles that are stray: in a fine texel, or as a change. Fewer: noise taken for light. More: blur.
 constexpr double kStray = 2;
 /// Texels across at most of a coarse texture, by which surfaces are chosen too; of a fine one, twice as many. Fewer:
 /// blur. More: time and memory in the square.
