@@ -172,6 +172,7 @@ ErrorEstimate estimateError(const Solution& s) {
   std::vector<Leaf> steps(kErrorSteps);
   for (const Leaf& leaf : all) {
     const double below = leaf.error > 0 ? 64 * std::log2(widest / leaf.error) : kErrorSteps - 1.0;
+    // In this order the last step takes an error that is no number, too.
     Leaf& step = steps[static_cast<std::size_t>(std::min(kErrorSteps - 1.0, below))];
     step.error += leaf.area * leaf.error, step.area += leaf.area;
   }
