@@ -111,12 +111,14 @@ bool holdAskedRays(const MovedSpace& space, const direct::DirectSampler& sampler
     if (!holds) return;
     const auto asked = std::ranges::find_if(
         before.lamps, [&](const direct::LampLight& l) { return l.lamp == lamp.id && l.points > 0; });
-    if (asked == before.lamps.end())
+    if (asked == before.lamps.end()) {
       drawn = true;
-    else
+    } else {
+      drawn = drawn || (before.sight.drawnSeen && !lamp.sun);  // by a ray that was drawn it may have come to be asked
       holds = !sampler.anyRay(
           patch, known, *asked, [&](const Vec3f& from) { return mayShadow(space, lamp, at(from)); },
           [&](const tracing::Ray& ray) { return crosses(space, ray); });
+    }
   });
   return holds;
 }
