@@ -238,8 +238,8 @@ Split LinkEvaluator::prefer(const hierarchy::Link& link) const {
   const hierarchy::ElementGeometry &r = elements_.shape(link.receiver), &s = elements_.shape(link.sender);
   const bool clusterReceiver = elements_.isCluster(link.receiver), clusterSender = elements_.isCluster(link.sender);
   if (link.visibility == hierarchy::Visibility::Sampled && isBlack(link.V)) {
-    // What rays may have missed between them matters on surfaces larger than A_0.
-    if (r.area < oracle_.referenceArea(link.receiver)) e.visibility = 0;
+    // What rays may have missed between them matters where either is larger than A_0.
+    if (std::max(r.area, s.area) < oracle_.referenceArea(link.receiver)) e.visibility = 0;
   }
   if (!(e.total() > e.budget)) return Split::None;
   if (link.receiver == link.sender) return Split::Both;

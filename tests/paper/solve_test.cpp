@@ -53,6 +53,23 @@ TEST(PaperSolve, LosesLittleEnergy) {
             std::abs(test::residue(box.solution().report().energy)));
 }
 
+TEST(PaperSolve, LightsAWellOnAFloorThatIsMuchLarger) {
+  Scene scene;
+  const MaterialId white = test::addMaterial(scene, "white", test::lambert(0.8f));
+  const MaterialId dark = test::addMaterial(scene, "dark", test::lambert(0.05f));
+  test::addPolygon(scene, white, {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
+  test::addShape(scene, dark, Cylinder{{0.3, 0.2, 0}, {0.3, 0.2, 0.08}, 0.1, true});  // seen from inside
+  test::addShape(scene, dark, Cylinder{{0.3, 0.2, 0}, {0.3, 0.2, 0.08}, 0.104, false});
+  SpotLight spot;
+  spot.position = {0.3, 0.2, 2}, spot.direction = {0, 0, -1};
+  spot.cosInner = 0.9, spot.cosOuter = 0.7, spot.intensity = Rgb(4.0f);
+  test::addLight(scene, spot);
+  // Of the floor in the well, which all of the spot reaches, and of the wall itself; some 0.0166 W in all.
+  const double links = arriving(test::solved(scene, 0.1, SolveMethod::Paper))[1],
+               lines = arriving(test::solved(scene, 0.01, SolveMethod::Lines))[1];
+  EXPECT_NEAR(links / lines, 1, 0.2);
+}
+
 TEST(PaperSolve, SolvesAFurnishedRoom) {
   const Engine engine = test::solved(test::furnishedRoom(), 0.1, SolveMethod::Paper);
   test::expectValid(engine, "solve");
