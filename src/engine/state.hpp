@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/freed_memory.hpp"
 #include "caustics/texture_update.hpp"
 #include "engine/clock.hpp"
 #include "engine/growth.hpp"
@@ -45,6 +46,7 @@ struct Engine::State {
   std::optional<engine::LineMotion> lineMotion;  // since the last solve
   std::optional<engine::KnownSolve> known;       // of the solution before, while the next is found
   StepReport counts;                             // of the update that runs
+  FreedMemory freed;                             // by updates
   // Over links.
   std::optional<paper::IncrementalParticles> incremental;  // of the particles, once there are edits
   std::optional<paper::IrradianceLists> lists;             // of light that has converged, once there are edits

@@ -53,6 +53,7 @@ StepReport Engine::State::update(Progress* progress) {
       recall(taken);
       if (!known) traced = 0;  // by a tracer of its own
       solveAfresh(progress);
+      freed.giveBack();
     }
     step.leavesChanged = counts.leavesChanged, step.texturesRebuilt = counts.texturesRebuilt;
     step.particlesRetraced = counts.particlesRetraced, step.particlesTotal = s.particles.arrived();
