@@ -41,7 +41,8 @@ std::vector<float> roughIndirect(const LineSolve& x, const hierarchy::LeafTable&
       open += ends[k] != lines::kCovered;
       if (ends[k] == lines::kEscaped) sky += gray(escaped[next++].weight) * x.skies.strength(cellOf(codes[k]));
     }
-    source[i] += std::numbers::pi_v<float> * sky / static_cast<float>(open);
+    // Of more lines than these, those that escaped may all come after them.
+    if (open > 0) source[i] += std::numbers::pi_v<float> * sky / static_cast<float>(open);
   });
   return lines::ownIndirect(traced.lines, leaves, counts, rho, source);
 }

@@ -40,7 +40,10 @@ KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::Tr
   const bool sameSkies = std::exchange(sky.skies, x.skies.key()) == x.skies.key();
   sky.at.assign(leaves.size(), {}), sky.of.resize(x.s.elements.size());
   const std::optional<direct::SkyVisibility> was = std::exchange(sky.visibility, {});
-  if (x.skies.empty()) return sky;
+  if (x.skies.empty()) {  // nobody looks after shadow rays to none
+    sky.of.clear();
+    return sky;
+  }
   const lines::KnownLines* before = x.knownLines ? &*x.knownLines : nullptr;
   const direct::SkyVisibility& visibility =
       sky.visibility.emplace(skyVisibility(x.s.elements, leaves, traced.lines, was ? &*was : nullptr, before));

@@ -34,7 +34,7 @@ void putIntoBox(LightWalks& walks) {
 class LightSearch {
  public:
   LightSearch(const hierarchy::Elements& elements, const LineTracer& tracer)
-      : elements_(elements), tracer_(tracer), scene_(tracer.scene()), lights_(scene_) {
+      : elements_(elements), tracer_(tracer), scene_(tracer.scene()), lights_(scene_, scene::nominalScales(scene_)) {
     const std::vector<Rgb> nominal = scene::nominalScales(scene_);
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
       if (isBlack(nominal[i])) continue;

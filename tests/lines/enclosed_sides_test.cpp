@@ -141,6 +141,15 @@ TEST(EnclosedSides, OpenWithTheHollow) {
   for (std::size_t i = kBox; i + 1 < kFlat; ++i) EXPECT_FALSE(x.of(i, false).enclosed) << i;
 }
 
+/// What is decided by lamps does not depend on how they are dimmed.
+TEST(EnclosedSides, AreNoneWhereALampIsOff) {
+  Scene scene = roomWithHollows();
+  addLight(scene, PointLight{{1.05, 1.05, 0.55}, Rgb(1.0f)});
+  scene.lights.back().scale = Rgb(0.0f);
+  const Walked x(std::move(scene));
+  for (std::size_t i = kBox; i < kFlat; ++i) EXPECT_FALSE(x.of(i, false).enclosed) << i;
+}
+
 TEST(LightWalks, ThatHoldStay) {
   Walked fresh(roomWithHollows());
   const hierarchy::ElementId side = fresh.elements.side(PrimitiveId(kRoom), 0, true);
