@@ -70,7 +70,7 @@ LineEnd LineTracer::follow(tracing::Ray ray, tracing::Hit hit, Rng random, std::
       end.absorbed += end.weight;
       return end;
     }
-    if (!end.turned) end.distance = passed + hit.t;
+    if (!end.turned) end.distance = passed + hit.t, end.straight = static_cast<std::uint32_t>(segment) + 1;
     const float onward = 1 - surface.ends - passes;
     const Frame frame(outward);
     const Vec3 wo = frame.toLocal(-Vec3(ray.direction));

@@ -25,6 +25,7 @@ struct LineEnd {
   hierarchy::Side side;                // where it ended
   Vec3f position{0.0f}, normal{0.0f};  // the same; of the side
   float distance = std::numeric_limits<float>::infinity();  // to the first surface that it did not pass straight
+  std::uint32_t straight = 0;                               // rays to there, where it turned
   /// Throughput over the chance of going this way, that of ending left out; of a line that escapes straight, `chance`
   /// is that of its passages.
   Rgb weight{1.0f};

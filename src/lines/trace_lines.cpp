@@ -43,11 +43,10 @@ void append(const std::vector<Found>& found, std::vector<Listed> Found::*list, c
               [&](std::size_t b) { std::ranges::copy(found[b].*list, all.all.begin() + first[b]); });
 }
 
-/// Of a line's way, what lies behind its first turn: between two mirrors it may run as it did at first again.
-void addBends(std::span<const LineSegment> way, std::uint32_t number, std::vector<Bend>& bends) {
-  std::size_t straight = 0;
-  while (straight < way.size() && way[straight].direction == way.front().direction) ++straight;
-  for (const LineSegment& segment : way.subspan(straight))
+/// Of a line's way, what lies behind its first turn: it may run on as it did before, through a thin sheet or between
+/// two mirrors.
+void addBends(std::span<const LineSegment> behind, std::uint32_t number, std::vector<Bend>& bends) {
+  for (const LineSegment& segment : behind)
     bends.push_back({number, segment.from, lineCode(segment.direction, segment.length)});
 }
 
@@ -146,7 +145,7 @@ class LeafTracing {
         } else if (k < live && which[k] == i) {
           way.clear();
           const LineEnd end = s_.tracer.follow(rays[k], hits[k], LineDirections::random(points.key(), i), &way);
-          if (end.turned) addBends(way, i, found.bends);
+          if (end.turned) addBends(std::span(way).subspan(end.straight), i, found.bends);
           mark = take(end, i, rays[k].direction, cosines[k], found);
           out.code[first + i] = lineCode(rays[k].direction, end.distance), ++k;
         } else {
