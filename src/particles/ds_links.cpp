@@ -112,6 +112,7 @@ DsLinks refineDsLinks(const Scene& scene, const tracing::RayTracer& tracer, cons
   for (std::size_t i = 0; i < level.size(); ++i) total += first[i], links.rays += rays[i];
   // In steps, so that a small edit, which moves all sums a little, does not refine other links than before.
   const double threshold = settings.share * coarse(total);
+  if (!(threshold > 0)) return links;  // there is no light
 
   while (!level.empty()) {
     constexpr std::size_t kBlock = 64;  // [task]

@@ -79,6 +79,32 @@ TEST(LineUpdateSlow, TwentyEditsOfTheStreet) {
                          5, 5);
 }
 
+/// Random edits of all things, lamps and materials of a scene, held against a fresh solve after each ten.
+void expectTheFreshSolutionOfAll(Scene scene, const char* list, std::uint64_t seed) {
+  const Editable all = everythingIn(scene, sourceFolder() / "bench" / "edits" / list);
+  expectAllThere(scene, {all.objects, {}, {}, {}, {}});
+  Engine engine(std::move(scene), settingsOf(0.1));
+  engine.solve();
+  RandomEdits edits(engine, all, seed);
+  for (int i = 1; i <= 60; ++i) {
+    edits.step();
+    if (i % 10 == 0) {
+      ASSERT_TRUE(isTheFreshOne(engine)) << edits.last();
+    }
+  }
+}
+
+TEST(LineUpdateSlow, SixtyEditsOfAllThatIsInTheLodge) {
+  expectTheFreshSolutionOfAll(loadScene({sourceFolder() / "scenes/lodge/morning.rad"}).scene, "lodge.txt", 1);
+}
+
+TEST(LineUpdateSlow, SixtyEditsOfAllThatIsInTheCabin) {
+  DELTALUX_SHARED_OR_SKIP(shared);
+  Scene scene = loadScene({shared / "scenes/cabin/cabin.rad"}).scene;
+  scene.metresPerUnit = 0.3048;
+  expectTheFreshSolutionOfAll(std::move(scene), "cabin.txt", 2);
+}
+
 TEST(LineUpdateSlow, MemoryIsFlat) {
   if (residentBytes() == 0) GTEST_SKIP() << "no /proc/self/statm here";
   Engine engine(furnishedRoom(), settingsOf(0.05));

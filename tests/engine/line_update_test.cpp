@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <deltalux/error.hpp>
+#include <deltalux/io.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <memory>
 
 #include "support/furnished_room.hpp"
 #include "support/rooms.hpp"
+#include "support/shared.hpp"
 #include "support/update_checks.hpp"
 
 namespace deltalux {
@@ -47,6 +49,40 @@ TEST(LineUpdate, HasTheRowsOfTheFreshSolve) {
   }
 }
 
+/// Random edits of everything in a small room of tests/assets/dark, held against fresh solves every so many.
+struct DarkSession {
+  const char* room;
+  std::uint64_t seed;
+  int edits, every;
+};
+
+class LineUpdateInTheDark : public testing::TestWithParam<DarkSession> {};
+
+TEST_P(LineUpdateInTheDark, IsTheFreshSolveWhateverIsEdited) {
+  const DarkSession& session = GetParam();
+  SolveSettings settings;
+  settings.error = 0.1;
+  Engine engine(loadScene({sourceFolder() / "tests/assets/dark" / (std::string(session.room) + ".rad")}).scene,
+                settings);
+  engine.solve();
+  RandomEdits edits(engine, everythingIn(engine.solution().scene()), session.seed);
+  for (int i = 1; i <= session.edits; ++i) {
+    edits.step();
+    if (i % session.every == 0) {
+      ASSERT_TRUE(isTheFreshOne(engine)) << edits.last();
+    }
+  }
+}
+
+// Skies that go and come back; lines behind a sheet that sends them on as they came; lamps behind slots.
+INSTANTIATE_TEST_SUITE_P(Each, LineUpdateInTheDark,
+                         testing::Values(DarkSession{"opal-rooflight", 1, 36, 4},
+                                         DarkSession{"opal-rooflight", 4, 12, 2},
+                                         DarkSession{"shutter-slot", 1, 40, 4}),
+                         [](const testing::TestParamInfo<DarkSession>& of) {
+                           return "Session" + std::to_string(of.index);
+                         });
+
 /// A patch may be asked because light varies over it in one update, because particles split what it is part of in the
 /// next, and not at all in one between.
 TEST(LineUpdate, KnowsOfNoPatchWhatIsOfAnotherTime) {
@@ -70,6 +106,29 @@ TEST(LineUpdate, WithoutParticlesToo) {
   RandomEdits edits(engine, editableOfFurnishedRoom(), 23);
   for (int i = 0; i < 8; ++i) edits.step();
   EXPECT_TRUE(isTheFreshOne(engine));
+}
+
+TEST(LineUpdate, LeavesTheSceneDarkWhenItsOnlyLampIsGone) {
+  for (const SolveMethod method : {SolveMethod::Lines, SolveMethod::Paper}) {
+    SolveSettings settings = coarse();
+    settings.method = method;
+    Engine engine(loadScene({sourceFolder() / "scenes/cornell-caustic/cornell-caustic.rad"}).scene, settings);
+    engine.solve();
+    const Restore back = engine.apply(RemoveObject{"lamp"});
+    engine.update();
+    const Solution& s = engine.solution().get();
+    for (std::size_t i = 0; i < s.elements.size(); ++i)
+      if (s.elements.isReceivingLeaf(hierarchy::ElementId(i))) {
+        const hierarchy::ElementLight& l = s.elements.radiometry[i];
+        ASSERT_NEAR(gray(l.direct + l.indirect + l.particle), 0, 1e-4);
+      }
+    engine.apply(back);
+    engine.update();
+    EXPECT_GT(gray(s.elements.radiometry[s.elements.sceneRoot.index()].direct), 0.1);
+    if (method == SolveMethod::Lines) {
+      EXPECT_TRUE(isTheFreshOne(engine));
+    }
+  }
 }
 
 TEST(LineUpdate, AnUnknownNameLeavesEverythingAsItWas) {

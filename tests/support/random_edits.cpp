@@ -1,12 +1,48 @@
 #include "support/random_edits.hpp"
 
+#include <algorithm>
 #include <deltalux/error.hpp>
+#include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
+#include <sstream>
 
 namespace deltalux::test {
 
 namespace {
 constexpr int kTogether = 4;  // edits that are taken back by one update
+
+std::vector<std::string> thingsOf(const std::filesystem::path& list) {
+  std::vector<std::string> things;
+  std::ifstream file(list);
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string word;
+    if (!(words >> word) || (word != "move" && word != "lamp")) continue;
+    while (words >> word) things.push_back(word.ends_with(".*") ? word.substr(0, word.size() - 2) : word);
+  }
+  return things;
+}
+
+}  // namespace
+
+Editable everythingIn(const Scene& scene, const std::filesystem::path& list) {
+  Editable all;
+  const auto add = [](std::vector<std::string>& names, const std::string& name) {
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  };
+  if (list.empty())
+    for (const Object& object : scene.objects) add(all.objects, object.name);
+  else
+    for (const std::string& name : thingsOf(list)) add(all.objects, name);
+  for (const Light& light : scene.lights) {
+    add(all.lights, light.name);
+    if (!std::holds_alternative<AreaLight>(light.emitter)) add(all.placed, light.name);
+  }
+  if (all.placed.empty()) all.placed = all.lights;
+  for (const Material& material : scene.materials) add(all.paints, material.name);
+  all.rough = all.paints;
+  all.reach = 0.4 / scene.metresPerUnit;
+  return all;
 }
 
 StepReport RandomEdits::step() {

@@ -1,6 +1,7 @@
 #pragma once
 // A session of random edits of all kinds, one update each, and its way back.
 #include <deltalux/engine.hpp>
+#include <filesystem>
 
 #include "base/random.hpp"
 
@@ -15,6 +16,10 @@ struct Editable {
   std::vector<std::string> rough;   // materials with a roughness
   double reach = 0.2;               // of a move, at most along each axis [scene units]
 };
+
+/// All of a scene that has a name, but of its objects only those that a list of edits (bench/edits/*.txt) has as things
+/// and lamps, where one is given.
+Editable everythingIn(const Scene&, const std::filesystem::path& list = {});
 
 class RandomEdits {
  public:
