@@ -4,15 +4,14 @@
 // CSV rows every hundred edits (or EVERY): resident memory, time of the hundred, whether mesh, lines and particles are
 // those of a fresh solve of the scene as it is then, and by how much irradiance differs from that.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <deltalux/check.hpp>
 #include <deltalux/engine.hpp>
 #include <deltalux/memory.hpp>
-#include <fstream>
 #include <stdexcept>
 
+#include "base/freed_memory.hpp"
 #include "run_main.hpp"
 #include "stopwatch.hpp"
 #include "support/furnished_room.hpp"
@@ -23,14 +22,6 @@ namespace {
 
 constexpr int kUsually = 100;
 constexpr std::uint64_t kSeed = 41;
-
-/// Of this process [MB].
-double residentMegabytes() {
-  std::ifstream file("/proc/self/statm");
-  std::uint64_t pages = 0, resident = 0;
-  file >> pages >> resident;
-  return 1e-6 * static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-}
 
 int run(const std::vector<std::string>& words) {
   const int edits = words.empty() ? 0 : std::atoi(words[0].c_str()),
@@ -63,7 +54,8 @@ int run(const std::vector<std::string>& words) {
     fmt::print("{},{:.4g},{},{},{:.1f},{:.1f},{:.4g},{},{},{},{:.3g},{:.3g},{},{:.1f}\n", i, seconds, rays,
                report.counts.leafElements, 1e-6 * static_cast<double>(report.memory.lines),
                1e-6 * static_cast<double>(report.memory.particles), solved, check.meshIdentical, check.linesIdentical,
-               check.particlesIdentical, 100 * check.medianRelDiff, 100 * check.p95RelDiff, last, residentMegabytes());
+               check.particlesIdentical, 100 * check.medianRelDiff, 100 * check.p95RelDiff, last,
+               1e-6 * static_cast<double>(residentBytes()));
     std::fflush(stdout);
     rays = 0, seconds = 0;
   }

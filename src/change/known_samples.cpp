@@ -109,16 +109,13 @@ bool holdAskedRays(const MovedSpace& space, const direct::DirectSampler& sampler
   bool holds = true;
   forEachMayShadow(space, sampler.lamps(), elements.shape(patch), through, [&](const direct::Lamp& lamp) {
     if (!holds) return;
-    const auto asked = std::ranges::find_if(
-        before.lamps, [&](const direct::LampLight& l) { return l.lamp == lamp.id && l.points > 0; });
-    if (asked == before.lamps.end()) {
-      drawn = true;
-    } else {
-      drawn = drawn || (before.sight.drawnSeen && !lamp.sun);  // by a ray that was drawn it may have come to be asked
+    const direct::LampLight* const asked = direct::askedLight(before.lamps, lamp.id);
+    // A lamp that is asked may have come to be by a ray that was drawn.
+    drawn = drawn || !asked || (before.sight.drawnSeen && !lamp.sun);
+    if (asked)
       holds = !sampler.anyRay(
           patch, known, *asked, [&](const Vec3f& from) { return mayShadow(space, lamp, at(from)); },
           [&](const tracing::Ray& ray) { return crosses(space, ray); });
-    }
   });
   return holds;
 }

@@ -5,6 +5,11 @@
 
 namespace deltalux::direct {
 
+const LampLight* askedLight(std::span<const LampLight> lamps, LightId id) {
+  const auto at = std::ranges::find_if(lamps, [&](const LampLight& l) { return l.lamp == id && l.points > 0; });
+  return at == lamps.end() ? nullptr : &*at;
+}
+
 DimmedLight dimmed(std::span<const LampLight> lamps, std::span<const Rgb> dimming) {
   DimmedLight sum;
   double variance = 0;

@@ -24,6 +24,9 @@ struct LampLight {
   LampShadows shadows{};     // of those
 };
 
+/// That of a lamp that has been asked by rays of its own; nullptr.
+const LampLight* askedLight(std::span<const LampLight>, LightId);
+
 /// Of all of them, each times its dimming.
 struct DimmedLight {
   Rgb E{0.0f};          // [W/m2]

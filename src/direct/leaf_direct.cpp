@@ -193,14 +193,9 @@ bool nearBy(const Lamp& lamp, const hierarchy::ElementGeometry& g) {
 
 }  // namespace
 
-const LampLight* DirectSampler::KnownShadows::of(LightId id) const {
-  const auto at = std::ranges::find_if(lamps, [&](const LampLight& l) { return l.lamp == id && l.points > 0; });
-  return at == lamps.end() ? nullptr : &*at;
-}
-
 void DirectSampler::shoot(const Lamp& lamp, Points& points, int upTo, LampShadows& shadows, Tally& t) const {
   const ScrambledSobol numbers = points.numbersOf(lamp.id);
-  const LampLight* before = points.before ? points.before->of(lamp.id) : nullptr;
+  const LampLight* before = points.before ? askedLight(points.before->lamps, lamp.id) : nullptr;
   for (; t.samples < upTo && points.have(t.first + t.samples + 1); ++t.samples) {
     const auto k = static_cast<std::size_t>(t.first + t.samples);
     const hierarchy::PatchPoint& x = points.at[k];

@@ -58,8 +58,6 @@ class DirectSampler {
   struct KnownShadows {
     std::span<const LampLight> lamps;
     std::function<bool(const Lamp&, const tracing::Ray&)> holds;
-
-    const LampLight* of(LightId) const;
   };
   /// The light of a patch by all the samples that it is worth, unless it is split. `above`: what the patch has found
   /// that it is a part of.

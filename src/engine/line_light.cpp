@@ -38,12 +38,13 @@ std::vector<float> powerOf(const LineSolve& x, const hierarchy::LeafTable& leave
 KnownSky skyOf(LineSolve& x, const hierarchy::LeafTable& leaves, const lines::TracedLines& traced, KnownSky sky) {
   constexpr std::size_t kEach = LeafSky::kRays;
   const bool sameSkies = std::exchange(sky.skies, x.skies.key()) == x.skies.key();
-  sky.at.assign(leaves.size(), {}), sky.of.resize(x.s.elements.size());
+  sky.at.assign(leaves.size(), {});
   const std::optional<direct::SkyVisibility> was = std::exchange(sky.visibility, {});
   if (x.skies.empty()) {  // nobody looks after shadow rays to none
     sky.of.clear();
     return sky;
   }
+  sky.of.resize(x.s.elements.size());
   const lines::KnownLines* before = x.knownLines ? &*x.knownLines : nullptr;
   const direct::SkyVisibility& visibility =
       sky.visibility.emplace(skyVisibility(x.s.elements, leaves, traced.lines, was ? &*was : nullptr, before));

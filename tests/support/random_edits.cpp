@@ -2,27 +2,14 @@
 
 #include <algorithm>
 #include <deltalux/error.hpp>
-#include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
-#include <sstream>
+
+#include "edit_list.hpp"
 
 namespace deltalux::test {
 
 namespace {
 constexpr int kTogether = 4;  // edits that are taken back by one update
-
-std::vector<std::string> thingsOf(const std::filesystem::path& list) {
-  std::vector<std::string> things;
-  std::ifstream file(list);
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream words(line);
-    std::string word;
-    if (!(words >> word) || (word != "move" && word != "lamp")) continue;
-    while (words >> word) things.push_back(word.ends_with(".*") ? word.substr(0, word.size() - 2) : word);
-  }
-  return things;
-}
-
 }  // namespace
 
 Editable everythingIn(const Scene& scene, const std::filesystem::path& list) {
@@ -33,7 +20,9 @@ Editable everythingIn(const Scene& scene, const std::filesystem::path& list) {
   if (list.empty())
     for (const Object& object : scene.objects) add(all.objects, object.name);
   else
-    for (const std::string& name : thingsOf(list)) add(all.objects, name);
+    for (const bench::EditPhase& phase : bench::loadEditList(list, scene))
+      for (const bench::NamedEdit& edit : phase.edits)
+        if (edit.kind == "move" || edit.kind == "move lamp") add(all.objects, edit.subject);
   for (const Light& light : scene.lights) {
     add(all.lights, light.name);
     if (!std::holds_alternative<AreaLight>(light.emitter)) add(all.placed, light.name);
